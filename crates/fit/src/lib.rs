@@ -1,0 +1,1 @@
+//! Objectives, optimisers and checkpoints: finds the parameters of a goal image.

@@ -1,0 +1,1 @@
+//! The registry of generators: reads any species file.

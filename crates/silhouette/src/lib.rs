@@ -1,0 +1,1 @@
+//! Cameras, a bit-packed rasteriser, goal images and image scores.

@@ -1,0 +1,166 @@
+//! What a generator promises.
+
+use crate::param::{CheckedParams, ParamSpace};
+use crate::plant::Tree;
+use crate::species::{Species, SpeciesDoc, SpeciesError};
+use std::any::Any;
+use std::fmt;
+
+/// How many parts a tree may have before growing it is an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Most stems.
+    pub stems: usize,
+    /// Most leaves and blossoms together.
+    pub leaves: usize,
+}
+
+impl Default for Limits {
+    /// 500,000 stems and 5,000,000 leaves: ten times the largest of the known species.
+    fn default() -> Self {
+        Self { stems: 500_000, leaves: 5_000_000 }
+    }
+}
+
+/// Which leaves are made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Foliage {
+    /// Every leaf and blossom.
+    #[default]
+    All,
+    /// Stems only.
+    None,
+    /// About one leaf in this many, grown so that the leaf area stays: a coarse crown.
+    OneIn(u32),
+}
+
+/// One request to grow a tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Growth {
+    /// Seed of the tree.
+    pub seed: u64,
+    /// Bounds that turn monsters into errors.
+    pub limits: Limits,
+    /// Which leaves are made; stems do not depend on it.
+    pub foliage: Foliage,
+    /// Whether the stems of a big tree may be grown on rayon's threads. The tree is the same.
+    pub parallel: bool,
+}
+
+impl Growth {
+    /// A whole tree from `seed` on the calling thread, within the default limits.
+    #[must_use]
+    pub fn seed(seed: u64) -> Self {
+        Self { seed, ..Self::default() }
+    }
+}
+
+/// Why a tree did not grow.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum GrowError {
+    /// More stems than [`Limits::stems`].
+    #[error("the tree would have more than {limit} stems; fewer branches or splits, or a higher limit")]
+    TooManyStems {
+        /// The limit.
+        limit: usize,
+    },
+    /// More leaves and blossoms than [`Limits::leaves`].
+    #[error("the tree would have more than {limit} leaves; a smaller leaf number, or a higher limit")]
+    TooManyLeaves {
+        /// The limit.
+        limit: usize,
+    },
+    /// Numbers left the range in which positions make sense.
+    #[error("{what} is not finite")]
+    NotFinite {
+        /// What left the range.
+        what: &'static str,
+    },
+    /// Values that are each allowed and cannot grow together.
+    #[error("{message}")]
+    Conflict {
+        /// Which, and what would be right.
+        message: String,
+    },
+}
+
+/// Memory that generators reuse from one tree to the next.
+#[derive(Default)]
+pub struct Workspace {
+    scratch: Option<Box<dyn Any + Send>>,
+}
+
+impl Workspace {
+    /// The scratch of type `T` left here by the last tree, or a new one.
+    pub fn scratch<T: Any + Send + Default>(&mut self) -> &mut T {
+        if !self.scratch.as_ref().is_some_and(|s| s.is::<T>()) {
+            self.scratch = None;
+        }
+        let scratch = self.scratch.get_or_insert_with(|| Box::<T>::default());
+        scratch.downcast_mut().expect("the scratch was just made to be of this type")
+    }
+}
+
+impl fmt::Debug for Workspace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Workspace").finish_non_exhaustive()
+    }
+}
+
+/// A growth model with everything settled but its numbers.
+///
+/// Shared between threads behind an `Arc`; cheap to call, since all memory comes from the caller.
+pub trait Generator: Send + Sync + fmt::Debug {
+    /// The family's name, as in `generator = "weber-penn"`.
+    fn family(&self) -> &'static str;
+
+    /// The numbers that it takes.
+    fn space(&self) -> &ParamSpace;
+
+    /// Grows a tree into `tree`, whose former content is dropped and whose memory is kept.
+    ///
+    /// The same parameters and the same seed give the same tree, bit for bit, on any number of
+    /// threads and whatever `workspace` was used for before.
+    ///
+    /// # Errors
+    /// See [`GrowError`]; `tree` is then in an unspecified but valid state.
+    fn grow(
+        &self,
+        params: &CheckedParams,
+        growth: &Growth,
+        workspace: &mut Workspace,
+        tree: &mut Tree,
+    ) -> Result<(), GrowError>;
+
+    /// Whether the value in slot number `slot` can change any tree grown with these `values`.
+    ///
+    /// False for levels that a species does not have, or for the shape of blossoms at a rate of 0.
+    fn reads(&self, values: &[f64], slot: usize) -> bool {
+        let _ = (values, slot);
+        true
+    }
+
+    /// The parts of a species file beside the numbers (solids, a grammar), as TOML lines that
+    /// follow the parameters; empty if there are none.
+    fn extra_toml(&self) -> String {
+        String::new()
+    }
+}
+
+/// A family of generators: reads species files that name it.
+pub trait Family: Send + Sync + fmt::Debug {
+    /// The name in `generator = "…"`.
+    fn name(&self) -> &'static str;
+
+    /// One line of what it grows.
+    fn summary(&self) -> &'static str;
+
+    /// Builds generator and checked numbers from a parsed species file.
+    ///
+    /// # Errors
+    /// Every problem found, with line and column.
+    fn read(&self, doc: &SpeciesDoc) -> Result<Species, SpeciesError>;
+
+    /// The species that come with pleach: name and text of the file.
+    fn presets(&self) -> &'static [(&'static str, &'static str)];
+}

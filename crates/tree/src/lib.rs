@@ -1,0 +1,42 @@
+//! The plant model that every part of pleach shares.
+//!
+//! A *generator* turns checked parameters and a seed into a [`Tree`]: stems as cubic Bézier splines
+//! with radii, leaves and blossoms as small oriented shapes. Renderers, meshers and scorers read the
+//! tree and know nothing of how it grew.
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | [`plant`] | [`Tree`], [`Stem`], [`Knot`], [`Leaf`]: flat arrays, metres, z up, right-handed |
+//! | [`spline`] | one cubic Bézier piece: evaluate, differentiate, flatten by tolerance |
+//! | [`turtle`] | a position with two axes that walks and turns |
+//! | [`random`] | draws that are a function of an address, never of the draws before |
+//! | [`leaf_shape`] | outlines of ten leaves and faces of three blossoms |
+//! | [`param`] | one declaration of a parameter, and everything that follows from it |
+//! | [`species`] | reading and writing species files |
+//! | [`generator`] | the traits that generators implement |
+//! | [`stats`] | measurements of a tree, with fixed names |
+//!
+//! # Invariants
+//!
+//! Nothing here reads the clock, the environment or the operating system's randomness, and nothing
+//! here prints. Angles are in radians inside and in degrees in files; the name says which where both
+//! occur.
+
+#[cfg(any(test, feature = "conformance"))]
+pub mod conformance;
+pub mod generator;
+pub mod leaf_shape;
+pub mod param;
+pub mod plant;
+pub mod random;
+pub mod species;
+pub mod spline;
+pub mod stats;
+pub mod turtle;
+
+pub use generator::{Family, Foliage, Generator, GrowError, Growth, Limits, Workspace};
+pub use param::{CheckedParams, Kind, Layout, Param, ParamSpace, Unit};
+pub use plant::{Knot, Leaf, Stem, StemKind, Tree};
+pub use random::Key;
+pub use species::{Species, SpeciesDoc, SpeciesError};
+pub use stats::TreeStats;

@@ -1,0 +1,51 @@
+//! Problems of a species file, each with its place.
+
+use crate::param::Problem;
+use std::fmt;
+
+/// One problem at one place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Issue {
+    /// File name, or what stands for it.
+    pub origin: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// The parameter or key it is about; empty if it is about the whole file.
+    pub parameter: String,
+    /// What is wrong.
+    pub problem: Problem,
+}
+
+impl fmt::Display for Issue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { origin, line, column, parameter, problem } = self;
+        write!(f, "{origin}:{line}:{column}: ")?;
+        if !parameter.is_empty() {
+            write!(f, "`{parameter}` ")?;
+        }
+        write!(f, "{problem}")
+    }
+}
+
+/// Everything that is wrong with a species file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpeciesError {
+    /// The problems in order of place; at least one.
+    pub issues: Vec<Issue>,
+}
+
+impl fmt::Display for SpeciesError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, issue) in self.issues.iter().enumerate() {
+            if i > 0 {
+                writeln!(f)?;
+            }
+            write!(f, "{issue}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for SpeciesError {}

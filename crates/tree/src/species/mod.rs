@@ -1,0 +1,74 @@
+//! Species files: one tree species as a plain TOML file.
+//!
+//! ```toml
+//! generator = "weber-penn"
+//! g_scale = 13
+//! branches = [1, 50, 30, 1]
+//! ```
+//!
+//! Parameters stand at the top level by their names; per-level values are arrays of four, vectors
+//! arrays of three; what is missing takes the generator's default. Beside them a file may say
+//! `name`, `description`, `tree_seed` (the seed of one particular tree), and whatever tables its
+//! generator knows.
+
+mod doc;
+mod error;
+mod write;
+
+pub use doc::{Entry, Node, SpeciesDoc, Value};
+pub use error::{Issue, SpeciesError};
+
+use crate::generator::{Foliage, Generator, GrowError, Growth, Workspace};
+use crate::param::CheckedParams;
+use crate::plant::Tree;
+use std::sync::Arc;
+
+/// A species: a generator and the numbers that make it grow this kind of tree.
+#[derive(Clone, Debug)]
+pub struct Species {
+    /// Short name, such as `quaking_aspen`.
+    pub name: String,
+    /// One line about it, possibly empty.
+    pub description: String,
+    /// The generator, with everything settled but its numbers.
+    pub generator: Arc<dyn Generator>,
+    /// The numbers.
+    pub params: CheckedParams,
+    /// The seed of one particular tree, where the file says so.
+    pub tree_seed: Option<u64>,
+}
+
+impl Species {
+    /// Grows the tree of `seed` on this thread; see [`Generator::grow`] for reuse of memory.
+    ///
+    /// # Errors
+    /// See [`GrowError`].
+    pub fn grow(&self, seed: u64) -> Result<Tree, GrowError> {
+        self.grow_with(&Growth::seed(seed))
+    }
+
+    /// Grows the tree without leaves.
+    ///
+    /// # Errors
+    /// See [`GrowError`].
+    pub fn grow_bare(&self, seed: u64) -> Result<Tree, GrowError> {
+        self.grow_with(&Growth { foliage: Foliage::None, ..Growth::seed(seed) })
+    }
+
+    /// Grows a tree as `growth` asks.
+    ///
+    /// # Errors
+    /// See [`GrowError`].
+    pub fn grow_with(&self, growth: &Growth) -> Result<Tree, GrowError> {
+        let mut tree = Tree::default();
+        self.generator.grow(&self.params, growth, &mut Workspace::default(), &mut tree)?;
+        Ok(tree)
+    }
+
+    /// The species as a file that [`SpeciesDoc::parse`] reads back to the same numbers. `comments`
+    /// are lines for its head, without the `#`.
+    #[must_use]
+    pub fn to_toml(&self, comments: &[String]) -> String {
+        write::species(self, comments)
+    }
+}

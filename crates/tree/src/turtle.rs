@@ -1,0 +1,114 @@
+//! A turtle in space: a position, a direction and a right-hand axis.
+//!
+//! Hewitt 2017, §3.1.2. The third axis, [`Turtle::down`], is the one that a child leaves its parent
+//! towards, so for a branch it points away from the parent's tip.
+
+use glam::DVec3;
+
+/// Position and orientation while a stem is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turtle {
+    /// Where it stands, in metres.
+    pub position: DVec3,
+    /// Unit vector that it walks along.
+    pub direction: DVec3,
+    /// Unit vector to its right, at right angles to `direction`.
+    pub right: DVec3,
+}
+
+impl Turtle {
+    /// A turtle at the origin that looks up, with +x on its right.
+    pub const UP: Self = Self { position: DVec3::ZERO, direction: DVec3::Z, right: DVec3::X };
+
+    /// The axis that positive pitch turns the direction towards: `direction × right`.
+    #[must_use]
+    pub fn down(&self) -> DVec3 {
+        self.direction.cross(self.right)
+    }
+
+    /// Walks `length` metres ahead.
+    pub fn walk(&mut self, length: f64) {
+        self.position += self.direction * length;
+    }
+
+    /// Leans the direction towards [`Turtle::down`] by `angle` radians.
+    pub fn pitch_down(&mut self, angle: f64) {
+        let (sin, cos) = angle.sin_cos();
+        self.direction = (self.direction * cos + self.down() * sin).normalize();
+    }
+
+    /// Leans the direction towards `right` by `angle` radians.
+    pub fn turn_right(&mut self, angle: f64) {
+        let (sin, cos) = angle.sin_cos();
+        let Self { direction, right, .. } = *self;
+        self.direction = (direction * cos + right * sin).normalize();
+        self.right = (right * cos - direction * sin).normalize();
+    }
+
+    /// Turns `right` about the direction, towards [`Turtle::down`], by `angle` radians.
+    pub fn roll_right(&mut self, angle: f64) {
+        let (sin, cos) = angle.sin_cos();
+        self.right = (self.right * cos + self.down() * sin).normalize();
+    }
+
+    /// Turns both axes about the unit vector `axis` by `angle` radians (right-hand rule).
+    pub fn rotate_about(&mut self, axis: DVec3, angle: f64) {
+        self.direction = rotate(self.direction, axis, angle).normalize();
+        self.right = rotate(self.right, axis, angle).normalize();
+    }
+}
+
+/// `v` turned about the unit vector `axis` by `angle` radians (Rodrigues' formula, right-hand rule).
+#[must_use]
+pub fn rotate(v: DVec3, axis: DVec3, angle: f64) -> DVec3 {
+    let (sin, cos) = angle.sin_cos();
+    v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    fn close(a: DVec3, b: DVec3) {
+        assert!((a - b).length() < 1e-12, "{a} is not {b}");
+    }
+
+    #[test]
+    fn turns_go_where_they_say() {
+        let mut turtle = Turtle::UP;
+        close(turtle.down(), DVec3::Y);
+        turtle.pitch_down(FRAC_PI_2);
+        close(turtle.direction, DVec3::Y);
+        close(turtle.right, DVec3::X);
+
+        let mut turtle = Turtle::UP;
+        turtle.turn_right(FRAC_PI_2);
+        close(turtle.direction, DVec3::X);
+        close(turtle.right, -DVec3::Z);
+
+        let mut turtle = Turtle::UP;
+        turtle.roll_right(FRAC_PI_2);
+        close(turtle.direction, DVec3::Z);
+        close(turtle.right, DVec3::Y);
+
+        let mut turtle = Turtle::UP;
+        turtle.rotate_about(DVec3::Z, FRAC_PI_2);
+        close(turtle.right, DVec3::Y);
+    }
+
+    #[test]
+    fn axes_stay_orthonormal_over_many_turns() {
+        let mut turtle = Turtle::UP;
+        for i in 0..10_000 {
+            let angle = f64::from(i).sin();
+            turtle.pitch_down(angle);
+            turtle.turn_right(angle * 0.7);
+            turtle.roll_right(angle * 1.3);
+            turtle.walk(0.1);
+        }
+        assert!((turtle.direction.length() - 1.0).abs() < 1e-9);
+        assert!((turtle.right.length() - 1.0).abs() < 1e-9);
+        assert!(turtle.direction.dot(turtle.right).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,1 @@
+//! Weber and Penn's parametric trees as extended by Hewitt.
