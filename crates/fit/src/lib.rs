@@ -1,1 +1,48 @@
-//! Objectives, optimisers and checkpoints: finds the parameters of a goal image.
+//! Finds the parameters of a procedural tree that make it look like a picture.
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | [`genome`] | [`Genome`], [`Score`]: what is searched and how good it is |
+//! | [`space`] | [`SearchSpace`]: which numbers are free, and how far |
+//! | [`method`] | optimisers that are asked for individuals and told their scores |
+//! | [`search`] | [`Search`]: a method as an argmin solver |
+//! | [`objective`] | [`Objective`]: what is made small |
+//! | [`evaluator`] | [`Evaluator`]: grow, draw, score, without allocating |
+//! | [`budget`] | [`Budget`], [`StopReason`], [`Clock`] |
+//! | [`history`] | one row a generation; [`Observer`] |
+//! | [`checkpoint`] | the state of a fit in a file that survives a crash |
+//! | [`run`] | [`fit`]: all of it together |
+//!
+//! # Invariants
+//!
+//! No generator is known here by name, and no pixel: a fit sees [`pleach_tree::Tree`],
+//! [`pleach_tree::Generator`] and `pleach_silhouette`. Nothing here reads the clock, the environment
+//! or the operating system's randomness, and nothing prints. The same problem, settings and seed
+//! give the same bits on any number of threads, interrupted and resumed or not.
+
+pub mod budget;
+pub mod checkpoint;
+mod exact;
+pub mod fingerprint;
+pub mod genome;
+pub mod history;
+pub mod method;
+pub mod objective;
+pub mod run;
+pub mod search;
+pub mod settings;
+pub mod space;
+pub mod stream;
+#[cfg(test)]
+mod testing;
+
+pub use budget::{Budget, Clock, StopReason};
+pub use checkpoint::CheckpointError;
+pub use genome::{Genome, Score, Scored};
+pub use history::{COLUMNS, Column, Observer, Progress, Row};
+pub use method::{Method, Start};
+pub use objective::Objective;
+pub use run::{CheckpointSettings, Control, FitError, Outcome};
+pub use search::{Evaluate, Search, SearchState};
+pub use settings::{AnyMethod, FitSettings, Optimizer};
+pub use space::{Freedom, SearchSpace, TreeSeed};

@@ -1,0 +1,49 @@
+//! What a search changes.
+
+use crate::exact;
+use serde::{Deserialize, Serialize};
+
+/// One individual: a full parameter list and the seed of the tree that is grown from it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Genome {
+    /// One value for every slot of the generator's [`pleach_tree::ParamSpace`], free or not, as in
+    /// species files (degrees, metres).
+    #[serde(with = "exact::list")]
+    pub values: Vec<f64>,
+    /// Seed of the tree.
+    pub tree_seed: u64,
+}
+
+/// How well an individual matches the goal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Score {
+    /// What the search makes small: 0 is a perfect match, 1 nothing in common, infinity a parameter
+    /// list that does not grow.
+    #[serde(with = "exact::number")]
+    pub cost: f64,
+    /// Intersection over union of the ink, in 0..=1; the mean over views.
+    pub iou: f64,
+    /// Share of equal pixels, in 0..=1; the mean over views. An empty picture may score high: see
+    /// [`crate::Evaluator::empty_accuracy`].
+    pub accuracy: f64,
+}
+
+impl Score {
+    /// The score of what does not grow.
+    pub const FAILED: Self = Self { cost: f64::INFINITY, iou: 0.0, accuracy: 0.0 };
+
+    /// A bare cost, for problems that are no pictures.
+    #[must_use]
+    pub const fn of_cost(cost: f64) -> Self {
+        Self { cost, iou: 0.0, accuracy: 0.0 }
+    }
+}
+
+/// An individual with its score.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scored {
+    /// The individual.
+    pub genome: Genome,
+    /// Its score.
+    pub score: Score,
+}

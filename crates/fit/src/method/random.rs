@@ -1,0 +1,57 @@
+//! Random parameter lists, one after the other.
+
+use super::{Method, Start};
+use crate::genome::{Genome, Score};
+use crate::space::SearchSpace;
+use crate::stream::Stream;
+use serde::{Deserialize, Serialize};
+
+/// Settings of [`Random`].
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RandomSettings {
+    /// Individuals in a generation: nothing but how often progress is told.
+    pub population: usize,
+}
+
+impl Default for RandomSettings {
+    fn default() -> Self {
+        Self { population: 50 }
+    }
+}
+
+/// Independent random lists; the start's lists first. What every other method has to beat.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Random {
+    settings: RandomSettings,
+    seed: u64,
+    start: Start,
+    round: u64,
+}
+
+impl Random {
+    /// Draws seeded with `seed`.
+    #[must_use]
+    pub const fn new(settings: RandomSettings, seed: u64, start: Start) -> Self {
+        Self { settings, seed, start, round: 0 }
+    }
+}
+
+impl Method for Random {
+    fn name(&self) -> &'static str {
+        "random"
+    }
+
+    fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>) {
+        let draws = |member| Stream::at(self.seed, 0, self.round, member);
+        if self.round == 0 {
+            let lists = self.start.lists().iter();
+            members.extend(lists.map(|list| space.individual(list, SearchSpace::random_seed(&mut draws(0)))));
+        }
+        for member in 0..self.settings.population.max(1) {
+            members.push(space.random(&mut draws(member as u32)));
+        }
+        self.round += 1;
+    }
+
+    fn tell(&mut self, _: &SearchSpace, _: &[Genome], _: &[Score]) {}
+}

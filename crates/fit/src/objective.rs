@@ -1,0 +1,97 @@
+//! What a fit makes small.
+
+use crate::exact;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+
+/// How far a silhouette is from its goal, as one number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Objective {
+    /// Share of pixels that differ: the dissertation's fitness (Hewitt 2017, §3.3.2). An empty
+    /// picture does well on it.
+    Accuracy,
+    /// 1 − intersection over union of the ink.
+    Iou,
+    /// 1 − a weighted mean of the intersections over unions of the ink at the goal's pixels and in
+    /// cells of 2 to 32 pixels: a crown in the right place counts before its twigs are.
+    #[default]
+    Blend,
+}
+
+/// A word that names no objective.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("unknown objective `{given}`, known are {}", Objective::ALL.map(Objective::name).join(", "))]
+pub struct UnknownObjective {
+    /// What was given.
+    pub given: String,
+}
+
+impl Objective {
+    /// All objectives.
+    pub const ALL: [Self; 3] = [Self::Accuracy, Self::Iou, Self::Blend];
+
+    /// The name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Accuracy => "accuracy",
+            Self::Iou => "iou",
+            Self::Blend => "blend",
+        }
+    }
+}
+
+impl fmt::Display for Objective {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Objective {
+    type Err = UnknownObjective;
+
+    fn from_str(given: &str) -> Result<Self, Self::Err> {
+        Self::ALL
+            .into_iter()
+            .find(|objective| objective.name() == given)
+            .ok_or_else(|| UnknownObjective { given: given.to_owned() })
+    }
+}
+
+/// What is measured of one silhouette against one goal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Agreement {
+    /// Share of equal pixels.
+    #[serde(with = "exact::number")]
+    pub(crate) accuracy: f64,
+    /// Intersection over union of the ink, pixel by pixel.
+    pub(crate) iou: f64,
+    /// The weighted mean over cell sizes.
+    pub(crate) blend: f64,
+}
+
+impl Objective {
+    pub(crate) fn cost(self, agreement: &Agreement) -> f64 {
+        1.0 - match self {
+            Self::Accuracy => agreement.accuracy,
+            Self::Iou => agreement.iou,
+            Self::Blend => agreement.blend,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_and_others_are_told_which_there_are() {
+        for objective in Objective::ALL {
+            assert_eq!(objective.to_string().parse(), Ok(objective));
+        }
+        let message = "likenes".parse::<Objective>().unwrap_err().to_string();
+        assert_eq!(message, "unknown objective `likenes`, known are accuracy, iou, blend");
+    }
+}

@@ -1,0 +1,204 @@
+//! A [`Method`] as an argmin [`Solver`].
+
+use crate::genome::{Genome, Score, Scored};
+use crate::method::Method;
+use crate::space::SearchSpace;
+use argmin::core::{Error, KV, PopulationState, Problem, Solver, TerminationReason, TerminationStatus};
+use argmin::kv;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// What individuals are scored against.
+pub trait Evaluate {
+    /// The scores of `genomes`, in their order, the same on any number of threads.
+    fn scores(&self, genomes: &[Genome]) -> Vec<Score>;
+}
+
+impl<T: Evaluate + ?Sized> Evaluate for &T {
+    fn scores(&self, genomes: &[Genome]) -> Vec<Score> {
+        (**self).scores(genomes)
+    }
+}
+
+/// Everything that a search knows and that a checkpoint holds.
+///
+/// A generation may be evaluated in several batches. How many does not matter to the result: the
+/// method is told only when the whole generation has its scores.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SearchState<M> {
+    /// The optimiser.
+    pub method: M,
+    /// Finished generations.
+    pub generation: u64,
+    /// Individuals evaluated.
+    pub evaluations: u64,
+    /// The best individual ever seen; none before the first.
+    pub best: Option<Scored>,
+    /// Cost of the best individual of the last finished generation.
+    pub generation_best: Option<Score>,
+    members: Vec<Genome>,
+    scores: Vec<Score>,
+}
+
+impl<M> SearchState<M> {
+    /// The state before the first generation.
+    #[must_use]
+    pub const fn new(method: M) -> Self {
+        Self {
+            method,
+            generation: 0,
+            evaluations: 0,
+            best: None,
+            generation_best: None,
+            members: Vec::new(),
+            scores: Vec::new(),
+        }
+    }
+
+    /// Whether the last batch finished a generation.
+    #[must_use]
+    pub const fn is_between_generations(&self) -> bool {
+        self.members.is_empty()
+    }
+}
+
+/// A method that searches a space, as argmin's executor runs it.
+///
+/// One iteration of the executor is one batch: a whole generation, unless [`Search::batch`] is
+/// smaller. argmin's state then holds the best of the batch.
+#[derive(Clone, Debug)]
+pub struct Search<M> {
+    /// What is known so far.
+    pub state: SearchState<M>,
+    /// Most individuals to evaluate in one iteration, at least 1. Changes nothing but when the
+    /// executor gets to look up.
+    pub batch: usize,
+    /// Evaluations after which the search ends: never one more is made.
+    pub evaluation_limit: u64,
+    space: Arc<SearchSpace>,
+}
+
+/// The argmin state of a [`Search`].
+pub type FitState = PopulationState<Genome, f64>;
+
+impl<M> Search<M> {
+    /// Starts `method` in `space`, without a limit.
+    #[must_use]
+    pub const fn new(method: M, space: Arc<SearchSpace>) -> Self {
+        Self::resume(SearchState::new(method), space)
+    }
+
+    /// Goes on from `state`.
+    #[must_use]
+    pub const fn resume(state: SearchState<M>, space: Arc<SearchSpace>) -> Self {
+        Self { state, batch: usize::MAX, evaluation_limit: u64::MAX, space }
+    }
+
+    /// The space that is searched.
+    #[must_use]
+    pub const fn space(&self) -> &Arc<SearchSpace> {
+        &self.space
+    }
+}
+
+impl<M: Method> Search<M> {
+    /// Evaluates the next batch with `score`; returns its best individual.
+    fn step(&mut self, score: impl FnOnce(&[Genome]) -> Result<Vec<Score>, Error>) -> Result<Scored, Error> {
+        let state = &mut self.state;
+        if state.members.is_empty() {
+            state.method.ask(&self.space, &mut state.members);
+        }
+        let first = state.scores.len();
+        let room = usize::try_from(self.evaluation_limit - state.evaluations).unwrap_or(usize::MAX);
+        let count = (state.members.len() - first).min(self.batch.max(1)).min(room);
+        let batch = &state.members[first..first + count];
+        let scores = score(batch)?;
+        state.evaluations += count as u64;
+        let (at, &top) = scores
+            .iter()
+            .enumerate()
+            .min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))
+            .ok_or_else(|| Error::msg("an empty batch: the method asked for nothing"))?;
+        let top = Scored { genome: batch[at].clone(), score: top };
+        if state.best.as_ref().is_none_or(|best| top.score.cost < best.score.cost) {
+            state.best = Some(top.clone());
+        }
+        state.scores.extend(scores);
+        if state.scores.len() == state.members.len() {
+            state.method.tell(&self.space, &state.members, &state.scores);
+            state.generation_best = state.scores.iter().copied().min_by(|a, b| a.cost.total_cmp(&b.cost));
+            state.generation += 1;
+            state.members.clear();
+            state.scores.clear();
+        }
+        Ok(top)
+    }
+}
+
+impl<O: Evaluate, M: Method> Solver<O, FitState> for Search<M> {
+    fn name(&self) -> &str {
+        self.state.method.name()
+    }
+
+    fn next_iter(
+        &mut self,
+        problem: &mut Problem<O>,
+        state: FitState,
+    ) -> Result<(FitState, Option<KV>), Error> {
+        let top = self.step(|batch| {
+            problem.bulk_problem("cost_count", batch.len(), |objective| Ok(objective.scores(batch)))
+        })?;
+        let log = kv!(
+            "generation" => self.state.generation;
+            "evaluations" => self.state.evaluations;
+        );
+        Ok((state.individual(top.genome).cost(top.score.cost), Some(log)))
+    }
+
+    fn terminate(&mut self, _: &FitState) -> TerminationStatus {
+        if self.state.evaluations >= self.evaluation_limit {
+            TerminationStatus::Terminated(TerminationReason::MaxItersReached)
+        } else {
+            TerminationStatus::NotTerminated
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::{Random, RandomSettings, Start};
+    use crate::space::{Freedom, TreeSeed};
+    use crate::testing::{Function, cube};
+    use argmin::core::{Executor, State};
+
+    fn search() -> Search<Random> {
+        let space =
+            SearchSpace::of_params(cube(3, -1.0, 1.0), &[0.5; 3], &Freedom::default(), TreeSeed::Fixed(1));
+        let settings = RandomSettings { population: 10 };
+        Search::new(Random::new(settings, 1, Start::Random), Arc::new(space.unwrap()))
+    }
+
+    fn run(search: Search<Random>) -> (SearchState<Random>, FitState) {
+        let sphere = Function(argmin_testfunctions::sphere);
+        let result = Executor::new(sphere, search).configure(|s| s.counting(true)).run().unwrap();
+        (result.solver.state, result.state)
+    }
+
+    #[test]
+    fn the_limit_is_exact_and_every_evaluation_counts() {
+        let (state, argmin) = run(Search { evaluation_limit: 37, ..search() });
+        assert_eq!((state.evaluations, state.generation), (37, 3));
+        assert_eq!(argmin.get_func_counts()["cost_count"], 37);
+        assert_eq!(argmin.get_best_param(), state.best.as_ref().map(|b| &b.genome));
+    }
+
+    #[test]
+    fn batches_change_nothing() {
+        let (whole, _) = run(Search { evaluation_limit: 57, ..search() });
+        for batch in [1, 3, 7, 10, 11] {
+            let (parts, _) = run(Search { batch, evaluation_limit: 57, ..search() });
+            assert_eq!(parts, whole, "batches of {batch}");
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! How a fit is run.
+
+use crate::budget::Budget;
+use crate::genome::{Genome, Score};
+use crate::method::{Hewitt, HewittSettings, Method, Random, RandomSettings, Start};
+use crate::objective::Objective;
+use crate::space::{Freedom, SearchSpace, TreeSeed};
+use pleach_tree::Limits;
+use serde::{Deserialize, Serialize};
+use std::str::FromStr;
+
+/// Which optimiser, with its settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Optimizer {
+    /// [`Random`].
+    Random(RandomSettings),
+    /// [`Hewitt`].
+    Hewitt(HewittSettings),
+}
+
+/// A word that names no optimiser.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("unknown optimizer `{given}`, known are {}", Optimizer::NAMES.join(", "))]
+pub struct UnknownOptimizer {
+    /// What was given.
+    pub given: String,
+}
+
+impl Optimizer {
+    /// The names of all optimisers, the default first.
+    pub const NAMES: [&'static str; 2] = ["hewitt", "random"];
+
+    /// The name on the command line.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Random(_) => "random",
+            Self::Hewitt(_) => "hewitt",
+        }
+    }
+
+    /// The optimiser at its beginning.
+    #[must_use]
+    pub fn method(&self, seed: u64, start: Start) -> AnyMethod {
+        match self {
+            Self::Random(settings) => AnyMethod::Random(Random::new(settings.clone(), seed, start)),
+            Self::Hewitt(settings) => AnyMethod::Hewitt(Hewitt::new(settings.clone(), seed, start)),
+        }
+    }
+}
+
+impl FromStr for Optimizer {
+    type Err = UnknownOptimizer;
+
+    fn from_str(given: &str) -> Result<Self, Self::Err> {
+        match given {
+            "random" => Ok(Self::Random(RandomSettings::default())),
+            "hewitt" => Ok(Self::Hewitt(HewittSettings::default())),
+            _ => Err(UnknownOptimizer { given: given.to_owned() }),
+        }
+    }
+}
+
+/// Any of the optimisers, at some point of its work.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AnyMethod {
+    /// [`Random`].
+    Random(Random),
+    /// [`Hewitt`].
+    Hewitt(Hewitt),
+}
+
+impl AnyMethod {
+    fn inner(&self) -> &dyn Method {
+        match self {
+            Self::Random(method) => method,
+            Self::Hewitt(method) => method,
+        }
+    }
+
+    fn inner_mut(&mut self) -> &mut dyn Method {
+        match self {
+            Self::Random(method) => method,
+            Self::Hewitt(method) => method,
+        }
+    }
+}
+
+impl Method for AnyMethod {
+    fn name(&self) -> &'static str {
+        self.inner().name()
+    }
+
+    fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>) {
+        self.inner_mut().ask(space, members);
+    }
+
+    fn tell(&mut self, space: &SearchSpace, members: &[Genome], scores: &[Score]) {
+        self.inner_mut().tell(space, members, scores);
+    }
+}
+
+/// Everything that decides how a fit runs; what it fits is a [`crate::FitProblem`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitSettings {
+    /// The optimiser and its settings.
+    pub optimizer: Optimizer,
+    /// When to stop.
+    pub budget: Budget,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Seed of the tree: fixed, or searched.
+    pub tree_seed: TreeSeed,
+    /// What is made small.
+    pub objective: Objective,
+    /// Where the search starts.
+    pub start: Start,
+    /// Which parameters are free.
+    pub freedom: Freedom,
+    /// Bounds above which a tree counts as not growing.
+    pub limits: Limits,
+}
+
+impl Default for FitSettings {
+    /// The default optimiser from random lists, every parameter free, tree seed 1, no budget.
+    fn default() -> Self {
+        Self {
+            optimizer: Optimizer::Hewitt(HewittSettings::default()),
+            budget: Budget::default(),
+            seed: 1,
+            tree_seed: TreeSeed::Fixed(1),
+            objective: Objective::default(),
+            start: Start::default(),
+            freedom: Freedom::default(),
+            limits: Limits { stems: 200_000, leaves: 2_000_000 },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_and_others_are_told_which_there_are() {
+        for name in Optimizer::NAMES {
+            let optimizer: Optimizer = name.parse().unwrap();
+            assert_eq!(optimizer.name(), name);
+            assert_eq!(optimizer.method(1, Start::Random).name(), name);
+        }
+        assert_eq!(FitSettings::default().optimizer.name(), Optimizer::NAMES[0]);
+        let message = "cmaes".parse::<Optimizer>().unwrap_err().to_string();
+        assert!(message.starts_with("unknown optimizer `cmaes`, known are "), "{message}");
+    }
+}

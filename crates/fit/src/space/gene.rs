@@ -1,0 +1,140 @@
+//! One free number.
+
+use crate::stream::Stream;
+use pleach_tree::Kind;
+
+/// One free slot: what its number means and where a search may look.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gene {
+    /// The slot in the generator's parameter space.
+    pub slot: usize,
+    /// What the number means.
+    pub kind: Kind,
+    /// Smallest value that searches try.
+    pub low: f64,
+    /// Largest value that searches try.
+    pub high: f64,
+}
+
+impl Gene {
+    /// A range over more than this factor is searched by ratio: 2 to 4 is as far as 100 to 200.
+    const LOG_FROM: f64 = 20.0;
+
+    /// Whether steps are ratios and not differences: for positive quantities of unknown size.
+    #[must_use]
+    pub fn is_log(&self) -> bool {
+        !matches!(self.kind, Kind::Choice { .. }) && self.low > 0.0 && self.high / self.low >= Self::LOG_FROM
+    }
+
+    /// Whether the number is the name of a thing, so that neighbours are no more alike than others.
+    #[must_use]
+    pub const fn is_choice(&self) -> bool {
+        matches!(self.kind, Kind::Choice { .. })
+    }
+
+    /// Whether both signs of a switch are within the search range.
+    #[must_use]
+    pub fn can_flip(&self) -> bool {
+        self.kind.is_flagged() && self.low < 0.0 && 0.0 < self.high
+    }
+
+    /// Whether there is but one value.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        self.high <= self.low
+    }
+
+    /// How many values there are, infinity for a real number.
+    #[must_use]
+    pub fn count(&self) -> f64 {
+        if self.kind.is_whole() { self.high - self.low + 1.0 } else { f64::INFINITY }
+    }
+
+    /// The nearest value within range, whole where it must be; the middle of the range for NaN.
+    #[must_use]
+    pub fn clamp(&self, value: f64) -> f64 {
+        let value = if value.is_nan() { f64::midpoint(self.low, self.high) } else { value };
+        self.kind.repair(value.clamp(self.low, self.high)).clamp(self.low, self.high)
+    }
+
+    /// Where `value` lies between `low` (0) and `high` (1), by difference or by ratio.
+    #[must_use]
+    pub fn to_unit(&self, value: f64) -> f64 {
+        if self.is_constant() {
+            0.5
+        } else if self.is_log() {
+            (value.max(self.low) / self.low).ln() / (self.high / self.low).ln()
+        } else {
+            (value - self.low) / (self.high - self.low)
+        }
+    }
+
+    /// The value at `unit` between `low` and `high`, clamped and whole where it must be.
+    #[must_use]
+    pub fn from_unit(&self, unit: f64) -> f64 {
+        self.clamp(if self.is_log() {
+            self.low * (self.high / self.low).powf(unit)
+        } else {
+            self.low + unit * (self.high - self.low)
+        })
+    }
+
+    /// A value drawn from the whole range: whole numbers and choices each with the same chance (by
+    /// ratio if [`Gene::is_log`]), of a switch first the sign and then the magnitude.
+    #[must_use]
+    pub fn random(&self, stream: &mut Stream) -> f64 {
+        let unit = stream.unit();
+        if self.is_constant() {
+            self.low
+        } else if self.can_flip() {
+            let side = if stream.chance(0.5) { self.low } else { self.high };
+            self.clamp(side * unit)
+        } else if self.kind.is_whole() && !self.is_log() {
+            self.low + (unit * self.count()).floor()
+        } else {
+            self.from_unit(unit)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn gene(kind: Kind, low: f64, high: f64) -> Gene {
+        Gene { slot: 0, kind, low, high }
+    }
+
+    #[test]
+    fn units_go_there_and_back() {
+        let real = gene(Kind::Real { min: 0.0, max: 10.0 }, 1.0, 3.0);
+        assert_eq!((real.to_unit(1.5), real.from_unit(0.25), real.from_unit(7.0)), (0.25, 1.5, 3.0));
+        let count = gene(Kind::Integer { min: 0, max: 1000 }, 1.0, 100.0);
+        assert!(count.is_log());
+        assert_eq!(count.from_unit(0.5), 10.0);
+        assert_eq!(count.to_unit(10.0), 0.5);
+        assert_eq!(count.clamp(f64::NAN), 51.0);
+    }
+
+    #[test]
+    fn random_values_cover_their_range() {
+        let mut stream = Stream::at(1, 0, 0, 0);
+        let choice = gene(Kind::Choice { first: 2, names: &["a", "b", "c"] }, 2.0, 4.0);
+        let mut counts = [0; 3];
+        for _ in 0..3000 {
+            counts[choice.random(&mut stream) as usize - 2] += 1;
+        }
+        assert!(counts.iter().all(|c| (900..1100).contains(c)), "{counts:?}");
+
+        let flag = gene(Kind::Flagged { max: 360.0, negative: "fans" }, -90.0, 360.0);
+        let values: Vec<f64> = (0..3000).map(|_| flag.random(&mut stream)).collect();
+        let negative = values.iter().filter(|v| **v < 0.0).count();
+        assert!((1400..1600).contains(&negative), "signs are drawn first: {negative}");
+        assert!(values.iter().all(|v| (-90.0..=360.0).contains(v)));
+        assert!(values.iter().any(|v| *v > 300.0) && values.iter().any(|v| *v < -80.0));
+
+        let many = gene(Kind::Integer { min: 0, max: 1000 }, 1.0, 1000.0);
+        let small = (0..3000).filter(|_| many.random(&mut stream) <= 31.0).count();
+        assert!((1350..1650).contains(&small), "half of all draws below the root: {small}");
+    }
+}

@@ -1,0 +1,254 @@
+//! Which numbers a search may change, and how far.
+
+mod gene;
+
+pub use gene::Gene;
+
+use crate::genome::Genome;
+use crate::stream::Stream;
+use pleach_tree::param::Problem;
+use pleach_tree::{Generator, ParamSpace};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Which slots are free, by the patterns of [`ParamSpace::select`]: a slot (`length[1]`), a
+/// parameter (`length`), a group (`leaves`), or `level:N`.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Freedom {
+    /// Only these are free; all are if the list is empty.
+    pub free: Vec<String>,
+    /// These keep the value of the start, whatever `free` says.
+    pub fix: Vec<String>,
+}
+
+/// Which tree is grown from the parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum TreeSeed {
+    /// The same for every individual, as in the dissertation (§3.3.2).
+    Fixed(u64),
+    /// Part of the genome: searched like the parameters.
+    Any,
+}
+
+/// Why there is nothing to search in.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SpaceError {
+    /// A pattern that names no parameter.
+    #[error("`{pattern}`: {problem}")]
+    Pattern {
+        /// As it was given.
+        pattern: String,
+        /// What is wrong with it.
+        problem: Problem,
+    },
+    /// Every slot is fixed, and the tree's seed too.
+    #[error("no parameter is free: nothing to search")]
+    NothingFree,
+    /// A start whose values do not belong to this generator.
+    #[error("start values: {0}")]
+    Start(#[from] pleach_tree::param::SlotError),
+}
+
+/// The free numbers of a problem, and the values of all others.
+#[derive(Clone, Debug)]
+pub struct SearchSpace {
+    params: ParamSpace,
+    generator: Option<Arc<dyn Generator>>,
+    genes: Vec<Gene>,
+    base: Vec<f64>,
+    tree_seed: TreeSeed,
+}
+
+impl SearchSpace {
+    /// Lanes of [`Stream::at`] up to this number are left to optimisers.
+    const SEED_BITS: u32 = 31;
+
+    /// The free slots of `generator`; all others keep the values of `base`.
+    ///
+    /// Ranges are those of [`ParamSpace::search_range`], widened to hold `base`.
+    ///
+    /// # Errors
+    /// Unknown patterns, nothing free, or values in `base` that are not allowed.
+    pub fn new(
+        generator: Arc<dyn Generator>,
+        base: &[f64],
+        freedom: &Freedom,
+        tree_seed: TreeSeed,
+    ) -> Result<Self, SpaceError> {
+        let mut space = Self::of_params(generator.space().clone(), base, freedom, tree_seed)?;
+        space.generator = Some(generator);
+        Ok(space)
+    }
+
+    /// The same without a generator: every slot counts as read. For tests on known functions.
+    ///
+    /// # Errors
+    /// As [`SearchSpace::new`].
+    pub fn of_params(
+        params: ParamSpace,
+        base: &[f64],
+        freedom: &Freedom,
+        tree_seed: TreeSeed,
+    ) -> Result<Self, SpaceError> {
+        params.check(base.to_vec())?;
+        let mut is_free = vec![freedom.free.is_empty(); params.len()];
+        for (patterns, value) in [(&freedom.free, true), (&freedom.fix, false)] {
+            for pattern in patterns {
+                let slots = params
+                    .select(pattern)
+                    .map_err(|problem| SpaceError::Pattern { pattern: pattern.clone(), problem })?;
+                for slot in slots {
+                    is_free[slot] = value;
+                }
+            }
+        }
+        let genes: Vec<Gene> = (0..params.len())
+            .filter(|&slot| is_free[slot])
+            .map(|slot| {
+                let (low, high) = params.search_range(slot);
+                Gene {
+                    slot,
+                    kind: params.kind_of(slot),
+                    low: low.min(base[slot]),
+                    high: high.max(base[slot]),
+                }
+            })
+            .filter(|gene| !gene.is_constant())
+            .collect();
+        if genes.is_empty() && tree_seed != TreeSeed::Any {
+            return Err(SpaceError::NothingFree);
+        }
+        Ok(Self { params, generator: None, genes, base: base.to_vec(), tree_seed })
+    }
+
+    /// Widens the ranges to hold `values`, one a slot: another start.
+    ///
+    /// # Errors
+    /// Values that are not allowed.
+    pub fn widen(&mut self, values: &[f64]) -> Result<(), SpaceError> {
+        self.params.check(values.to_vec())?;
+        for gene in &mut self.genes {
+            gene.low = gene.low.min(values[gene.slot]);
+            gene.high = gene.high.max(values[gene.slot]);
+        }
+        Ok(())
+    }
+
+    /// The free numbers, in slot order.
+    #[must_use]
+    pub fn genes(&self) -> &[Gene] {
+        &self.genes
+    }
+
+    /// All parameters, free or not.
+    #[must_use]
+    pub const fn params(&self) -> &ParamSpace {
+        &self.params
+    }
+
+    /// The values that slots have which are not free.
+    #[must_use]
+    pub fn base(&self) -> &[f64] {
+        &self.base
+    }
+
+    /// Which tree is grown.
+    #[must_use]
+    pub const fn tree_seed(&self) -> TreeSeed {
+        self.tree_seed
+    }
+
+    /// The individual with these values where slots are free and the base's elsewhere, and the tree
+    /// seed of the problem (`seed` where any will do).
+    #[must_use]
+    pub fn individual(&self, values: &[f64], seed: u64) -> Genome {
+        let mut genome = Genome { values: self.base.clone(), tree_seed: seed };
+        for gene in &self.genes {
+            genome.values[gene.slot] = gene.clamp(values[gene.slot]);
+        }
+        if let TreeSeed::Fixed(seed) = self.tree_seed {
+            genome.tree_seed = seed;
+        }
+        genome
+    }
+
+    /// A random parameter list: every free number drawn as [`Gene::random`] says.
+    #[must_use]
+    pub fn random(&self, stream: &mut Stream) -> Genome {
+        let mut genome = self.individual(&self.base, 0);
+        for gene in &self.genes {
+            genome.values[gene.slot] = gene.random(stream);
+        }
+        if self.tree_seed == TreeSeed::Any {
+            genome.tree_seed = Self::random_seed(stream);
+        }
+        genome
+    }
+
+    /// A tree's seed, short enough to be typed.
+    #[must_use]
+    pub fn random_seed(stream: &mut Stream) -> u64 {
+        stream.bits() >> (64 - Self::SEED_BITS)
+    }
+
+    /// Whether the value of `gene` can change the tree of `values`: see [`Generator::reads`].
+    #[must_use]
+    pub fn is_read(&self, values: &[f64], gene: &Gene) -> bool {
+        self.generator.as_ref().is_none_or(|generator| generator.reads(values, gene.slot))
+    }
+
+    /// Collects the numbers (in [`SearchSpace::genes`]) of the genes that `values` reads.
+    pub fn read_genes(&self, values: &[f64], into: &mut Vec<usize>) {
+        into.clear();
+        into.extend((0..self.genes.len()).filter(|&g| self.is_read(values, &self.genes[g])));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{integer, params, real};
+
+    fn freedom(free: &[&str], fix: &[&str]) -> Freedom {
+        let strings = |list: &[&str]| list.iter().map(|s| (*s).to_owned()).collect();
+        Freedom { free: strings(free), fix: strings(fix) }
+    }
+
+    #[test]
+    fn patterns_choose_and_starts_widen() {
+        let space = params(vec![real("a", 0.0, 1.0), real("b", 0.0, 1.0), integer("n", 1, 9)]);
+        let build =
+            |f: Freedom, base: &[f64]| SearchSpace::of_params(space.clone(), base, &f, TreeSeed::Fixed(1));
+        let names = |s: &SearchSpace| s.genes().iter().map(|g| g.slot).collect::<Vec<_>>();
+        let base = [0.5, 0.5, 3.0];
+        assert_eq!(names(&build(Freedom::default(), &base).unwrap()), [0, 1, 2]);
+        assert_eq!(names(&build(freedom(&["a", "n"], &[]), &base).unwrap()), [0, 2]);
+        assert_eq!(names(&build(freedom(&[], &["a"]), &base).unwrap()), [1, 2]);
+        assert_eq!(build(freedom(&["a"], &["a"]), &base).unwrap_err(), SpaceError::NothingFree);
+        assert!(matches!(
+            build(freedom(&["nope"], &[]), &base).unwrap_err(),
+            SpaceError::Pattern { pattern, .. } if pattern == "nope"
+        ));
+        // The test parameters allow ten times what they search.
+        let wide = build(Freedom::default(), &[7.0, 0.5, 3.0]).unwrap();
+        assert_eq!((wide.genes()[0].low, wide.genes()[0].high), (0.0, 7.0));
+        assert!(matches!(build(Freedom::default(), &[f64::NAN, 0.5, 3.0]), Err(SpaceError::Start(_))));
+    }
+
+    #[test]
+    fn random_individuals_are_allowed_and_keep_what_is_fixed() {
+        let space = params(vec![real("a", 0.0, 1.0), real("b", 0.0, 1.0), integer("n", 1, 9)]);
+        let fixed = freedom(&[], &["b"]);
+        let space = SearchSpace::of_params(space, &[0.5, 0.25, 3.0], &fixed, TreeSeed::Any).unwrap();
+        let mut seeds = Vec::new();
+        for member in 0..100 {
+            let genome = space.random(&mut Stream::at(1, 0, 0, member));
+            space.params().check(genome.values.clone()).unwrap();
+            assert_eq!(genome.values[1], 0.25);
+            seeds.push(genome.tree_seed);
+        }
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), 100);
+    }
+}
