@@ -1,1 +1,120 @@
-//! The registry of generators: reads any species file.
+//! The registry of generators: from a species' name or file to something that grows.
+//!
+//! A new generator is one more line in [`families`].
+
+use pleach_tree::{Family, Species, SpeciesDoc, SpeciesError};
+use std::path::{Path, PathBuf};
+
+/// Largest species file that is read, in bytes: a thousand times the usual.
+const LARGEST_FILE: u64 = 4 << 20;
+
+/// Every family of generators, the default one first.
+#[must_use]
+pub fn families() -> &'static [&'static dyn Family] {
+    &[&pleach_weber_penn::WeberPennFamily]
+}
+
+/// The names of all species that come with pleach, family by family.
+#[must_use]
+pub fn names() -> Vec<&'static str> {
+    families().iter().flat_map(|family| family.presets().iter().map(|(name, _)| *name)).collect()
+}
+
+/// Why a species could not be had.
+#[derive(Debug, thiserror::Error)]
+pub enum RegistryError {
+    /// Neither a known name nor a file.
+    #[error("no species and no file is called `{name}`{}; `pleach species` lists the known ones", suggestion(.nearest))]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// The nearest known name.
+        nearest: Option<String>,
+    },
+    /// The file cannot be read.
+    #[error("cannot read the species file {}: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is far larger than a species.
+    #[error("{} has {bytes} bytes, a species file has at most {LARGEST_FILE}", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its size.
+        bytes: u64,
+    },
+    /// The file says something wrong.
+    #[error(transparent)]
+    Species(#[from] SpeciesError),
+}
+
+fn suggestion(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |name| format!(", did you mean `{name}`?"))
+}
+
+/// The species called `name` among those that come with pleach.
+#[must_use]
+pub fn preset(name: &str) -> Option<Species> {
+    let text = families().iter().flat_map(|f| f.presets()).find(|(known, _)| *known == name)?.1;
+    read_text(name, text).ok()
+}
+
+/// A species by name or by file: a known name wins, unless it has a path's look.
+///
+/// # Errors
+/// See [`RegistryError`].
+pub fn species(name_or_path: &str) -> Result<Species, RegistryError> {
+    if let Some(species) = preset(name_or_path) {
+        return Ok(species);
+    }
+    let path = Path::new(name_or_path);
+    let looks_like_a_path = name_or_path.contains(['/', '\\']) || path.extension().is_some();
+    if path.exists() || looks_like_a_path {
+        return read_file(path);
+    }
+    let nearest = pleach_tree::param::nearest(name_or_path, names());
+    Err(RegistryError::Unknown { name: name_or_path.to_owned(), nearest })
+}
+
+/// Reads a species file; a file without a name is called by its own.
+///
+/// # Errors
+/// See [`RegistryError`].
+pub fn read_file(path: &Path) -> Result<Species, RegistryError> {
+    let unreadable = |source| RegistryError::Unreadable { path: path.to_owned(), source };
+    let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
+    if bytes > LARGEST_FILE {
+        return Err(RegistryError::TooLarge { path: path.to_owned(), bytes });
+    }
+    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    let mut species = read_text(&path.display().to_string(), &text)?;
+    if species.name.is_empty() {
+        species.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    }
+    Ok(species)
+}
+
+/// Reads the text of a species file; `origin` is for messages.
+///
+/// # Errors
+/// Every problem of the text, with line and column.
+pub fn read_text(origin: &str, text: &str) -> Result<Species, SpeciesError> {
+    use pleach_tree::param::Problem;
+    let doc = SpeciesDoc::parse(origin, text)?;
+    let wrong = |issue| SpeciesError { issues: vec![issue] };
+    let name = doc.text("generator").map_err(wrong)?.unwrap_or("weber-penn");
+    let Some(family) = families().iter().find(|family| family.name() == name) else {
+        let span = doc.get("generator").map_or(0..0, |node| node.span.clone());
+        let problem = Problem::UnknownChoice {
+            value: name.to_owned(),
+            known: families().iter().map(|f| f.name().to_owned()).collect(),
+            nearest: None,
+        };
+        return Err(wrong(doc.issue(span, "generator", problem)));
+    };
+    family.read(&doc)
+}

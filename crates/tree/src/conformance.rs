@@ -68,9 +68,10 @@ pub fn check(species: &Species, reread: impl Fn(&SpeciesDoc) -> Species) {
     assert_eq!(species.params, again.params, "{name}: parameters survive the file");
     assert!(Ok(tree) == again.grow(7), "{name}: the file grows the same tree");
 
-    // Slots that are not read change nothing.
+    // Slots that are not read change nothing that is there.
     let space = species.generator.space();
-    let reference = species.grow(7).unwrap_or_default();
+    let parts = |tree: Tree| (tree.stems, tree.knots, tree.leaves, tree.blossoms);
+    let reference = parts(species.grow(7).unwrap_or_default());
     for slot in 0..space.len() {
         if species.generator.reads(species.params.values(), slot) {
             continue;
@@ -79,12 +80,9 @@ pub fn check(species: &Species, reread: impl Fn(&SpeciesDoc) -> Species) {
         let (low, high) = space.search_range(slot);
         values[slot] = if values[slot] == high { low } else { high };
         if let Ok(params) = space.check(values) {
-            let changed = Species { params, ..species.clone() }.grow(7);
-            assert!(
-                Ok(&reference) == changed.as_ref(),
-                "{name}: `{}` is said not to be read",
-                space.slot_name(slot)
-            );
+            let changed = Species { params, ..species.clone() }.grow(7).map(parts);
+            let slot = space.slot_name(slot);
+            assert!(changed.as_ref() == Ok(&reference), "{name}: `{slot}` is said not to be read");
         }
     }
 }

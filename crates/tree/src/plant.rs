@@ -136,13 +136,13 @@ impl Tree {
         self.stems.iter().map(|s| usize::from(s.level) + 1).max().unwrap_or(0)
     }
 
-    /// Appends `other`, whose stem and knot indices are its own; its stems without a parent here
-    /// keep the parent index that `reparent` gives for them.
-    pub fn append(&mut self, other: &Self, reparent: impl Fn(usize, &Stem) -> Option<u32>) {
+    /// Appends `other`, whose indices are its own, except for the parents of those stems for which
+    /// `rooted_here` holds: these are indices in `self` already.
+    pub fn append(&mut self, other: &Self, rooted_here: impl Fn(&Stem) -> bool) {
         let stem_base = self.stems.len() as u32;
         let knot_base = self.knots.len() as u32;
-        self.stems.extend(other.stems.iter().enumerate().map(|(i, stem)| Stem {
-            parent: stem.parent.map_or_else(|| reparent(i, stem), |p| Some(p + stem_base)),
+        self.stems.extend(other.stems.iter().map(|stem| Stem {
+            parent: stem.parent.map(|p| if rooted_here(stem) { p } else { p + stem_base }),
             first_knot: stem.first_knot + knot_base,
             ..*stem
         }));
@@ -234,14 +234,14 @@ mod tests {
     #[test]
     fn appending_moves_every_index() {
         let mut tree = small();
-        let mut branch = small();
-        branch.stems.remove(0);
-        branch.stems[0] = pole(1, None, 2);
-        tree.append(&branch, |_, _| Some(0));
-        assert_eq!(tree.stems.len(), 3);
-        assert_eq!(tree.stems[2].parent, Some(0));
-        assert_eq!(tree.stems[2].first_knot, 6);
-        assert_eq!(tree.leaves[1].stem, 2);
+        let mut branches = small();
+        branches.stems = vec![pole(1, Some(0), 0), pole(2, Some(0), 2)];
+        branches.leaves[0].stem = 1;
+        tree.append(&branches, |stem| stem.level == 1);
+        assert_eq!(tree.stems.len(), 4);
+        assert_eq!((tree.stems[2].parent, tree.stems[2].first_knot), (Some(0), 4));
+        assert_eq!((tree.stems[3].parent, tree.stems[3].first_knot), (Some(2), 6));
+        assert_eq!(tree.leaves[1].stem, 3);
         tree.well_formed().unwrap();
     }
 

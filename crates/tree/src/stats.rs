@@ -28,7 +28,7 @@ pub struct TreeStats {
     pub crown_width_x_m: f64,
     /// Extent along y, in metres.
     pub crown_width_y_m: f64,
-    /// Lowest point of any stem of level 1 or deeper, in metres; 0 without any.
+    /// Lowest place where a stem of level 1 or deeper starts, in metres; 0 without any.
     pub lowest_branch_m: f64,
     /// Sum of the areas of all leaves, one side, in square metres.
     pub leaf_area_m2: f64,
@@ -122,7 +122,7 @@ impl TreeStats {
             let knots = tree.knots_of(stem);
             stats.radius_mean_m[level] += knots[0].radius;
             if level > 0 {
-                lowest = knots.iter().map(|k| k.point.z).fold(lowest, f64::min);
+                lowest = lowest.min(knots[0].point.z);
             }
         }
         for level in 0..levels {

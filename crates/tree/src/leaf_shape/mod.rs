@@ -49,12 +49,9 @@ impl LeafShape {
         Self::Triangle,
     ];
 
-    /// The shape with this number, 1 to 10; 0 is the elliptic one, as in Weber and Penn.
+    /// The shape with this number, 1 to 10.
     #[must_use]
     pub fn from_number(number: i64) -> Option<Self> {
-        if number == 0 {
-            return Some(Self::Elliptic);
-        }
         Self::ALL.into_iter().find(|shape| *shape as i64 == number)
     }
 
@@ -194,7 +191,7 @@ mod tests {
 
     #[test]
     fn numbers_are_those_of_the_files() {
-        assert_eq!(LeafShape::from_number(0), Some(LeafShape::Elliptic));
+        assert_eq!(LeafShape::from_number(0), None);
         assert_eq!(LeafShape::from_number(4), Some(LeafShape::Maple));
         assert_eq!(LeafShape::from_number(11), None);
         assert_eq!(BlossomShape::from_number(0), None);

@@ -15,6 +15,6 @@ mod space;
 
 pub use checked::CheckedParams;
 pub use declaration::{Kind, Layout, Param, Source, Unit};
-pub(crate) use error::nearest;
+pub use error::nearest;
 pub use error::{Problem, SlotError};
 pub use space::{ParamSpace, Slot};

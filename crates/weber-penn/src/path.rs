@@ -1,0 +1,390 @@
+//! The path of a stem: one point a segment, with handles, turns, tropism and forks.
+//!
+//! Weber and Penn 1995, §4.1, §4.2 and §4.8; Hewitt 2017, §3.2.1. A clone walks the rest of its
+//! origin's segments.
+
+use crate::model::{Level, Model};
+use crate::purpose;
+use crate::stem::{CloneState, ForkState, Seedling};
+use glam::DVec3;
+use pleach_tree::turtle::{Turtle, rotate};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// A point of a path and what later steps need to know there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PathPoint {
+    pub(crate) point: DVec3,
+    pub(crate) handle_in: DVec3,
+    pub(crate) handle_out: DVec3,
+    /// Direction by which the point was reached.
+    pub(crate) direction: DVec3,
+    /// The turtle's right-hand axis there.
+    pub(crate) right: DVec3,
+    /// Part of the children that the segment which ends here keeps, after forks.
+    pub(crate) keep: f64,
+}
+
+/// Receives the forks of a path; trials of pruning drop them.
+pub(crate) trait Forks {
+    fn clone_at(&mut self, turtle: Turtle, state: CloneState, index: u32);
+}
+
+/// Drops all forks.
+pub(crate) struct NoForks;
+
+impl Forks for NoForks {
+    fn clone_at(&mut self, _: Turtle, _: CloneState, _: u32) {}
+}
+
+/// Walks the path of `stem` at `length` metres for the whole stem; appends its points to `path`.
+///
+/// `child_length` is handed on to clones. `carry` is the error that `seg_splits` diffuses from
+/// segment to segment and on to clones.
+pub(crate) fn walk(
+    model: &Model,
+    stem: &Seedling,
+    length: f64,
+    child_length: f64,
+    carry: &mut f64,
+    path: &mut Vec<PathPoint>,
+    forks: &mut impl Forks,
+) {
+    let level = &model.levels[stem.depth];
+    if level.is_helix() {
+        helix(model, level, stem, length, path);
+        return;
+    }
+    let segments = level.curve_res;
+    let start = stem.start();
+    let step = length / f64::from(segments);
+    let handle = step / 3.0;
+    let pull = tropism(model, stem.depth);
+    let mut fork = stem.fork();
+    let mut keep = fork.branch_factor;
+    let mut turtle = stem.turtle;
+
+    let leave = stem.clone.and_then(|c| c.first_handle).unwrap_or(turtle.direction);
+    path.push(PathPoint {
+        point: turtle.position,
+        handle_in: turtle.position - leave * handle,
+        handle_out: turtle.position + leave * handle,
+        direction: turtle.direction,
+        right: turtle.right,
+        keep,
+    });
+    for i in start + 1..=segments {
+        turtle.walk(step);
+        let parting = if i < segments {
+            forks_at(model, stem, i, carry, &mut fork, &mut keep)
+        } else {
+            Parting::default()
+        };
+        path.push(PathPoint {
+            point: turtle.position,
+            handle_in: turtle.position - turtle.direction * handle,
+            handle_out: turtle.position + turtle.direction * handle,
+            direction: turtle.direction,
+            right: turtle.right,
+            keep,
+        });
+        if i == segments {
+            break;
+        }
+        if parting.clones > 0 {
+            part(level, stem, i, parting, &mut turtle, &mut fork, child_length, forks);
+        } else {
+            turn(level, stem, i, &fork, &mut turtle);
+        }
+        lean(&mut turtle, pull);
+    }
+}
+
+/// A fork about to happen.
+#[derive(Clone, Copy, Debug, Default)]
+struct Parting {
+    /// Number of clones that leave.
+    clones: u32,
+    /// Whether this is the fork where the trunk's bare base ends.
+    base: bool,
+}
+
+/// How many clones leave at point `i`; keeps the books of forking.
+fn forks_at(
+    model: &Model,
+    stem: &Seedling,
+    i: u32,
+    carry: &mut f64,
+    fork: &mut ForkState,
+    keep: &mut f64,
+) -> Parting {
+    let level = &model.levels[stem.depth];
+    let base = (level.base_size * f64::from(level.curve_res)).ceil() as u32;
+    if stem.depth == 0 && i == base.max(1) && model.base_splits != 0 {
+        return Parting { clones: base_splits(model, stem), base: true };
+    }
+    if level.seg_splits <= 0.0 || (stem.depth == 0 && i <= base) {
+        return Parting::default();
+    }
+    if stem.key.unit(purpose::SPLIT, i) > fork.probability {
+        return Parting::default();
+    }
+    let clones = (level.seg_splits + *carry).floor().max(0.0);
+    *carry += level.seg_splits - clones;
+    fork.probability /= clones + 1.0;
+    fork.branch_factor = (fork.branch_factor / (clones + 1.0)).max(0.8);
+    *keep *= fork.branch_factor;
+    Parting { clones: clones as u32, base: false }
+}
+
+/// Clones where the bare base ends; a negative number is the most that may be drawn.
+fn base_splits(model: &Model, stem: &Seedling) -> u32 {
+    let most = model.base_splits.unsigned_abs() as u32;
+    if model.base_splits > 0 {
+        most
+    } else {
+        (stem.key.unit(purpose::BASE_SPLITS, 0) * f64::from(most + 1)) as u32
+    }
+}
+
+/// Forks at point `i`, where `turtle` has just arrived: hands the clones to `forks` and turns the stem itself.
+#[expect(clippy::too_many_arguments, reason = "one step of the walk, split off to be read alone")]
+fn part(
+    level: &Level,
+    stem: &Seedling,
+    i: u32,
+    Parting { clones: count, base }: Parting,
+    turtle: &mut Turtle,
+    fork: &mut ForkState,
+    child_length: f64,
+    forks: &mut impl Forks,
+) {
+    let arrival = *turtle;
+    let declination = arrival.direction.z.clamp(-1.0, 1.0).acos();
+    let varied = level.split_angle_v * stem.key.signed(purpose::SPLIT_ANGLE, i);
+    let direct = level.split_angle < 0.0;
+    let first_handle = (level.split_angle_v >= 0.0).then_some(arrival.direction);
+
+    let (angle, spread) = if direct {
+        (0.0, level.split_angle.abs() + varied)
+    } else {
+        // The add-on's bracket: R² weighs the declination only (PAPERS.md).
+        let r = stem.key.unit(purpose::SPLIT_SPREAD, i);
+        let from_level = (declination.to_degrees() - 90.0).abs();
+        let spread = -(20.0 + 0.75 * (30.0 + from_level * r * r)).to_radians();
+        ((level.split_angle + varied - declination).max(0.0), spread)
+    };
+    fork.correction = angle / f64::from(level.curve_res + 1 - i);
+
+    for j in 0..count {
+        let mut clone = arrival;
+        if direct {
+            let share = 0.5 * spread * f64::from(1 + j / 2);
+            clone.turn_right(if j % 2 == 0 { -share } else { share });
+        } else {
+            clone.pitch_down(angle / 2.0);
+            let about = if base {
+                let jitter = level.split_angle_v * stem.key.signed(purpose::CLONE_SPREAD, i * 32 + j);
+                TAU * f64::from(j + 1) / f64::from(count + 1) + jitter
+            } else if j == 0 {
+                spread / 2.0
+            } else {
+                -spread / 2.0
+            };
+            clone.rotate_about(DVec3::Z, about);
+        }
+        let state = CloneState { start: i, first_handle, child_length, fork: *fork };
+        forks.clone_at(clone, state, i * 32 + j);
+    }
+
+    if direct {
+        if count == 1 {
+            turtle.turn_right(spread / 2.0);
+        }
+    } else {
+        turtle.pitch_down(angle / 2.0);
+        if count == 1 && !base {
+            turtle.rotate_about(DVec3::Z, -spread / 2.0);
+        }
+    }
+}
+
+/// Bends the turtle after point `i` of a segment that does not fork.
+fn turn(level: &Level, stem: &Seedling, i: u32, fork: &ForkState, turtle: &mut Turtle) {
+    let segments = f64::from(level.curve_res);
+    if level.bend_v != 0.0 {
+        turtle.turn_right(-stem.key.signed(purpose::BEND, i) * level.bend_v / segments);
+    }
+    let curve = if level.curve_back == 0.0 {
+        level.curve / segments
+    } else if f64::from(i) < segments / 2.0 {
+        2.0 * level.curve / segments
+    } else {
+        2.0 * level.curve_back / segments
+    };
+    let varied = stem.key.signed(purpose::CURVE, i) * level.curve_v / segments;
+    turtle.pitch_down(curve + varied - fork.correction);
+}
+
+/// The pull on stems of this level: only sideways on trunks and their branches.
+fn tropism(model: &Model, depth: usize) -> DVec3 {
+    if depth < 2 { model.tropism.with_z(0.0) } else { model.tropism }
+}
+
+/// Turns the turtle towards `pull`, by 10° a unit at right angles.
+fn lean(turtle: &mut Turtle, pull: DVec3) {
+    let axis = turtle.direction.cross(pull);
+    let strength = axis.length();
+    if strength > 1e-12 {
+        turtle.rotate_about(axis / strength, (10.0 * strength).to_radians());
+    }
+}
+
+/// A helix of half a turn a segment (Hewitt 2017, §3.2.1 *Helical Branches*).
+///
+/// The declination |`curve_v`| is kept within 1° and 89°, where the construction has a meaning.
+fn helix(model: &Model, level: &Level, stem: &Seedling, length: f64, path: &mut Vec<PathPoint>) {
+    let segments = level.curve_res;
+    let mut turtle = stem.turtle;
+    lean(&mut turtle, tropism(model, stem.depth));
+    let axis = turtle.direction;
+
+    let vary = |purpose| 0.8 + 0.4 * stem.key.unit(purpose, 0);
+    let declination = (-level.curve_v).clamp(1.0_f64.to_radians(), 89.0_f64.to_radians());
+    let pitch = 2.0 * length / f64::from(segments) * vary(purpose::HELIX_PITCH);
+    let radius = 3.0 * pitch / (16.0 * (FRAC_PI_2 - declination).tan()) * vary(purpose::HELIX_RADIUS);
+
+    let b0 = DVec3::new(0.0, -radius, -pitch / 4.0);
+    let b1 = DVec3::new(4.0 * radius / 3.0, -radius, 0.0);
+    let b2 = DVec3::new(4.0 * radius / 3.0, radius, 0.0);
+    let b3 = DVec3::new(0.0, radius, pitch / 4.0);
+    // The local frame of the helix, spun by a random angle about its axis.
+    let spin = TAU * stem.key.unit(purpose::HELIX_SPIN, 0);
+    let x = rotate(turtle.right, axis, spin);
+    let y = axis.cross(x);
+    let place = |v: DVec3| x * v.x + y * v.y + axis * v.z;
+    let (to_b1, to_b2, to_b3) = (place(b1 - b0), place(b2 - b0), place(b3 - b0));
+
+    let mut at = turtle.position;
+    path.push(PathPoint {
+        point: at,
+        handle_in: at,
+        handle_out: at + to_b1,
+        direction: to_b1.try_normalize().unwrap_or(axis),
+        right: turtle.right,
+        keep: 1.0,
+    });
+    for i in 1..=segments {
+        let half_turns = PI * f64::from(i - 1);
+        let handle_in = at + rotate(to_b2, axis, half_turns);
+        at += rotate(to_b3, axis, half_turns);
+        path.push(PathPoint {
+            point: at,
+            handle_in,
+            handle_out: at * 2.0 - handle_in,
+            direction: (at - handle_in).try_normalize().unwrap_or(axis),
+            right: turtle.right,
+            keep: 1.0,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::space;
+    use pleach_tree::Key;
+
+    fn straight(values: &[(&str, f64)]) -> (Model, Seedling) {
+        let mut all = space().defaults();
+        for (name, value) in values {
+            for slot in space().select(name).unwrap() {
+                all[slot] = *value;
+            }
+        }
+        let stem = Seedling {
+            key: Key::root(1),
+            depth: 1,
+            turtle: Turtle::UP,
+            parent: None,
+            offset: 0.0,
+            length: 10.0,
+            radius: 0.1,
+            radius_limit: 0.1,
+            parent_length: 20.0,
+            parent_radius: 0.2,
+            parent_child_length: 0.5,
+            scale: 20.0,
+            clone: None,
+        };
+        (Model::new(&all), stem)
+    }
+
+    fn path(model: &Model, stem: &Seedling) -> Vec<PathPoint> {
+        let mut path = Vec::new();
+        walk(model, stem, stem.length, 1.0, &mut 0.0, &mut path, &mut NoForks);
+        path
+    }
+
+    const PLAIN: [(&str, f64); 6] = [
+        ("curve", 0.0),
+        ("curve_v", 0.0),
+        ("bend_v", 0.0),
+        ("tropism", 0.0),
+        ("curve_res", 10.0),
+        ("curve_back", 0.0),
+    ];
+
+    #[test]
+    fn without_turns_a_stem_is_straight() {
+        let (model, stem) = straight(&PLAIN);
+        let path = path(&model, &stem);
+        assert_eq!(path.len(), 11);
+        assert!((path[10].point - DVec3::new(0.0, 0.0, 10.0)).length() < 1e-9);
+    }
+
+    #[test]
+    fn curve_bends_all_but_the_last_segment() {
+        let (model, stem) = straight(&[&PLAIN[..], &[("curve", 90.0)]].concat());
+        let path = path(&model, &stem);
+        let turned = path[10].direction.angle_between(DVec3::Z).to_degrees();
+        assert!((turned - 81.0).abs() < 1e-9, "{turned}");
+        assert!(path[10].point.y > 0.0, "a positive curve bends towards `down`");
+    }
+
+    #[test]
+    fn curve_back_makes_an_s() {
+        let (model, stem) = straight(&[&PLAIN[..], &[("curve", 60.0), ("curve_back", -60.0)]].concat());
+        let path = path(&model, &stem);
+        let lean = |i: usize| path[i].direction.angle_between(DVec3::Z).to_degrees();
+        assert!(lean(5) > 45.0 && lean(10) < 15.0, "{} then {}", lean(5), lean(10));
+    }
+
+    #[test]
+    fn a_helix_turns_half_round_a_segment_and_rises_steadily() {
+        let (model, stem) = straight(&[&PLAIN[..], &[("curve_v", -30.0)]].concat());
+        let path = path(&model, &stem);
+        let rise = path[1].point.z - path[0].point.z;
+        for (i, w) in path.windows(2).enumerate() {
+            assert!((w[1].point.z - w[0].point.z - rise).abs() < 1e-9);
+            let sideways = |a: &PathPoint, b: &PathPoint| (b.point - a.point).truncate();
+            if i > 0 {
+                let before = sideways(&path[i - 1], &path[i]);
+                assert!((before + sideways(&w[0], &w[1])).length() < 1e-9, "half a turn each");
+            }
+        }
+        // Declination of the tangent: |curve_v| from the axis, up to the draws of pitch and radius.
+        let tangent = (path[0].handle_out - path[0].point).angle_between(DVec3::Z).to_degrees();
+        assert!((20.0..45.0).contains(&tangent), "{tangent}");
+    }
+
+    #[test]
+    fn tropism_pulls_and_does_not_overturn() {
+        let (model, mut stem) = straight(&[&PLAIN[..], &[("tropism.z", -3.0)]].concat());
+        stem.turtle = Turtle { position: DVec3::ZERO, direction: DVec3::X, right: DVec3::Y };
+        let level_one = path(&model, &stem)[10].direction;
+        assert_eq!(level_one, DVec3::X, "the vertical part spares level 1");
+        stem.depth = 2;
+        let drooping = path(&model, &stem)[10].direction;
+        assert!(drooping.z < -0.99, "{drooping}");
+    }
+}

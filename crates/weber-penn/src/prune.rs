@@ -1,0 +1,62 @@
+//! Whether a point fits, and how long a stem may be (Weber and Penn 1995, §4.6).
+
+use crate::model::Model;
+use crate::solid::Surroundings;
+use glam::DVec3;
+
+/// Below this part of its first length a stem is given up.
+const LEAST_PART: f64 = 0.15;
+/// Each trial is this part of the one before.
+const SHRINK: f64 = 0.9;
+
+/// Whether `point` is inside the envelope (or one of the solids that stand for it) of a tree of
+/// scale `scale` and clear of all obstacles.
+pub(crate) fn fits(model: &Model, surroundings: &Surroundings, scale: f64, point: DVec3) -> bool {
+    let inside = match &surroundings.inside {
+        Some(solids) => solids.is_empty() || solids.iter().any(|s| s.contains(point)),
+        None => {
+            let foot = scale * (1.0 - model.levels[0].base_size);
+            let q = (scale - point.z) / foot;
+            point.truncate().length() / scale < model.prune.width * model.prune.profile(q)
+        }
+    };
+    inside && !surroundings.obstacles.iter().any(|s| s.contains(point))
+}
+
+/// The length that a stem of nominal length `length` is pruned to, given a test of whether it fits
+/// at a length; `None` if it is dropped. `ratio` is `prune_ratio`, above 0.
+pub(crate) fn pruned_length(ratio: f64, length: f64, mut fits_at: impl FnMut(f64) -> bool) -> Option<f64> {
+    let mut trial = length;
+    while !fits_at(trial) {
+        trial *= SHRINK;
+        if trial < LEAST_PART * length {
+            if ratio >= 1.0 {
+                return None;
+            }
+            trial = 0.0;
+            break;
+        }
+    }
+    Some((1.0 - ratio) * length + ratio * trial)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ratio_interpolates_between_the_fitting_length_and_the_whole() {
+        let at_most_half = |length: f64| length <= 5.0;
+        let full = pruned_length(1.0, 10.0, at_most_half).unwrap();
+        assert!(full <= 5.0 && full > 4.4, "{full}");
+        let half = pruned_length(0.5, 10.0, at_most_half).unwrap();
+        assert!((half - (10.0 + full) / 2.0).abs() < 1e-12);
+        assert_eq!(pruned_length(1.0, 10.0, |_| true), Some(10.0));
+    }
+
+    #[test]
+    fn what_never_fits_is_dropped_only_at_ratio_one() {
+        assert_eq!(pruned_length(1.0, 10.0, |_| false), None);
+        assert_eq!(pruned_length(0.25, 10.0, |_| false), Some(7.5));
+    }
+}

@@ -1,0 +1,86 @@
+//! What is known of a stem before its path is walked.
+
+use crate::model::Model;
+use pleach_tree::Key;
+use pleach_tree::turtle::Turtle;
+
+/// A stem about to grow.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seedling {
+    /// Address of its random numbers.
+    pub(crate) key: Key,
+    /// Level, 0 for trunks.
+    pub(crate) depth: usize,
+    /// Where it starts and how it is turned.
+    pub(crate) turtle: Turtle,
+    /// Index in the tree of the stem that it grows from.
+    pub(crate) parent: Option<u32>,
+    /// Metres along the parent at which it starts.
+    pub(crate) offset: f64,
+    /// Length of the whole stem in metres. A clone has its origin's.
+    pub(crate) length: f64,
+    /// Nominal radius at the base of the whole stem in metres. A clone has its origin's.
+    pub(crate) radius: f64,
+    /// Largest radius that the base may have: the parent's where it starts.
+    pub(crate) radius_limit: f64,
+    /// The parent's length, radius and greatest relative length of children.
+    pub(crate) parent_length: f64,
+    /// The parent's nominal base radius in metres.
+    pub(crate) parent_radius: f64,
+    /// The parent's draw of the greatest relative length of its children.
+    pub(crate) parent_child_length: f64,
+    /// The scale of the tree that it is part of, in metres.
+    pub(crate) scale: f64,
+    /// Set for clones.
+    pub(crate) clone: Option<CloneState>,
+}
+
+/// What a clone takes over from the stem that it forks from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CloneState {
+    /// The point of the whole stem at which it starts, 1 or more.
+    pub(crate) start: u32,
+    /// Direction along which the old stem arrived there: the clone leaves along it.
+    pub(crate) first_handle: Option<glam::DVec3>,
+    /// The whole stem's draw of the greatest relative length of its children.
+    pub(crate) child_length: f64,
+    /// Fork state at that point.
+    pub(crate) fork: ForkState,
+}
+
+/// How willing a stem still is to fork, and what forks have cost it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ForkState {
+    /// Probability of the next fork.
+    pub(crate) probability: f64,
+    /// Part of its children that a forked stem keeps at each segment.
+    pub(crate) branch_factor: f64,
+    /// Radians that each segment still turns back after a fork.
+    pub(crate) correction: f64,
+}
+
+impl ForkState {
+    pub(crate) const UNFORKED: Self = Self { probability: 1.0, branch_factor: 1.0, correction: 0.0 };
+}
+
+impl Seedling {
+    /// The first point of the path, 0 unless it is a clone.
+    pub(crate) fn start(&self) -> u32 {
+        self.clone.map_or(0, |c| c.start)
+    }
+
+    pub(crate) fn fork(&self) -> ForkState {
+        self.clone.map_or(ForkState::UNFORKED, |c| c.fork)
+    }
+
+    /// Base radius of a branch of this length (Weber and Penn 1995, §4.4; `radius_mod` and the floor
+    /// are Hewitt's): thinner by a power of the length ratio, never thicker than its parent there.
+    pub(crate) fn branch_radius(&self, model: &Model) -> f64 {
+        let part = self.length / self.parent_length;
+        let radius = model.levels[self.depth].radius_mod * self.parent_radius * part.powf(model.ratio_power);
+        radius.max(LEAST_RADIUS).min(self.radius_limit)
+    }
+}
+
+/// Branches are at least this thick, in metres, unless their parent is thinner.
+const LEAST_RADIUS: f64 = 0.005;

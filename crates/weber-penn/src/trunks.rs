@@ -1,0 +1,42 @@
+//! Where several trunks stand (Hewitt 2017, §3.2.1 *Multiple Trunks*).
+//!
+//! Poisson discs by dart throwing. The sizes of the disc and of the spacing are those of the public
+//! add-on, for which bamboo was tuned. Where darts keep failing the disc grows a little, so that
+//! any number of trunks ends.
+
+use crate::model::Model;
+use crate::purpose;
+use glam::DVec2;
+use pleach_tree::Key;
+use std::f64::consts::TAU;
+
+/// Darts thrown for one trunk before the disc grows.
+const TRIES: u32 = 32;
+const GROWTH: f64 = 1.1;
+
+/// Positions of the trunks on the ground, in metres; a single one stands at the origin.
+pub(crate) fn places(model: &Model, key: Key, places: &mut Vec<DVec2>) {
+    places.clear();
+    if model.trunks <= 1 {
+        places.push(DVec2::ZERO);
+        return;
+    }
+    let trunk = &model.levels[0];
+    let mut disc = (f64::from(model.trunks) / 2.5 * model.g_scale * model.ratio).sqrt();
+    let length = trunk.length + key.signed(purpose::DART_SPACING, 0) * trunk.length_v;
+    let spacing = 2.5 * model.ratio * trunk.radius_mod * (model.g_scale + model.g_scale_v) * length.max(0.0);
+    for i in 0..model.trunks {
+        let dart_key = key.child(purpose::DART, i);
+        for attempt in 0.. {
+            let distance = disc * dart_key.unit(purpose::DART_DISTANCE, attempt).sqrt();
+            let dart = DVec2::from_angle(TAU * dart_key.unit(purpose::DART_AZIMUTH, attempt)) * distance;
+            if places.iter().all(|p| p.distance_squared(dart) >= spacing * spacing) {
+                places.push(dart);
+                break;
+            }
+            if attempt % TRIES == TRIES - 1 {
+                disc *= GROWTH;
+            }
+        }
+    }
+}
