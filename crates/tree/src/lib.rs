@@ -8,6 +8,7 @@
 //! | --- | --- |
 //! | [`plant`] | [`Tree`], [`Stem`], [`Knot`], [`Leaf`]: flat arrays, metres, z up, right-handed |
 //! | [`spline`] | one cubic Bézier piece: evaluate, differentiate, flatten by tolerance |
+//! | [`trig`] | fast sine, cosine and arc tangent, the same bits everywhere |
 //! | [`turtle`] | a position with two axes that walks and turns |
 //! | [`random`] | draws that are a function of an address, never of the draws before |
 //! | [`leaf_shape`] | outlines of ten leaves and faces of three blossoms |
@@ -32,6 +33,7 @@ pub mod random;
 pub mod species;
 pub mod spline;
 pub mod stats;
+pub mod trig;
 pub mod turtle;
 
 pub use generator::{Family, Foliage, Generator, GrowError, Growth, Limits, Workspace};

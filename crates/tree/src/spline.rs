@@ -32,6 +32,13 @@ impl Cubic {
         ((b - a) * (s * s) + (c - b) * (2.0 * s * t) + (d - c) * (t * t)) * 3.0
     }
 
+    /// The second derivative with respect to `t`.
+    #[must_use]
+    pub fn second_derivative(&self, t: f64) -> DVec3 {
+        let [a, b, c, d] = self.points;
+        ((a - b * 2.0 + c) * (1.0 - t) + (b - c * 2.0 + d) * t) * 6.0
+    }
+
     /// The unit tangent at `t`, or `fallback` where the curve stands still.
     #[must_use]
     pub fn tangent(&self, t: f64, fallback: DVec3) -> DVec3 {
@@ -94,6 +101,8 @@ mod tests {
             let t = f64::from(i) / 10.0;
             let numeric = (arc.at(t + 1e-6) - arc.at(t - 1e-6)) / 2e-6;
             assert!((arc.derivative(t) - numeric).length() < 1e-8);
+            let numeric = (arc.derivative(t + 1e-6) - arc.derivative(t - 1e-6)) / 2e-6;
+            assert!((arc.second_derivative(t) - numeric).length() < 1e-8);
         }
     }
 

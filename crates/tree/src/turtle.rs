@@ -3,6 +3,7 @@
 //! Hewitt 2017, §3.1.2. The third axis, [`Turtle::down`], is the one that a child leaves its parent
 //! towards, so for a branch it points away from the parent's tip.
 
+use crate::trig::sin_cos;
 use glam::DVec3;
 
 /// Position and orientation while a stem is drawn.
@@ -33,13 +34,13 @@ impl Turtle {
 
     /// Leans the direction towards [`Turtle::down`] by `angle` radians.
     pub fn pitch_down(&mut self, angle: f64) {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = sin_cos(angle);
         self.direction = (self.direction * cos + self.down() * sin).normalize();
     }
 
     /// Leans the direction towards `right` by `angle` radians.
     pub fn turn_right(&mut self, angle: f64) {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = sin_cos(angle);
         let Self { direction, right, .. } = *self;
         self.direction = (direction * cos + right * sin).normalize();
         self.right = (right * cos - direction * sin).normalize();
@@ -47,7 +48,7 @@ impl Turtle {
 
     /// Turns `right` about the direction, towards [`Turtle::down`], by `angle` radians.
     pub fn roll_right(&mut self, angle: f64) {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = sin_cos(angle);
         self.right = (self.right * cos + self.down() * sin).normalize();
     }
 
@@ -61,7 +62,7 @@ impl Turtle {
 /// `v` turned about the unit vector `axis` by `angle` radians (Rodrigues' formula, right-hand rule).
 #[must_use]
 pub fn rotate(v: DVec3, axis: DVec3, angle: f64) -> DVec3 {
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = sin_cos(angle);
     v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos))
 }
 

@@ -144,10 +144,9 @@ impl Spacing<'_> {
         let position = cubic.at(place.t);
         let tangent = cubic.tangent(place.t, to.direction);
         let right = if self.level.is_helix() {
-            // A neighbouring tangent keeps the same side of the coil all along it.
-            let beside = if place.t < 0.9999 { place.t + 1e-4 } else { place.t - 1e-4 };
-            let turn = tangent.cross(cubic.tangent(beside, to.direction));
-            (if beside > place.t { turn } else { -turn }).try_normalize()
+            // t × t′ for a tangent t′ a little further on, in the limit: the same side of the coil
+            // all along it.
+            tangent.cross(cubic.second_derivative(place.t)).try_normalize()
         } else {
             to.direction.cross(to.right).cross(tangent).try_normalize()
         };
@@ -197,7 +196,7 @@ impl<'a> Turning<'a> {
     fn next(&mut self, number: u32) -> f64 {
         let varied = self.varied(number);
         if self.next.rotate >= 0.0 {
-            self.angle = (self.angle + self.next.rotate + varied) % TAU;
+            self.angle = wrap(self.angle + self.next.rotate + varied);
             self.angle
         } else {
             let angle = self.side * (PI + self.next.rotate + varied);
@@ -212,8 +211,13 @@ impl<'a> Turning<'a> {
     }
 
     fn next_whorl(&mut self) {
-        self.angle = (self.angle + self.next.rotate) % TAU;
+        self.angle = wrap(self.angle + self.next.rotate);
     }
+}
+
+/// `angle` less one turn where it is more; steps are at most two turns, so it stays small.
+fn wrap(angle: f64) -> f64 {
+    if angle >= TAU { angle - TAU } else { angle }
 }
 
 /// Number of children of a whole, unforked stem (Weber and Penn 1995, §4.3, and what the species

@@ -4,13 +4,13 @@
 
 use crate::children::{Spacing, Sprout, relative_length};
 use crate::grow::{Bench, Job};
-use crate::model::Model;
 use crate::purpose;
+use crate::sprig::{Bud, LANES, Sprig};
 use crate::stem::Seedling;
-use glam::DVec3;
-use pleach_tree::turtle::{Turtle, rotate};
-use pleach_tree::{Foliage, GrowError, Leaf};
-use std::f64::consts::{PI, TAU};
+use glam::{DVec3, Vec3};
+use pleach_tree::trig::{atan2, sin_cos};
+use pleach_tree::turtle::Turtle;
+use pleach_tree::{Foliage, GrowError, Leaf, Tree};
 
 /// Grows the leaves and blossoms of `stem`, whose index in the tree is `index`.
 pub(crate) fn grow(
@@ -22,67 +22,116 @@ pub(crate) fn grow(
 ) -> Result<(), GrowError> {
     let model = job.model;
     let relative_scale = stem.scale / model.g_scale;
-    let count = model.leaf_blos_num * relative_scale * relative_length(stem);
     let spacing = Spacing {
         stem,
         level: &model.levels[stem.depth],
         next: model.child_level(stem.depth),
-        count,
+        count: model.leaf_blos_num * relative_scale * relative_length(stem),
         forks_cost: false,
     };
     let profile = job.profile(stem);
     let coarse = Coarse::new(job.growth.foliage, stem);
-    let leaf_scale = model.leaf_scale * relative_scale * coarse.scale;
-    let blossom_scale = model.blossom_scale * relative_scale * coarse.scale;
+    let scale = relative_scale * coarse.scale;
+    let kinds = Kinds {
+        stem: (stem, index),
+        blossom_rate: model.blossom_rate,
+        leaf: ((model.leaf_scale * scale) as f32, (model.leaf_scale * model.leaf_scale_x * scale) as f32),
+        blossom: (model.blossom_scale * scale) as f32,
+    };
+    let helix = spacing.level.is_helix();
 
     let limit = job.growth.limits.leaves;
     let Bench { tree, path, .. } = bench;
     let path = &path[first_point..];
+    let mut sprig = Sprig::default();
+    let mut numbers = [0; LANES];
+    let mut made = tree.leaves.len() + tree.blossoms.len();
     spacing.places(path, |place| {
         if !coarse.keeps(place.number) {
             return Ok(());
         }
-        if tree.leaves.len() + tree.blossoms.len() >= limit {
+        made += 1;
+        if made > limit {
             return Err(GrowError::TooManyLeaves { limit });
         }
-        let Sprout { mut turtle, outward } = spacing.sprout(path, &place);
-        turtle.position += outward * profile.at(place.offset / stem.length);
-        if model.leaf_bend > 0.0 {
-            face_the_light(model, &mut turtle);
+        let radius = profile.at(place.offset / stem.length);
+        if place.fan.is_some() {
+            let Sprout { mut turtle, outward } = spacing.sprout(path, &place);
+            turtle.position += outward * radius;
+            if model.leaf_bend > 0.0 {
+                face_the_light(model.leaf_bend, &mut turtle);
+            }
+            let (position, along, across) = (turtle.position, turtle.direction, turtle.right);
+            kinds.push(tree, place.number, (position.as_vec3(), along.as_vec3(), across.as_vec3()));
+            return Ok(());
         }
-        let blossom =
-            model.blossom_rate > 0.0 && stem.key.unit(purpose::BLOSSOM, place.number) < model.blossom_rate;
-        let (length, width, shapes) = if blossom {
-            (blossom_scale, blossom_scale, &mut tree.blossoms)
-        } else {
-            (leaf_scale, leaf_scale * model.leaf_scale_x, &mut tree.leaves)
-        };
-        shapes.push(Leaf {
-            position: turtle.position.as_vec3(),
-            along: (turtle.direction * length).as_vec3(),
-            across: (turtle.right * width).as_vec3(),
-            stem: index,
-        });
+        let down_angle = spacing.down_angle(&place);
+        let bud = Bud { piece: place.piece, t: place.t, rotation: place.rotation, down_angle, radius };
+        numbers[sprig.len()] = place.number;
+        sprig.push(path, helix, &bud);
+        if sprig.len() == LANES {
+            kinds.flush(tree, &mut sprig, &numbers, helix, model.leaf_bend);
+        }
         Ok(())
-    })
+    })?;
+    kinds.flush(tree, &mut sprig, &numbers, helix, model.leaf_bend);
+    Ok(())
+}
+
+/// How large the leaves and blossoms of a stem are, and which are which.
+struct Kinds<'a> {
+    stem: (&'a Seedling, u32),
+    blossom_rate: f64,
+    /// Length and width of the unit leaf, metres.
+    leaf: (f32, f32),
+    /// Scale of the unit blossom, metres.
+    blossom: f32,
+}
+
+impl Kinds<'_> {
+    fn flush(&self, tree: &mut Tree, sprig: &mut Sprig, numbers: &[u32; LANES], helix: bool, bend: f64) {
+        if sprig.len() == 0 {
+            return;
+        }
+        sprig.place(helix, bend as f32);
+        for (lane, &number) in numbers[..sprig.len()].iter().enumerate() {
+            self.push(tree, number, sprig.leaf(lane));
+        }
+        sprig.clear();
+    }
+
+    fn push(&self, tree: &mut Tree, number: u32, (position, along, across): (Vec3, Vec3, Vec3)) {
+        let (stem, index) = self.stem;
+        let rate = self.blossom_rate;
+        let blossom = rate > 0.0 && stem.key.unit(purpose::BLOSSOM, number) < rate;
+        let (shapes, (length, width)) = if blossom {
+            (&mut tree.blossoms, (self.blossom, self.blossom))
+        } else {
+            (&mut tree.leaves, self.leaf)
+        };
+        shapes.push(Leaf { position, along: along * length, across: across * width, stem: index });
+    }
 }
 
 /// Turns a leaf outwards and then up, each by the part `leaf_bend` of what is missing (Weber and
-/// Penn 1995, §4.9).
-fn face_the_light(model: &Model, turtle: &mut Turtle) {
-    let normal = turtle.down();
-    let outwards = turtle.position.y.atan2(turtle.position.x) - normal.y.atan2(normal.x);
-    let outwards = (outwards + PI).rem_euclid(TAU) - PI;
-    let (sin, cos) = (model.leaf_bend * outwards).sin_cos();
+/// Penn 1995, §4.9). Outwards goes the shorter way round.
+pub(crate) fn face_the_light(leaf_bend: f64, turtle: &mut Turtle) {
+    let (p, n) = (turtle.position, turtle.down());
+    let outwards = atan2(n.x * p.y - n.y * p.x, n.x * p.x + n.y * p.y);
+    let (sin, cos) = sin_cos(leaf_bend * outwards);
     let about_z = |v: DVec3| DVec3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z);
-    turtle.direction = about_z(turtle.direction);
-    turtle.right = about_z(turtle.right);
+    let (direction, right, n) = (about_z(turtle.direction), about_z(turtle.right), about_z(n));
 
-    let normal = turtle.down();
-    let Some(axis) = DVec3::new(normal.y, -normal.x, 0.0).try_normalize() else { return };
-    let up = normal.z.clamp(-1.0, 1.0).acos();
-    turtle.direction = rotate(turtle.direction, axis, model.leaf_bend * up);
-    turtle.right = rotate(turtle.right, axis, model.leaf_bend * up);
+    // Up is a turn from the normal towards +z, about the level axis at right angles to both.
+    let level = (n.x * n.x + n.y * n.y).sqrt();
+    if level < 1e-9 {
+        (turtle.direction, turtle.right) = (direction, right);
+        return;
+    }
+    let axis = DVec3::new(n.y / level, -n.x / level, 0.0);
+    let (sin, cos) = sin_cos(leaf_bend * atan2(level, n.z));
+    let lift = |v: DVec3| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos));
+    (turtle.direction, turtle.right) = (lift(direction), lift(right));
 }
 
 /// Which leaves of a coarse crown are made, and how much larger.

@@ -24,6 +24,7 @@ mod prune;
 mod purpose;
 mod radius;
 mod solid;
+mod sprig;
 mod stem;
 mod trunks;
 

@@ -292,7 +292,6 @@ fn helix(model: &Model, level: &Level, stem: &Seedling, length: f64, path: &mut 
 mod tests {
     use super::*;
     use crate::params::space;
-    use pleach_tree::Key;
 
     fn straight(values: &[(&str, f64)]) -> (Model, Seedling) {
         let mut all = space().defaults();
@@ -301,22 +300,7 @@ mod tests {
                 all[slot] = *value;
             }
         }
-        let stem = Seedling {
-            key: Key::root(1),
-            depth: 1,
-            turtle: Turtle::UP,
-            parent: None,
-            offset: 0.0,
-            length: 10.0,
-            radius: 0.1,
-            radius_limit: 0.1,
-            parent_length: 20.0,
-            parent_radius: 0.2,
-            parent_child_length: 0.5,
-            scale: 20.0,
-            clone: None,
-        };
-        (Model::new(&all), stem)
+        (Model::new(&all), Seedling::test_stem())
     }
 
     fn path(model: &Model, stem: &Seedling) -> Vec<PathPoint> {

@@ -84,3 +84,25 @@ impl Seedling {
 
 /// Branches are at least this thick, in metres, unless their parent is thinner.
 const LEAST_RADIUS: f64 = 0.005;
+
+#[cfg(test)]
+impl Seedling {
+    /// A branch ten metres long on a trunk of twenty, straight up from the origin.
+    pub(crate) fn test_stem() -> Self {
+        Self {
+            key: Key::root(1),
+            depth: 1,
+            turtle: Turtle::UP,
+            parent: None,
+            offset: 0.0,
+            length: 10.0,
+            radius: 0.1,
+            radius_limit: 0.1,
+            parent_length: 20.0,
+            parent_radius: 0.2,
+            parent_child_length: 0.5,
+            scale: 20.0,
+            clone: None,
+        }
+    }
+}
