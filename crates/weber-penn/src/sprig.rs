@@ -81,7 +81,8 @@ impl Sprig {
 
     /// Places every leaf; `bend` is `leaf_bend`.
     pub(crate) fn place(&mut self, helix: bool, bend: f32) {
-        self.turn(if helix { 1.0 } else { 0.0 });
+        self.evaluate(if helix { 1.0 } else { 0.0 });
+        self.turn();
         if bend > 0.0 {
             self.face_the_light(bend);
         }
@@ -93,44 +94,52 @@ impl Sprig {
         (get(&self.position), get(&self.along), get(&self.across))
     }
 
-    /// Evaluates the curve, rolls about it and leans away from it. `helix` is 1 on helices, where
-    /// the second derivative leads, and 0 elsewhere.
+    /// Evaluates the curve: position, tangent (in `along`) and the right-hand axis of a leaf that
+    /// leaves towards `down` (in `across`). `helix` is 1 on helices, where the second derivative
+    /// leads, and 0 elsewhere.
     #[inline(never)]
-    fn turn(&mut self, helix: f32) {
+    fn evaluate(&mut self, helix: f32) {
+        let Self { points: [a, b, c, d], down, ahead, t, position, along, across, .. } = self;
         for i in 0..LANES {
-            let at = |k: usize| {
-                let p = &self.points[k];
-                [p[0][i], p[1][i], p[2][i]]
-            };
-            let (a, b, c, d) = (at(0), at(1), at(2), at(3));
-            let (t, s) = (self.t[i], 1.0 - self.t[i]);
+            let (t, s) = (t[i], 1.0 - t[i]);
             let blend = |w: [f32; 4]| {
-                let mix = |k: usize| a[k] * w[0] + b[k] * w[1] + c[k] * w[2] + d[k] * w[3];
-                [mix(0), mix(1), mix(2)]
+                [
+                    a[0][i] * w[0] + b[0][i] * w[1] + c[0][i] * w[2] + d[0][i] * w[3],
+                    a[1][i] * w[0] + b[1][i] * w[1] + c[1][i] * w[2] + d[1][i] * w[3],
+                    a[2][i] * w[0] + b[2][i] * w[1] + c[2][i] * w[2] + d[2][i] * w[3],
+                ]
             };
             let point = blend([s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]);
             let velocity = blend([-s * s, s * s - 2.0 * s * t, 2.0 * s * t - t * t, t * t]);
             let turn = blend([s, t - 2.0 * s, s - 2.0 * t, t]);
-            let ahead = [self.ahead[0][i], self.ahead[1][i], self.ahead[2][i]];
-            let tangent = unit(velocity, ahead);
-
+            let tangent = unit(velocity, [ahead[0][i], ahead[1][i], ahead[2][i]]);
             // right = down × tangent, with the curve's own turning for `down` on helices.
-            let down = [
-                self.down[0][i] - helix * turn[0],
-                self.down[1][i] - helix * turn[1],
-                self.down[2][i] - helix * turn[2],
-            ];
+            let down =
+                [down[0][i] - helix * turn[0], down[1][i] - helix * turn[1], down[2][i] - helix * turn[2]];
             let right = unit(cross(down, tangent), level(tangent));
-            let (sin, cos) = sin_cos(self.rotation[i]);
+            (position[0][i], position[1][i], position[2][i]) = (point[0], point[1], point[2]);
+            (along[0][i], along[1][i], along[2][i]) = (tangent[0], tangent[1], tangent[2]);
+            (across[0][i], across[1][i], across[2][i]) = (right[0], right[1], right[2]);
+        }
+    }
+
+    /// Rolls each leaf about the stem, moves it to the surface and leans it away.
+    #[inline(never)]
+    fn turn(&mut self) {
+        let Self { rotation, down_angle, radius, position, along, across, .. } = self;
+        for i in 0..LANES {
+            let tangent = [along[0][i], along[1][i], along[2][i]];
+            let right = [across[0][i], across[1][i], across[2][i]];
+            let (sin, cos) = sin_cos(rotation[i]);
             let right = combine(right, cos, cross(tangent, right), sin);
             let outward = cross(tangent, right);
-            let (sin, cos) = sin_cos(self.down_angle[i]);
-            let along = combine(tangent, cos, outward, sin);
-            for k in 0..3 {
-                self.position[k][i] = point[k] + outward[k] * self.radius[i];
-                self.along[k][i] = along[k];
-                self.across[k][i] = right[k];
-            }
+            let (sin, cos) = sin_cos(down_angle[i]);
+            let leaf = combine(tangent, cos, outward, sin);
+            position[0][i] += outward[0] * radius[i];
+            position[1][i] += outward[1] * radius[i];
+            position[2][i] += outward[2] * radius[i];
+            (along[0][i], along[1][i], along[2][i]) = (leaf[0], leaf[1], leaf[2]);
+            (across[0][i], across[1][i], across[2][i]) = (right[0], right[1], right[2]);
         }
     }
 
@@ -184,19 +193,23 @@ fn combine(a: [f32; 3], by_a: f32, b: [f32; 3], by_b: f32) -> [f32; 3] {
 #[inline(always)]
 fn unit(v: [f32; 3], otherwise: [f32; 3]) -> [f32; 3] {
     let squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    let some = squared > 1e-24;
-    let scale = 1.0 / (if some { squared } else { 1.0 }).sqrt();
-    let pick = |k: usize| if some { v[k] * scale } else { otherwise[k] };
-    [pick(0), pick(1), pick(2)]
+    // Blended, not selected: a choice between loads would keep the loop from being vectorised.
+    let none = if squared > 1e-24 { 0.0 } else { 1.0 };
+    let scale = (1.0 - none) / (squared + none).sqrt();
+    [
+        v[0] * scale + otherwise[0] * none,
+        v[1] * scale + otherwise[1] * none,
+        v[2] * scale + otherwise[2] * none,
+    ]
 }
 
 /// Some unit vector at right angles to the unit vector `t`.
 #[inline(always)]
 fn level(t: [f32; 3]) -> [f32; 3] {
     let flat = t[0] * t[0] + t[1] * t[1];
-    let steep = flat < 1e-6;
-    let scale = 1.0 / (if steep { 1.0 } else { flat }).sqrt();
-    [if steep { 1.0 } else { -t[1] * scale }, if steep { 0.0 } else { t[0] * scale }, 0.0]
+    let steep = if flat < 1e-6 { 1.0 } else { 0.0 };
+    let scale = (1.0 - steep) / (flat + steep).sqrt();
+    [steep - t[1] * scale, t[0] * scale, 0.0]
 }
 
 /// Sine and cosine of `x` radians, |x| up to 10³, within 2·10⁻⁷ of a turn's rounding.
