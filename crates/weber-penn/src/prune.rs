@@ -29,7 +29,8 @@ pub(crate) fn pruned_length(ratio: f64, length: f64, mut fits_at: impl FnMut(f64
     let mut trial = length;
     while !fits_at(trial) {
         trial *= SHRINK;
-        if trial < LEAST_PART * length {
+        // Also for a length of zero, which no shrinking ends, and for one that is not a number.
+        if trial <= LEAST_PART * length || trial.is_nan() {
             if ratio >= 1.0 {
                 return None;
             }
