@@ -1,0 +1,39 @@
+//! One module a command: what was typed, and what it does.
+
+mod grow;
+mod params;
+mod species;
+
+use clap::{Parser, Subcommand};
+
+/// Finds the parameters of procedural trees that make them look like pictures.
+#[derive(Debug, Parser)]
+#[command(name = "pleach", version, max_term_width = 100, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    /// Threads to use; all cores by default. Results do not depend on it
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Grow(grow::Grow),
+    Species(species::SpeciesCommand),
+    Params(params::Params),
+}
+
+impl Arguments {
+    pub(crate) fn run(self) -> anyhow::Result<()> {
+        if let Some(threads) = self.threads {
+            rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global()?;
+        }
+        match self.command {
+            Command::Grow(command) => command.run(),
+            Command::Species(command) => command.run(),
+            Command::Params(command) => command.run(),
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! `pleach species`: what is known, or one species as a file.
+
+use crate::{input, output};
+use pleach_tree::Species;
+use serde_json::json;
+
+const EXAMPLES: &str = "Examples:
+  pleach species                                 a table of the species that come with pleach
+  pleach species quaking_aspen > my_aspen.toml   a copy to change";
+
+/// List the known species, or print one as a species file
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct SpeciesCommand {
+    /// A species, by name or file, to print as a file with every parameter
+    name: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl SpeciesCommand {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        if let Some(name) = &self.name {
+            let species = input::species(name)?;
+            return if self.json {
+                output::json(&all_values(&species))
+            } else {
+                output::line(species.to_toml(&[]).trim_end())
+            };
+        }
+        let known: Vec<Species> =
+            pleach_generators::names().iter().filter_map(|name| pleach_generators::preset(name)).collect();
+        if self.json {
+            let list: Vec<_> = known
+                .iter()
+                .map(|s| json!({"species": s.name, "generator": s.generator.family(), "description": s.description}))
+                .collect();
+            return output::json(&list);
+        }
+        let mut rows = vec![vec!["species".to_owned(), "generator".to_owned(), "description".to_owned()]];
+        rows.extend(known.into_iter().map(|s| vec![s.name, s.generator.family().to_owned(), s.description]));
+        output::line(output::table(&rows, &[]))
+    }
+}
+
+fn all_values(species: &Species) -> serde_json::Value {
+    let space = species.generator.space();
+    let values: serde_json::Map<_, _> = space
+        .params()
+        .iter()
+        .enumerate()
+        .map(|(i, param)| {
+            let values = species.params.of(space, i);
+            (param.name.to_string(), if values.len() == 1 { json!(values[0]) } else { json!(values) })
+        })
+        .collect();
+    json!({"species": species.name, "generator": species.generator.family(), "parameters": values})
+}

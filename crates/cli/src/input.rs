@@ -1,0 +1,44 @@
+//! What several commands read from their arguments.
+
+use pleach_generators::RegistryError;
+use pleach_tree::{Limits, Species};
+use std::ops::Range;
+
+/// A species by name or file.
+pub(crate) fn species(name: &str) -> Result<Species, RegistryError> {
+    pleach_generators::species(name)
+}
+
+/// Seeds must survive a round trip through a species file and JSON: below 2⁵³.
+pub(crate) fn seed(text: &str) -> Result<u64, String> {
+    let most = 1_u64 << 53;
+    match text.parse::<u64>() {
+        Ok(seed) if seed <= most => Ok(seed),
+        _ => Err(format!("a seed is a whole number from 0 to {most}")),
+    }
+}
+
+/// `A..B`: from A up to, and without, B.
+pub(crate) fn seeds(text: &str) -> Result<Range<u64>, String> {
+    let hint = || format!("`{text}` is no range of seeds, expected A..B with A below B, such as 0..100");
+    let (from, to) = text.split_once("..").ok_or_else(hint)?;
+    let range = seed(from)?..seed(to)?;
+    if range.is_empty() { Err(hint()) } else { Ok(range) }
+}
+
+/// Bounds on the size of a tree.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct LimitArgs {
+    /// A tree with more stems is an error
+    #[arg(long, value_name = "N", default_value_t = Limits::default().stems, help_heading = "Limits")]
+    max_stems: usize,
+    /// A tree with more leaves and blossoms is an error
+    #[arg(long, value_name = "N", default_value_t = Limits::default().leaves, help_heading = "Limits")]
+    max_leaves: usize,
+}
+
+impl LimitArgs {
+    pub(crate) const fn limits(self) -> Limits {
+        Limits { stems: self.max_stems, leaves: self.max_leaves }
+    }
+}

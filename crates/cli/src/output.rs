@@ -1,0 +1,81 @@
+//! Standard output and standard error.
+
+#![expect(clippy::print_stderr, reason = "this is the one place that prints messages")]
+
+use serde::Serialize;
+use std::io::{IsTerminal, Write};
+
+/// Writes `text` and a line's end to standard output.
+pub(crate) fn line(text: impl std::fmt::Display) -> anyhow::Result<()> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{text}")?;
+    Ok(())
+}
+
+/// Writes `value` to standard output as JSON on one line.
+pub(crate) fn json(value: &impl Serialize) -> anyhow::Result<()> {
+    line(serde_json::to_string(value)?)
+}
+
+/// Tells the user something on standard error that is no result.
+pub(crate) fn note(text: impl std::fmt::Display) {
+    eprintln!("{text}");
+}
+
+/// Tells the user why the program failed: each cause on its own line.
+pub(crate) fn error(error: &anyhow::Error) {
+    let mut message = String::new();
+    for (i, cause) in error.chain().enumerate() {
+        let cause = cause.to_string();
+        // Errors that carry their source in their own words would say it twice.
+        if i > 0 && message.contains(&cause) {
+            continue;
+        }
+        message.push_str(if i == 0 { "error: " } else { "\n  because: " });
+        message.push_str(&cause);
+    }
+    eprintln!("{message}");
+}
+
+/// Whether `error` only says that nobody reads standard output any more.
+pub(crate) fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| {
+        let io = cause.downcast_ref::<std::io::Error>().map(std::io::Error::kind);
+        let json = cause.downcast_ref::<serde_json::Error>().and_then(serde_json::Error::io_error_kind);
+        io.or(json) == Some(std::io::ErrorKind::BrokenPipe)
+    })
+}
+
+/// Whether a person watches standard error.
+pub(crate) fn is_watched() -> bool {
+    std::io::stderr().is_terminal()
+}
+
+/// A table of text with aligned columns; the first row is the heading, `numbers` lists the columns
+/// that are set to the right.
+pub(crate) fn table(rows: &[Vec<String>], numbers: &[usize]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |c: usize| rows.iter().filter_map(|r| r.get(c)).map(|t| t.chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (c, cell) in row.iter().enumerate() {
+            let pad = " ".repeat(widths[c] - cell.chars().count());
+            if c > 0 {
+                line.push_str("  ");
+            }
+            if numbers.contains(&c) {
+                line.push_str(&pad);
+                line.push_str(cell);
+            } else {
+                line.push_str(cell);
+                line.push_str(&pad);
+            }
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text.truncate(text.trim_end().len());
+    text
+}

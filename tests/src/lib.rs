@@ -1,0 +1,158 @@
+//! What the end-to-end tests share: the program, a fresh directory, and readable failures.
+//!
+//! | file in `tests/` | what belongs there |
+//! | --- | --- |
+//! | `grow.rs`, `silhouette.rs`, `score.rs`, `fit.rs`, … | one file a command, run as a user would |
+//! | `bad_input.rs` | everything that must end in a clear error |
+//! | `reference_stats.rs` | our trees against those of the reference generator |
+//! | `experiments.rs` | a slice of each experiment against its committed results |
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+/// The root of the repository.
+#[must_use]
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().expect("the repository is where it was built")
+}
+
+/// The program, built in the profile of these tests.
+///
+/// Cargo builds a package's binaries before its own tests only, so this asks for it; where it is up
+/// to date, that takes a moment.
+#[must_use]
+pub fn program() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| {
+        let here = std::env::current_exe().expect("a test has a path");
+        let profile = here.ancestors().nth(2).expect("a test lies in target/PROFILE/deps");
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.current_dir(root()).args(["build", "--quiet", "--package", "pleach"]);
+        if profile.ends_with("release") {
+            cargo.arg("--release");
+        }
+        let status = cargo.status().expect("cargo runs");
+        assert!(status.success(), "the program builds");
+        profile.join(format!("pleach{}", std::env::consts::EXE_SUFFIX))
+    })
+}
+
+/// A fresh directory in which the program is run; removed at the end.
+#[derive(Debug)]
+pub struct Dir(tempfile::TempDir);
+
+impl Default for Dir {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Dir {
+    /// Makes the directory.
+    #[must_use]
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().expect("a temporary directory"))
+    }
+
+    /// A path inside.
+    #[must_use]
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Writes a file and gives its path.
+    #[must_use]
+    pub fn file(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path(name);
+        std::fs::write(&path, content).expect("a file in a fresh directory");
+        path
+    }
+
+    /// The program, ready to be given more arguments, with this directory as the working directory.
+    pub fn command<S: AsRef<OsStr>>(&self, args: impl IntoIterator<Item = S>) -> Command {
+        let mut command = Command::new(program());
+        command.current_dir(self.0.path()).args(args);
+        command
+    }
+
+    /// Runs the program.
+    pub fn run<S: AsRef<OsStr>>(&self, args: impl IntoIterator<Item = S>) -> Run {
+        let mut command = self.command(args);
+        let output = command.output().expect("the program starts");
+        Run { what: format!("{command:?}"), output }
+    }
+}
+
+/// A finished run.
+#[derive(Debug)]
+pub struct Run {
+    what: String,
+    output: Output,
+}
+
+impl Run {
+    /// Exit code; −1 for a signal.
+    #[must_use]
+    pub fn code(&self) -> i32 {
+        self.output.status.code().unwrap_or(-1)
+    }
+
+    /// Standard output.
+    #[must_use]
+    pub fn stdout(&self) -> String {
+        String::from_utf8_lossy(&self.output.stdout).into_owned()
+    }
+
+    /// Standard error.
+    #[must_use]
+    pub fn stderr(&self) -> String {
+        String::from_utf8_lossy(&self.output.stderr).into_owned()
+    }
+
+    /// Standard output of a run that ended with 0.
+    ///
+    /// # Panics
+    /// If it did not.
+    #[track_caller]
+    #[must_use]
+    pub fn ok(&self) -> String {
+        assert_eq!(self.code(), 0, "{self}");
+        self.stdout()
+    }
+
+    /// Standard output of a run that ended with 0, as JSON.
+    ///
+    /// # Panics
+    /// If it did not, or is no JSON.
+    #[track_caller]
+    #[must_use]
+    pub fn json(&self) -> serde_json::Value {
+        serde_json::from_str(&self.ok()).unwrap_or_else(|e| panic!("{e}\n{self}"))
+    }
+
+    /// Checks that the run failed with `code` and that standard error holds all of `words`, and no
+    /// sign of a panic.
+    ///
+    /// # Panics
+    /// If it is otherwise.
+    #[track_caller]
+    pub fn fails(&self, code: i32, words: &[&str]) {
+        assert_eq!(self.code(), code, "{self}");
+        let message = self.stderr();
+        assert!(!message.contains("panicked"), "{self}");
+        for word in words {
+            assert!(message.contains(word), "`{word}` is not in the message\n{self}");
+        }
+    }
+}
+
+impl std::fmt::Display for Run {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let line = "─".repeat(60);
+        writeln!(f, "{}\nended with {}", self.what, self.output.status)?;
+        writeln!(f, "{line} standard output\n{}", self.stdout())?;
+        write!(f, "{line} standard error\n{}", self.stderr())
+    }
+}
