@@ -39,6 +39,6 @@ pub(crate) struct LimitArgs {
 
 impl LimitArgs {
     pub(crate) const fn limits(self) -> Limits {
-        Limits { stems: self.max_stems, leaves: self.max_leaves }
+        Limits { stems: self.max_stems, leaves: self.max_leaves, knots: self.max_stems.saturating_mul(20) }
     }
 }

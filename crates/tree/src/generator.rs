@@ -13,12 +13,15 @@ pub struct Limits {
     pub stems: usize,
     /// Most leaves and blossoms together.
     pub leaves: usize,
+    /// Most knots of all stems together: what time and memory grow with.
+    pub knots: usize,
 }
 
 impl Default for Limits {
-    /// 500,000 stems and 5,000,000 leaves: ten times the largest of the known species.
+    /// 500,000 stems, 5,000,000 leaves and 10,000,000 knots (a gigabyte): ten times the largest of
+    /// the known species and more.
     fn default() -> Self {
-        Self { stems: 500_000, leaves: 5_000_000 }
+        Self { stems: 500_000, leaves: 5_000_000, knots: 10_000_000 }
     }
 }
 
@@ -67,6 +70,12 @@ pub enum GrowError {
     /// More leaves and blossoms than [`Limits::leaves`].
     #[error("the tree would have more than {limit} leaves; a smaller leaf number, or a higher limit")]
     TooManyLeaves {
+        /// The limit.
+        limit: usize,
+    },
+    /// More knots than [`Limits::knots`].
+    #[error("the tree's stems would have more than {limit} knots; fewer or simpler stems, or a higher limit")]
+    TooManyKnots {
         /// The limit.
         limit: usize,
     },
@@ -138,6 +147,16 @@ pub trait Generator: Send + Sync + fmt::Debug {
     fn reads(&self, values: &[f64], slot: usize) -> bool {
         let _ = (values, slot);
         true
+    }
+
+    /// The values, in rising order, at which the number in slot number `slot` starts to mean
+    /// something else, though a tree changes gradually across them; empty for most.
+    ///
+    /// `taper` of Weber and Penn is an example: a cone up to 1, rounded up to 2, beads above. A sign
+    /// that is a switch is told by [`Kind::Flagged`](crate::Kind::Flagged) instead.
+    fn regimes(&self, slot: usize) -> &'static [f64] {
+        let _ = slot;
+        &[]
     }
 
     /// The parts of a species file beside the numbers (solids, a grammar), as TOML lines that

@@ -253,6 +253,9 @@ impl Job<'_> {
                 radius: profile.at(place(i as f64)),
             }));
         }
+        if knots.len() > self.growth.limits.knots {
+            return Err(GrowError::TooManyKnots { limit: self.growth.limits.knots });
+        }
         let knot_count = knots.len() as u32 - first_knot;
         let kind = match (stem.depth, stem.clone) {
             (_, Some(_)) => StemKind::Clone,
@@ -291,6 +294,9 @@ impl Job<'_> {
         let limits = self.growth.limits;
         if tree.stems.len() > limits.stems {
             return Err(GrowError::TooManyStems { limit: limits.stems });
+        }
+        if tree.knots.len() > limits.knots {
+            return Err(GrowError::TooManyKnots { limit: limits.knots });
         }
         if tree.leaves.len() + tree.blossoms.len() > limits.leaves {
             return Err(GrowError::TooManyLeaves { limit: limits.leaves });
