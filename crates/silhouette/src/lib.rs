@@ -1,1 +1,16 @@
-//! Cameras, a bit-packed rasteriser, goal images and image scores.
+//! Silhouettes of trees: cameras, a bit-packed rasteriser, goal images and image scores.
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | [`bitmap`] | one-bit pictures in 64-bit words |
+//! | [`view`] | directions of view, frames, cameras |
+//! | [`raster`] | a tree drawn straight into bits |
+
+pub mod bitmap;
+mod encode;
+pub mod raster;
+pub mod view;
+
+pub use bitmap::Bitmap;
+pub use raster::{Detail, FULL_COVERAGE, Rasteriser};
+pub use view::{Camera, Frame, Projection, View};

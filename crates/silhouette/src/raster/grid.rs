@@ -1,0 +1,342 @@
+//! The sub-sample grid: eight samples across a pixel and a few down, one bit each.
+//!
+//! Shapes set the samples whose centres they cover, which keeps the mean coverage of anything, be it
+//! ever so thin. A pixel is black where at least half its samples are.
+//!
+//! A byte of a row is a pixel: counting its bits, and comparing with a half, is done for eight pixels
+//! at once in the bytes of a word.
+
+use crate::bitmap::Bitmap;
+
+/// Samples across a pixel: a byte.
+pub(crate) const ACROSS: u32 = 8;
+
+/// Rows of samples.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Grid {
+    /// Pixels across and down.
+    width: u32,
+    height: u32,
+    /// Samples down a pixel.
+    down: u32,
+    words_per_row: usize,
+    words: Vec<u64>,
+}
+
+/// A corner of a polygon in samples: x to the right, y down.
+pub(crate) type Corner = [f32; 2];
+
+/// Columns that the narrow path holds in one word.
+const NARROW: f32 = 63.0;
+/// Crossings of one row that the wide path sorts; more corners than this are no shape of ours.
+const MOST_CROSSINGS: usize = 64;
+
+impl Grid {
+    /// Clears the grid for a picture of this size with `down` samples down a pixel.
+    pub(crate) fn reset(&mut self, width: u32, height: u32, down: u32) {
+        self.width = width;
+        self.height = height;
+        self.down = down;
+        self.words_per_row = (width as usize * ACROSS as usize).div_ceil(64);
+        let words = self.words_per_row * (height * down) as usize;
+        self.words.clear();
+        self.words.resize(words, 0);
+    }
+
+    /// Samples across and down the whole grid.
+    fn extent(&self) -> (f32, f32) {
+        ((self.width * ACROSS) as f32, (self.height * self.down) as f32)
+    }
+
+    /// Fills a simple polygon, convex or not (even-odd). Corners that are not finite draw nothing.
+    pub(crate) fn fill(&mut self, corners: &[Corner]) {
+        let (mut left, mut right) = (f32::INFINITY, f32::NEG_INFINITY);
+        let (mut top, mut bottom) = (f32::INFINITY, f32::NEG_INFINITY);
+        for &[x, y] in corners {
+            left = left.min(x);
+            right = right.max(x);
+            top = top.min(y);
+            bottom = bottom.max(y);
+        }
+        let (wide, high) = self.extent();
+        // Written so that a NaN in any corner ends here too.
+        if !(right > 0.0
+            && left < wide
+            && bottom > 0.0
+            && top < high
+            && right - left < 1e7
+            && bottom - top < 1e7)
+            || corners.iter().any(|c| !(c[0].is_finite() && c[1].is_finite()))
+        {
+            return;
+        }
+        let first = row_from(top).max(0) as usize;
+        let last = (row_from(bottom).max(0) as usize).min(high as usize);
+        if first >= last {
+            return;
+        }
+        if right - left < NARROW && left >= 0.0 && right <= wide {
+            self.fill_narrow(corners, left, first, last);
+        } else {
+            self.fill_wide(corners, first, last);
+        }
+    }
+
+    /// Polygons at most a word wide, inside the grid from left to right.
+    ///
+    /// Each crossing of an edge with a row flips all samples to its right; what is left set after
+    /// the last edge is the inside.
+    fn fill_narrow(&mut self, corners: &[Corner], left: f32, first: usize, last: usize) {
+        const ROWS: usize = 64;
+        let origin = left.floor();
+        let word = origin as usize / 64;
+        let shift = origin as u32 % 64;
+        let mut start = first;
+        while start < last {
+            let end = (start + ROWS).min(last);
+            let mut rows = [0_u64; ROWS];
+            let mut p = corners[corners.len() - 1];
+            for &q in corners {
+                let (a, b) = if p[1] < q[1] { (p, q) } else { (q, p) };
+                p = q;
+                let from = (row_from(a[1]).max(0) as usize).max(start);
+                let to = (row_from(b[1]).max(0) as usize).min(end);
+                if from < to {
+                    let slope = (b[0] - a[0]) / (b[1] - a[1]);
+                    let mut x = a[0] - origin + (from as f32 + 0.5 - a[1]) * slope + 0.5;
+                    for row in &mut rows[from - start..to - start] {
+                        // First sample centre at or right of the crossing.
+                        let column = (x as i32).clamp(0, 63);
+                        *row ^= u64::MAX << column;
+                        x += slope;
+                    }
+                }
+            }
+            let stride = self.words_per_row;
+            let base = start * stride + word;
+            if shift == 0 {
+                for (row, bits) in rows[..end - start].iter().enumerate() {
+                    self.words[base + row * stride] |= bits;
+                }
+            } else if word + 1 < stride {
+                for (row, bits) in rows[..end - start].iter().enumerate() {
+                    let pair = &mut self.words[base + row * stride..base + row * stride + 2];
+                    pair[0] |= bits << shift;
+                    pair[1] |= bits >> (64 - shift);
+                }
+            } else {
+                for (row, bits) in rows[..end - start].iter().enumerate() {
+                    self.words[base + row * stride] |= bits << shift;
+                }
+            }
+            start = end;
+        }
+    }
+
+    /// Any polygon: the crossings of each row, sorted, and spans between them.
+    fn fill_wide(&mut self, corners: &[Corner], first: usize, last: usize) {
+        let (wide, _) = self.extent();
+        let mut crossings = [0.0_f32; MOST_CROSSINGS];
+        for row in first..last {
+            let y = row as f32 + 0.5;
+            let mut count = 0;
+            let mut p = corners[corners.len() - 1];
+            for &q in corners {
+                if (p[1] <= y) != (q[1] <= y) && count < MOST_CROSSINGS {
+                    crossings[count] = p[0] + (y - p[1]) * (q[0] - p[0]) / (q[1] - p[1]);
+                    count += 1;
+                }
+                p = q;
+            }
+            let crossings = &mut crossings[..count];
+            crossings.sort_unstable_by(f32::total_cmp);
+            let words = &mut self.words[row * self.words_per_row..][..self.words_per_row];
+            for span in crossings.chunks_exact(2) {
+                let from = (span[0] - 0.5).ceil().clamp(0.0, wide) as usize;
+                let to = (span[1] - 0.5).ceil().clamp(0.0, wide) as usize;
+                set_span(words, from, to);
+            }
+        }
+    }
+
+    /// Reduces the samples to pixels: black where at least half of them are.
+    pub(crate) fn resolve(&self, out: &mut Bitmap) {
+        out.reset(self.width, self.height);
+        // Adding this to a byte carries into its top bit where it is at least half of the samples.
+        let half = u64::from(0x80 - (ACROSS * self.down / 2)) * LOW_BITS;
+        for y in 0..self.height {
+            let samples = self.pixel_rows(y);
+            let row = out.row_mut(y);
+            for word in 0..self.words_per_row {
+                let black = (counts(samples, self.words_per_row, word) + half) & HIGH_BITS;
+                // Gathers the eight top bits into one byte.
+                let byte = (black >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56;
+                row[word / 8] |= byte << (word % 8 * 8);
+            }
+        }
+        mask_beyond(out);
+    }
+
+    /// Samples of ink in each pixel, row by row, 0 to `8 · down`.
+    pub(crate) fn coverage(&self, out: &mut Vec<u8>) {
+        out.clear();
+        for y in 0..self.height {
+            let samples = self.pixel_rows(y);
+            let row = (0..self.words_per_row)
+                .flat_map(|word| counts(samples, self.words_per_row, word).to_le_bytes());
+            out.extend(row.take(self.width as usize));
+        }
+    }
+
+    fn pixel_rows(&self, y: u32) -> &[u64] {
+        let start = (y * self.down) as usize * self.words_per_row;
+        &self.words[start..start + self.down as usize * self.words_per_row]
+    }
+}
+
+const LOW_BITS: u64 = 0x0101_0101_0101_0101;
+const HIGH_BITS: u64 = 0x8080_8080_8080_8080;
+
+/// Set samples in each of eight pixels, in the bytes of a word.
+fn counts(samples: &[u64], words_per_row: usize, word: usize) -> u64 {
+    let mut sum = 0;
+    for row in samples.chunks_exact(words_per_row) {
+        let v = row[word];
+        let v = v - (v >> 1 & 0x5555_5555_5555_5555);
+        let v = (v & 0x3333_3333_3333_3333) + (v >> 2 & 0x3333_3333_3333_3333);
+        sum += (v + (v >> 4)) & 0x0f0f_0f0f_0f0f_0f0f;
+    }
+    sum
+}
+
+/// The first row whose samples are at or below `y`: they lie in the middle of the row.
+fn row_from(y: f32) -> i32 {
+    (y - 0.5).ceil() as i32
+}
+
+fn set_span(words: &mut [u64], from: usize, to: usize) {
+    if from >= to {
+        return;
+    }
+    let (first, last) = (from / 64, (to - 1) / 64);
+    let (head, tail) = (u64::MAX << (from % 64), u64::MAX >> (63 - (to - 1) % 64));
+    if first == last {
+        words[first] |= head & tail;
+    } else {
+        words[first] |= head;
+        words[first + 1..last].fill(u64::MAX);
+        words[last] |= tail;
+    }
+}
+
+/// Clears the bits beyond the width.
+fn mask_beyond(bitmap: &mut Bitmap) {
+    let beyond = bitmap.width() % 64;
+    if beyond != 0 {
+        for y in 0..bitmap.height() {
+            if let Some(last) = bitmap.row_mut(y).last_mut() {
+                *last &= (1 << beyond) - 1;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(width: u32, height: u32, polygons: &[&[Corner]]) -> Bitmap {
+        let mut grid = Grid::default();
+        grid.reset(width, height, 4);
+        for polygon in polygons {
+            let corners: Vec<Corner> = polygon.iter().map(|c| [c[0] * 8.0, c[1] * 4.0]).collect();
+            grid.fill(&corners);
+        }
+        let mut bitmap = Bitmap::default();
+        grid.resolve(&mut bitmap);
+        bitmap
+    }
+
+    #[test]
+    fn narrow_and_wide_agree_with_a_point_test() {
+        // A star-like polygon, small and large, inside and across the edges.
+        let inside = |corners: &[Corner], x: f32, y: f32| {
+            let mut inside = false;
+            let mut p = corners[corners.len() - 1];
+            for &q in corners {
+                if (p[1] <= y) != (q[1] <= y) && x >= p[0] + (y - p[1]) * (q[0] - p[0]) / (q[1] - p[1]) {
+                    inside = !inside;
+                }
+                p = q;
+            }
+            inside
+        };
+        for size in [0.7_f32, 2.0, 3.5, 9.0, 30.0] {
+            for (cx, cy) in [(10.3, 9.7), (1.2, 2.0), (19.0, 19.5), (10.0, -1.0)] {
+                let corners: Vec<Corner> = (0..9)
+                    .map(|i| {
+                        let angle = i as f32 * std::f32::consts::TAU / 9.0;
+                        let r = size * if i % 2 == 0 { 1.0 } else { 0.45 };
+                        [cx + r * angle.cos(), cy + r * angle.sin()]
+                    })
+                    .collect();
+                let bitmap = drawn(20, 20, &[&corners]);
+                let expected = Bitmap::from_fn(20, 20, |px, py| {
+                    let hits = (0..32)
+                        .filter(|k| {
+                            let (x, y) = (
+                                px as f32 + (k % 8) as f32 / 8.0 + 0.0625,
+                                py as f32 + (k / 8) as f32 / 4.0 + 0.125,
+                            );
+                            inside(&corners, x, y)
+                        })
+                        .count();
+                    hits >= 16
+                });
+                let off = bitmap.differing(&expected);
+                assert!(
+                    off <= 1,
+                    "size {size} at {cx}, {cy}: {off} pixels\n{}\n{}",
+                    bitmap.to_ascii(),
+                    expected.to_ascii()
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn thin_shapes_keep_their_coverage_in_the_mean() {
+        let mut grid = Grid::default();
+        grid.reset(64, 64, 4);
+        // Hundreds of slivers a twentieth of a pixel wide at odd angles.
+        let mut area = 0.0;
+        for i in 0..400 {
+            let (x, y, angle) = (4.0 + (i % 20) as f32 * 2.9, 4.0 + (i / 20) as f32 * 2.7, i as f32 * 0.37);
+            let (dx, dy) = (angle.cos(), angle.sin());
+            let (nx, ny) = (-dy * 0.025, dx * 0.025);
+            let corner = |s: f32, n: f32| [(x + dx * s + nx * n) * 8.0, (y + dy * s + ny * n) * 4.0];
+            grid.fill(&[corner(0.0, 1.0), corner(2.0, 1.0), corner(2.0, -1.0), corner(0.0, -1.0)]);
+            area += 2.0 * 0.05;
+        }
+        let mut coverage = Vec::new();
+        grid.coverage(&mut coverage);
+        let drawn = coverage.iter().map(|&c| f32::from(c)).sum::<f32>() / 32.0;
+        assert!((drawn / area - 1.0).abs() < 0.1, "{drawn} of {area}");
+    }
+
+    #[test]
+    fn nonsense_draws_nothing() {
+        let bitmap = drawn(
+            8,
+            8,
+            &[
+                &[[f32::NAN, 1.0], [4.0, 4.0], [1.0, 6.0]],
+                &[[1.0, f32::INFINITY], [4.0, 4.0], [1.0, 6.0]],
+                &[[-1e30, 0.0], [1e30, 0.0], [0.0, 1e30]],
+                &[[20.0, 20.0], [30.0, 20.0], [25.0, 30.0]],
+                &[[1.0, 1.0], [1.0, 1.0], [1.0, 1.0]],
+            ],
+        );
+        assert_eq!(bitmap.ink(), 0);
+    }
+}

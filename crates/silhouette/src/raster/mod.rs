@@ -1,0 +1,181 @@
+//! From a tree to a silhouette, without a mesh.
+//!
+//! Stems are tapered strips along their splines, flattened to a tenth of a pixel; leaves and blossoms
+//! are polygons with no more corners than can be seen. Shapes set the bits of a sub-sample grid that
+//! they cover, and a pixel is black from half coverage: the way in which the reference silhouettes
+//! were drawn, and the one that neither thickens nor loses twigs thinner than a pixel.
+
+mod grid;
+mod outline;
+mod strip;
+
+use crate::bitmap::Bitmap;
+use crate::view::{Camera, Frame, View};
+use glam::{Vec2, Vec3};
+use grid::{ACROSS, Corner, Grid};
+use outline::OutlineCache;
+use pleach_tree::plant::Leaf;
+use pleach_tree::{StemKind, Tree};
+
+/// Samples of ink in a fully covered pixel at [`Detail::Full`].
+pub const FULL_COVERAGE: u8 = 32;
+
+/// How finely pixels are sampled: always eight samples across.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Detail {
+    /// Four samples down.
+    #[default]
+    Full,
+    /// Two samples down: for searches.
+    Half,
+    /// One sample down: for coarse searches.
+    Draft,
+}
+
+impl Detail {
+    const fn down(self) -> u32 {
+        match self {
+            Self::Full => 4,
+            Self::Half => 2,
+            Self::Draft => 1,
+        }
+    }
+}
+
+/// Draws silhouettes; keeps its memory from one to the next.
+#[derive(Clone, Debug, Default)]
+pub struct Rasteriser {
+    /// How finely pixels are sampled.
+    pub detail: Detail,
+    grid: Grid,
+    outline: OutlineCache,
+}
+
+impl Rasteriser {
+    /// A rasteriser at full detail.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A rasteriser at the given detail.
+    #[must_use]
+    pub fn with_detail(detail: Detail) -> Self {
+        Self { detail, ..Self::default() }
+    }
+
+    /// Draws `tree` into `out`, which takes the frame's size; `foliage` says whether leaves and
+    /// blossoms are drawn. Allocates nothing once its memory has grown to the picture's size.
+    pub fn draw(&mut self, tree: &Tree, view: &View, frame: &Frame, foliage: bool, out: &mut Bitmap) {
+        self.sample(tree, view, frame, foliage);
+        self.grid.resolve(out);
+    }
+
+    /// The share of each pixel that the last drawn tree covers, row by row: set samples, of eight
+    /// times as many as the detail has down ([`FULL_COVERAGE`] at [`Detail::Full`]).
+    pub fn coverage(&self, out: &mut Vec<u8>) {
+        self.grid.coverage(out);
+    }
+
+    fn sample(&mut self, tree: &Tree, view: &View, frame: &Frame, foliage: bool) {
+        let down = self.detail.down();
+        self.grid.reset(frame.width, frame.height, down);
+        let camera = Camera::new(view, frame);
+        let scale = Vec2::new(ACROSS as f32, down as f32);
+        for stem in tree.stems.iter().filter(|s| s.kind != StemKind::Root) {
+            strip::draw(&mut self.grid, &camera, scale, tree, stem);
+        }
+        if foliage {
+            self.leaves(tree, &camera, scale);
+            self.blossoms(tree, &camera, scale);
+        }
+    }
+
+    fn leaves(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
+        let Some(first) = tree.leaves.first() else { return };
+        let pixels = camera.pixels_per_metre() as f32;
+        let size = [first.across.length() * pixels, first.along.length() * pixels];
+        let outline = self.outline.get(tree.leaf_shape, size);
+        let placer = Placer::new(camera, scale);
+        let mut corners = [[0.0; 2]; 48];
+        for leaf in &tree.leaves {
+            let Some([at, across, along]) = placer.place(leaf) else { continue };
+            let corners = &mut corners[..outline.len()];
+            for (corner, p) in corners.iter_mut().zip(outline) {
+                *corner =
+                    [at[0] + across[0] * p[0] + along[0] * p[1], at[1] + across[1] * p[0] + along[1] * p[1]];
+            }
+            self.grid.fill(corners);
+        }
+    }
+
+    fn blossoms(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
+        let faces = tree.blossom_shape.faces();
+        let placer = Placer::new(camera, scale);
+        let mut corners = [[0.0; 2]; 8];
+        for blossom in &tree.blossoms {
+            let Some([at, across, along]) = placer.place(blossom) else { continue };
+            let normal = placer.normal(blossom);
+            for polygon in faces.polygons {
+                let corners = &mut corners[..polygon.len()];
+                for (corner, &vertex) in corners.iter_mut().zip(*polygon) {
+                    let [u, v, w] = faces.vertices[usize::from(vertex)];
+                    *corner = [
+                        at[0] + across[0] * u + along[0] * v + normal[0] * w,
+                        at[1] + across[1] * u + along[1] * v + normal[1] * w,
+                    ];
+                }
+                self.grid.fill(corners);
+            }
+        }
+    }
+}
+
+/// Takes the frames of leaves from the world to samples.
+struct Placer<'a> {
+    camera: &'a Camera,
+    right: Vec3,
+    down: Vec3,
+    origin: Vec2,
+    scale: Vec2,
+    orthographic: bool,
+}
+
+impl<'a> Placer<'a> {
+    fn new(camera: &'a Camera, scale: Vec2) -> Self {
+        let (x, y) = camera.project(glam::DVec3::ZERO, 1.0);
+        Self {
+            camera,
+            right: camera.right.as_vec3() * scale.x,
+            down: camera.down.as_vec3() * scale.y,
+            origin: Vec2::new(x as f32, y as f32) * scale,
+            scale,
+            orthographic: camera.is_orthographic(),
+        }
+    }
+
+    /// Position and the two axes of a leaf in samples; none behind the camera. Under perspective a
+    /// leaf is drawn at the magnification of its base.
+    fn place(&self, leaf: &Leaf) -> Option<[Corner; 3]> {
+        let (across, along) = (self.flat(leaf.across), self.flat(leaf.along));
+        if self.orthographic {
+            let at = self.flat(leaf.position);
+            return Some([[at[0] + self.origin.x, at[1] + self.origin.y], across, along]);
+        }
+        let point = leaf.position.as_dvec3();
+        let magnification = self.camera.magnification(point)?;
+        let (x, y) = self.camera.project(point, magnification);
+        let grown = |a: Corner| a.map(|v| v * magnification as f32);
+        Some([[x as f32 * self.scale.x, y as f32 * self.scale.y], grown(across), grown(along)])
+    }
+
+    /// The third axis, which only blossoms have a use for.
+    fn normal(&self, leaf: &Leaf) -> Corner {
+        let magnification = self.camera.magnification(leaf.position.as_dvec3()).unwrap_or(1.0);
+        self.flat(leaf.normal()).map(|v| v * magnification as f32)
+    }
+
+    fn flat(&self, v: Vec3) -> Corner {
+        [v.dot(self.right), v.dot(self.down)]
+    }
+}
