@@ -22,7 +22,12 @@ fn main() {
             bare = bare.min(t.elapsed().as_secs_f64() * 1e3);
         }
         let ink = out.ink() as f64 / out.area() as f64;
-        println!("{name:20} {} leaves {} stems full {best:.2} ms bare {bare:.2} ms ink {ink:.4} bare {:.4}", tree.leaves.len(), tree.stems.len(), b.ink() as f64 / b.area() as f64);
+        println!(
+            "{name:20} {} leaves {} stems full {best:.2} ms bare {bare:.2} ms ink {ink:.4} bare {:.4}",
+            tree.leaves.len(),
+            tree.stems.len(),
+            b.ink() as f64 / b.area() as f64
+        );
         std::fs::write(format!("/tmp/w/{name}_{size}.png"), out.to_png()).unwrap();
         std::fs::write(format!("/tmp/w/{name}_{size}_bare.png"), b.to_png()).unwrap();
     }

@@ -4,11 +4,13 @@
 //! | --- | --- |
 //! | [`bitmap`] | one-bit pictures in 64-bit words |
 //! | [`view`] | directions of view, frames, cameras |
+//! | [`score`] | how alike two silhouettes are |
 //! | [`raster`] | a tree drawn straight into bits |
 
 pub mod bitmap;
 mod encode;
 pub mod raster;
+pub mod score;
 pub mod view;
 
 pub use bitmap::Bitmap;

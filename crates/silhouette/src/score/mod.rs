@@ -1,0 +1,3 @@
+//! How alike two silhouettes are.
+
+pub mod fast;
