@@ -1,6 +1,7 @@
 //! What several commands read from their arguments.
 
 use pleach_generators::RegistryError;
+use pleach_silhouette::View;
 use pleach_tree::{Limits, Species};
 use std::ops::Range;
 
@@ -24,6 +25,20 @@ pub(crate) fn seeds(text: &str) -> Result<Range<u64>, String> {
     let (from, to) = text.split_once("..").ok_or_else(hint)?;
     let range = seed(from)?..seed(to)?;
     if range.is_empty() { Err(hint()) } else { Ok(range) }
+}
+
+/// `AZ` or `AZ,EL` in degrees.
+pub(crate) fn view(text: &str) -> Result<View, String> {
+    let number = |part: &str| part.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let (azimuth, elevation) = text.split_once(',').unwrap_or((text, "0"));
+    match (number(azimuth), number(elevation)) {
+        (Some(azimuth), Some(elevation)) if (-90.0..=90.0).contains(&elevation) => {
+            Ok(View::degrees(azimuth, elevation))
+        }
+        _ => {
+            Err("expected azimuth, or azimuth,elevation, in degrees, the elevation from -90 to 90".to_owned())
+        }
+    }
 }
 
 /// Bounds on the size of a tree.

@@ -2,6 +2,7 @@
 
 mod grow;
 mod params;
+mod silhouette;
 mod species;
 
 use clap::{Parser, Subcommand};
@@ -21,6 +22,7 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Grow(grow::Grow),
+    Silhouette(silhouette::Silhouette),
     Species(species::SpeciesCommand),
     Params(params::Params),
 }
@@ -32,6 +34,7 @@ impl Arguments {
         }
         match self.command {
             Command::Grow(command) => command.run(),
+            Command::Silhouette(command) => command.run(),
             Command::Species(command) => command.run(),
             Command::Params(command) => command.run(),
         }

@@ -14,6 +14,9 @@ const EXAMPLES: &str = "Examples:
 pub(crate) struct SpeciesCommand {
     /// A species, by name or file, to print as a file with every parameter
     name: Option<String>,
+    /// Write this seed into the printed file, for one particular tree
+    #[arg(long, value_name = "N", requires = "name", value_parser = input::seed)]
+    seed: Option<u64>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -22,7 +25,8 @@ pub(crate) struct SpeciesCommand {
 impl SpeciesCommand {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         if let Some(name) = &self.name {
-            let species = input::species(name)?;
+            let mut species = input::species(name)?;
+            species.tree_seed = self.seed.or(species.tree_seed);
             return if self.json {
                 output::json(&all_values(&species))
             } else {
