@@ -22,6 +22,7 @@
 
 pub mod budget;
 pub mod checkpoint;
+pub mod evaluator;
 mod exact;
 pub mod fingerprint;
 pub mod genome;
@@ -38,11 +39,12 @@ mod testing;
 
 pub use budget::{Budget, Clock, StopReason};
 pub use checkpoint::CheckpointError;
+pub use evaluator::{EvalWorkspace, Evaluator, FitProblem, GoalView, ProblemError};
 pub use genome::{Genome, Score, Scored};
 pub use history::{COLUMNS, Column, Observer, Progress, Row};
 pub use method::{Method, Start};
 pub use objective::Objective;
-pub use run::{CheckpointSettings, Control, FitError, Outcome};
+pub use run::{CheckpointSettings, Control, FitError, Outcome, fit};
 pub use search::{Evaluate, Search, SearchState};
 pub use settings::{AnyMethod, FitSettings, Optimizer};
 pub use space::{Freedom, SearchSpace, TreeSeed};

@@ -2,6 +2,7 @@
 
 use crate::budget::{Budget, Clock, Spent, StopReason};
 use crate::checkpoint::{Checkpoint, CheckpointError};
+use crate::evaluator::{Evaluator, FitProblem, ProblemError};
 use crate::fingerprint::Fingerprint;
 use crate::genome::Scored;
 use crate::history::{Observer, Progress, Row};
@@ -75,6 +76,9 @@ pub struct Outcome {
 /// Why a fit could not begin or go on.
 #[derive(Debug, thiserror::Error)]
 pub enum FitError {
+    /// Goals that cannot be compared with.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
     /// Patterns or start values that do not belong to the generator.
     #[error(transparent)]
     Space(#[from] SpaceError),
@@ -87,6 +91,43 @@ pub enum FitError {
     /// The executor failed: a mistake in this crate.
     #[error("the search failed: {0}")]
     Search(String),
+}
+
+/// Finds parameters that grow `problem`'s goals.
+///
+/// Evaluates on rayon's current thread pool. The result depends on `problem` and `settings` only,
+/// not on the number of threads, on batches, or on where a run was interrupted and resumed; a
+/// timeout decides only where it ends.
+///
+/// # Errors
+/// See [`FitError`]; once the search runs, it ends with an [`Outcome`].
+pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -> Result<Outcome, FitError> {
+    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?;
+    let mut space = SearchSpace::new(
+        Arc::clone(&problem.generator),
+        &problem.base,
+        &settings.freedom,
+        settings.tree_seed,
+    )?;
+    if settings.start == Start::Lists(Vec::new()) {
+        return Err(FitError::NoStart);
+    }
+    for list in settings.start.lists() {
+        space.widen(list)?;
+    }
+    let fingerprint = Fingerprint::default()
+        .with_bytes("goal", evaluator.goal_bytes())
+        .with("generator", problem.generator.family())
+        .with_bytes("generator's settings", format!("{:?}", problem.generator))
+        .with("fixed values", &problem.base)
+        .with("free parameters", &settings.freedom)
+        .with("optimizer", &settings.optimizer)
+        .with("seed", &settings.seed)
+        .with("tree seed", &settings.tree_seed)
+        .with("objective", &settings.objective)
+        .with("start", &settings.start)
+        .with("limits", &(settings.limits.stems, settings.limits.leaves, settings.limits.knots));
+    drive(&evaluator, space, settings, fingerprint, control)
 }
 
 /// [`fit`] on anything that can be scored.

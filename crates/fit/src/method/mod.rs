@@ -9,9 +9,11 @@
 //! | [`Random`] | lists drawn independently: the floor to compare with | |
 //! | [`Hewitt`] | copies of a base with one parameter changed each; the two fittest merge to the next base | Hewitt 2017, §3.3.2 |
 
+mod evolution;
 mod hewitt;
 mod random;
 
+pub use evolution::{Evolution, EvolutionSettings};
 pub use hewitt::{Hewitt, HewittSettings, Merge};
 pub use random::{Random, RandomSettings};
 

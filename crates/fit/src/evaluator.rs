@@ -1,0 +1,252 @@
+//! Grow, draw, score: what a fit does a million times.
+
+use crate::genome::{Genome, Score};
+use crate::objective::{Agreement, Objective};
+use crate::search::Evaluate;
+use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
+use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_tree::{CheckedParams, Foliage, Generator, Growth, Limits, Tree, Workspace};
+use rayon::prelude::*;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// One picture of the goal tree, and from where it was taken.
+#[derive(Clone, Debug)]
+pub struct GoalView {
+    /// The picture.
+    pub goal: Bitmap,
+    /// The direction of view.
+    pub view: View,
+    /// Scale and place; of the goal's size.
+    pub frame: Frame,
+}
+
+/// What a fit fits: a generator's numbers to the pictures of one tree.
+#[derive(Clone, Debug)]
+pub struct FitProblem {
+    /// The generator.
+    pub generator: Arc<dyn Generator>,
+    /// Values of the slots that are not free, one for every slot.
+    pub base: Vec<f64>,
+    /// The pictures, at least one; all count the same.
+    pub goals: Vec<GoalView>,
+    /// Whether leaves and blossoms are drawn.
+    pub foliage: bool,
+}
+
+/// Why a problem's goals cannot be compared with.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ProblemError {
+    /// No goal at all.
+    #[error("there is no goal image")]
+    NoGoal,
+    /// A goal and its frame differ in size.
+    #[error("goal {index} has {goal:?} pixels, its frame {frame:?}")]
+    FrameSize {
+        /// Which goal, from 0.
+        index: usize,
+        /// Width and height of the picture.
+        goal: (u32, u32),
+        /// Width and height of the frame.
+        frame: (u32, u32),
+    },
+    /// A goal without ink: everything and nothing fits it.
+    #[error("goal {index} is empty")]
+    EmptyGoal {
+        /// Which goal, from 0.
+        index: usize,
+    },
+    /// A frame that shows no part of the world.
+    #[error("goal {index} is at {metres_per_pixel} metres a pixel, expected a positive number")]
+    Scale {
+        /// Which goal, from 0.
+        index: usize,
+        /// What was given.
+        metres_per_pixel: String,
+    },
+}
+
+/// Weights of the blend: cells of 32, 16, 8, 4 and 2 pixels, then single pixels.
+///
+/// Equal weights. Chosen by experiment over the fifteen species (see `examples/compare.rs`).
+const BLEND: [f64; 6] = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
+
+/// Scores individuals against the goals of a problem. Shared between threads.
+#[derive(Debug)]
+pub struct Evaluator {
+    generator: Arc<dyn Generator>,
+    views: Vec<PreparedView>,
+    foliage: bool,
+    objective: Objective,
+    limits: Limits,
+    pool: Mutex<Vec<Box<EvalWorkspace>>>,
+}
+
+#[derive(Debug)]
+struct PreparedView {
+    prepared: PreparedGoal,
+    goal: Bitmap,
+    view: View,
+    frame: Frame,
+}
+
+/// Memory that one thread reuses from one evaluation to the next: about the largest tree so far.
+#[derive(Debug)]
+pub struct EvalWorkspace {
+    params: CheckedParams,
+    tree: Tree,
+    workspace: Workspace,
+    rasteriser: Rasteriser,
+    bitmap: Bitmap,
+    scratch: Scratch,
+}
+
+impl EvalWorkspace {
+    /// The tree of the last evaluation.
+    #[must_use]
+    pub const fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// The silhouette of the last evaluation, in its last view.
+    #[must_use]
+    pub const fn bitmap(&self) -> &Bitmap {
+        &self.bitmap
+    }
+}
+
+impl Evaluator {
+    /// Prepares the goals of `problem`.
+    ///
+    /// # Errors
+    /// See [`ProblemError`].
+    pub fn new(problem: &FitProblem, objective: Objective, limits: Limits) -> Result<Self, ProblemError> {
+        if problem.goals.is_empty() {
+            return Err(ProblemError::NoGoal);
+        }
+        let mut views = Vec::new();
+        for (index, goal) in problem.goals.iter().enumerate() {
+            let GoalView { goal, view, frame } = goal;
+            let sizes = ((goal.width(), goal.height()), (frame.width, frame.height));
+            if sizes.0 != sizes.1 {
+                return Err(ProblemError::FrameSize { index, goal: sizes.0, frame: sizes.1 });
+            }
+            if goal.ink() == 0 {
+                return Err(ProblemError::EmptyGoal { index });
+            }
+            let scale = frame.metres_per_pixel;
+            if !(scale > 0.0 && scale.is_finite()) {
+                return Err(ProblemError::Scale { index, metres_per_pixel: scale.to_string() });
+            }
+            let prepared = PreparedGoal::new(goal);
+            views.push(PreparedView { prepared, goal: goal.clone(), view: *view, frame: *frame });
+        }
+        Ok(Self {
+            generator: Arc::clone(&problem.generator),
+            views,
+            foliage: problem.foliage,
+            objective,
+            limits,
+            pool: Mutex::default(),
+        })
+    }
+
+    /// Memory for one thread.
+    ///
+    /// # Panics
+    /// If the generator's defaults are not allowed by its own declarations: a mistake there.
+    #[must_use]
+    pub fn workspace(&self) -> EvalWorkspace {
+        let space = self.generator.space();
+        EvalWorkspace {
+            params: space.check(space.defaults()).expect("defaults are allowed values"),
+            tree: Tree::default(),
+            workspace: Workspace::default(),
+            rasteriser: Rasteriser::default(),
+            bitmap: Bitmap::default(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    /// Grows `genome`'s tree, draws it and scores it; [`Score::FAILED`] if it does not grow.
+    ///
+    /// Allocates nothing once `memory` has held a tree as large as this one.
+    pub fn evaluate(&self, genome: &Genome, memory: &mut EvalWorkspace) -> Score {
+        let EvalWorkspace { params, tree, workspace, rasteriser, bitmap, scratch } = memory;
+        if params.set(self.generator.space(), &genome.values).is_err() {
+            return Score::FAILED;
+        }
+        let growth = Growth {
+            seed: genome.tree_seed,
+            limits: self.limits,
+            foliage: if self.foliage { Foliage::All } else { Foliage::None },
+            parallel: false,
+        };
+        if self.generator.grow(params, &growth, workspace, tree).is_err() {
+            return Score::FAILED;
+        }
+        let mut sum = Score { cost: 0.0, iou: 0.0, accuracy: 0.0 };
+        for view in &self.views {
+            rasteriser.draw(tree, &view.view, &view.frame, self.foliage, bitmap);
+            let agreement = view.compare(bitmap, scratch);
+            sum.cost += self.objective.cost(&agreement);
+            sum.iou += agreement.iou;
+            sum.accuracy += agreement.accuracy;
+        }
+        let views = self.views.len() as f64;
+        Score { cost: sum.cost / views, iou: sum.iou / views, accuracy: sum.accuracy / views }
+    }
+
+    /// Share of equal pixels that an empty picture has, in 0..=1; the mean over views.
+    #[must_use]
+    pub fn empty_accuracy(&self) -> f64 {
+        let shares = self.views.iter().map(|v| 1.0 - v.goal.ink() as f64 / v.goal.area() as f64);
+        shares.sum::<f64>() / self.views.len() as f64
+    }
+
+    /// The goals and where they were taken from, for fingerprints.
+    pub(crate) fn goal_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        for view in &self.views {
+            bytes.extend(format!("{:?} {:?} {}\n", view.view, view.frame, self.foliage).bytes());
+            bytes.extend(view.goal.words().iter().flat_map(|word| word.to_le_bytes()));
+        }
+        bytes
+    }
+}
+
+impl PreparedView {
+    fn compare(&self, bitmap: &Bitmap, scratch: &mut Scratch) -> Agreement {
+        let overlaps = self.prepared.overlaps(bitmap, scratch);
+        let iou = overlaps.iou();
+        // `pyramid` goes from cells of 2 pixels up; the weights from 32 down.
+        let scales = overlaps.pyramid.iter().rev().copied().chain([iou]);
+        let (mut sum, mut total) = (0.0, 0.0);
+        for (weight, overlap) in BLEND.iter().zip(scales) {
+            sum += weight * overlap;
+            total += weight;
+        }
+        Agreement {
+            accuracy: 1.0 - overlaps.differing as f64 / self.goal.area() as f64,
+            iou,
+            blend: sum / total,
+        }
+    }
+}
+
+impl Evaluate for Evaluator {
+    fn scores(&self, genomes: &[Genome]) -> Vec<Score> {
+        let pool = || self.pool.lock().unwrap_or_else(PoisonError::into_inner);
+        genomes
+            .par_iter()
+            // Trees differ a hundredfold in cost: each is a piece of work of its own.
+            .with_max_len(1)
+            .map(|genome| {
+                let taken = pool().pop();
+                let mut memory = taken.unwrap_or_else(|| Box::new(self.workspace()));
+                let score = self.evaluate(genome, &mut memory);
+                pool().push(memory);
+                score
+            })
+            .collect()
+    }
+}
