@@ -6,13 +6,16 @@
 //! | [`view`] | directions of view, frames, cameras |
 //! | [`score`] | how alike two silhouettes are |
 //! | [`raster`] | a tree drawn straight into bits |
+//! | [`goal`] | a picture file becomes ink with a ground and a trunk |
 
 pub mod bitmap;
 mod encode;
+pub mod goal;
 pub mod raster;
 pub mod score;
 pub mod view;
 
 pub use bitmap::Bitmap;
+pub use goal::{Goal, GoalError, GoalOptions, Polarity};
 pub use raster::{Detail, FULL_COVERAGE, Rasteriser};
 pub use view::{Camera, Frame, Projection, View};

@@ -1,0 +1,186 @@
+//! What in a picture is tree: opacity, or brightness split in two.
+
+use super::read::Tones;
+use crate::bitmap::Bitmap;
+
+/// Which of the two tones of a picture is the tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Polarity {
+    /// The tone that the picture's edge does not have; with an alpha channel, what is opaque.
+    #[default]
+    Auto,
+    /// Dark tree on light paper. Transparent parts count as paper.
+    DarkTree,
+    /// Light tree on dark paper, as most masks are. Transparent parts count as paper.
+    LightTree,
+}
+
+/// How the tree was told from the paper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Split {
+    /// The tree is what is at least half opaque.
+    Opacity,
+    /// The tree is what is on one side of a brightness.
+    Brightness {
+        /// The greatest brightness, 0 to 255, of the dark part (Otsu's threshold).
+        threshold: u8,
+        /// Whether the dark part is the tree.
+        dark_tree: bool,
+    },
+    /// The picture was one-bit already.
+    None,
+}
+
+/// Tones closer than this make an even picture.
+const LEAST_CONTRAST: u8 = 16;
+/// Opacities farther apart than this make an alpha channel that says something.
+const LEAST_ALPHA_RANGE: u8 = 128;
+
+/// The tree in a picture, and how it was told from the paper.
+pub(super) fn ink_of(tones: &Tones, polarity: Polarity) -> (Bitmap, Split) {
+    let least = tones.opacity.iter().copied().min().unwrap_or(255);
+    let most = tones.opacity.iter().copied().max().unwrap_or(255);
+    if polarity == Polarity::Auto && most - least >= LEAST_ALPHA_RANGE {
+        return (bitmap(tones, |i| tones.opacity[i] >= 128), Split::Opacity);
+    }
+    // Transparent parts show the paper: white under a dark tree, black under a light one.
+    let paper = if polarity == Polarity::LightTree { 0 } else { 255 };
+    let brightness: Vec<u8> =
+        tones.light.iter().zip(&tones.opacity).map(|(&l, &a)| over(l, a, paper)).collect();
+    let mut histogram = [0_u64; 256];
+    for &b in &brightness {
+        histogram[usize::from(b)] += 1;
+    }
+    let threshold = otsu(&histogram).unwrap_or(127);
+    let dark = bitmap(tones, |i| brightness[i] <= threshold);
+    let dark_tree = match polarity {
+        Polarity::DarkTree => true,
+        Polarity::LightTree => false,
+        Polarity::Auto => dark.ink() == dark.area() || !edge_is_ink(&dark),
+    };
+    let ink = if dark_tree { dark } else { bitmap(tones, |i| brightness[i] > threshold) };
+    (ink, Split::Brightness { threshold, dark_tree })
+}
+
+fn over(light: u8, opacity: u8, paper: u8) -> u8 {
+    let (l, a, p) = (u32::from(light), u32::from(opacity), u32::from(paper));
+    ((l * a + p * (255 - a) + 127) / 255) as u8
+}
+
+fn bitmap(tones: &Tones, ink: impl Fn(usize) -> bool) -> Bitmap {
+    let width = tones.width as usize;
+    Bitmap::from_fn(tones.width, tones.height, |x, y| ink(y as usize * width + x as usize))
+}
+
+/// The brightness that best splits a histogram in two: the greatest of the dark part; none if all is
+/// of about one brightness.
+///
+/// Otsu, "A threshold selection method from gray-level histograms" (1979): the split with the
+/// greatest variance between the parts. Where several are equal, as between pure black and white,
+/// the middle one.
+fn otsu(histogram: &[u64; 256]) -> Option<u8> {
+    let darkest = histogram.iter().position(|&n| n > 0)?;
+    let lightest = histogram.iter().rposition(|&n| n > 0)?;
+    if lightest - darkest < usize::from(LEAST_CONTRAST) {
+        return None;
+    }
+    let total: u64 = histogram.iter().sum();
+    let sum: u64 = histogram.iter().zip(0..).map(|(&n, level)| n * level).sum();
+    let (mut below, mut sum_below) = (0_u64, 0_u64);
+    let (mut best, mut first, mut last) = (-1.0_f64, 0_usize, 0_usize);
+    for (level, &count) in histogram.iter().enumerate().take(lightest).skip(darkest) {
+        below += count;
+        sum_below += count * level as u64;
+        let (n0, n1) = (below as f64, (total - below) as f64);
+        let gap = sum_below as f64 / n0 - (sum - sum_below) as f64 / n1;
+        let between = n0 * n1 * gap * gap;
+        if between > best * (1.0 + 1e-12) {
+            (best, first, last) = (between, level, level);
+        } else if between >= best * (1.0 - 1e-12) {
+            last = level;
+        }
+    }
+    Some(((first + last) / 2) as u8)
+}
+
+/// Whether the picture's edge is mostly ink: left, right and top, since trees stand on the bottom.
+/// Where the edge is undecided, the two top corners say.
+fn edge_is_ink(ink: &Bitmap) -> bool {
+    let (w, h) = (ink.width(), ink.height());
+    let (mut inked, mut all) = (0_u64, 0_u64);
+    let mut count = |x, y| {
+        inked += u64::from(ink.get(x, y));
+        all += 1;
+    };
+    (0..w).for_each(|x| count(x, 0));
+    (1..h).for_each(|y| {
+        count(0, y);
+        count(w - 1, y);
+    });
+    let share = inked as f64 / all as f64;
+    if (share - 0.5).abs() > 0.15 {
+        return share > 0.5;
+    }
+    let (cw, ch) = (w.div_ceil(16), h.div_ceil(16));
+    let corner = |left: u32| (0..ch).flat_map(move |y| (left..left + cw).map(move |x| (x, y)));
+    let inked = corner(0).chain(corner(w - cw)).filter(|&(x, y)| ink.get(x, y)).count();
+    inked as u32 > cw * ch
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tones(width: u32, height: u32, light: impl Fn(u32, u32) -> (u8, u8)) -> Tones {
+        let at = |i: u32| light(i % width, i / width);
+        let (light, opacity) = (0..width * height).map(at).unzip();
+        Tones { width, height, light, opacity }
+    }
+
+    /// A trunk on the bottom edge.
+    fn tree(x: u32, y: u32) -> bool {
+        (8..12).contains(&x) && y > 5
+    }
+
+    #[test]
+    fn either_polarity_is_told_by_the_edge() {
+        let expected = Bitmap::from_fn(20, 20, tree);
+        for (on, off, dark_tree) in [(10, 240, true), (250, 30, false), (100, 130, true)] {
+            let t = tones(20, 20, |x, y| (if tree(x, y) { on } else { off }, 255));
+            let (ink, split) = ink_of(&t, Polarity::Auto);
+            assert_eq!(ink, expected, "{on} on {off}");
+            let threshold = ((on as u16 + off as u16) / 2) as u8;
+            let Split::Brightness { threshold: t, dark_tree: d } = split else { panic!("{split:?}") };
+            assert_eq!(d, dark_tree);
+            assert!(t.abs_diff(threshold) <= 1, "{t} and {threshold}");
+        }
+        let t = tones(20, 20, |x, y| (if tree(x, y) { 10 } else { 240 }, 255));
+        assert_eq!(ink_of(&t, Polarity::LightTree).0.ink(), 400 - expected.ink());
+    }
+
+    #[test]
+    fn opacity_goes_before_brightness_unless_told_otherwise() {
+        // A white tree on transparent black.
+        let t = tones(20, 20, |x, y| if tree(x, y) { (255, 255) } else { (0, 0) });
+        assert_eq!(ink_of(&t, Polarity::Auto), (Bitmap::from_fn(20, 20, tree), Split::Opacity));
+        // A black tree on white paper with one transparent corner, told to be dark.
+        let t = tones(20, 20, |x, y| (if tree(x, y) { 0 } else { 255 }, if x + y < 3 { 0 } else { 255 }));
+        assert_eq!(ink_of(&t, Polarity::DarkTree).0, Bitmap::from_fn(20, 20, tree));
+    }
+
+    #[test]
+    fn otsu_splits_two_heaps_between_them() {
+        let mut histogram = [0; 256];
+        for i in 0..20 {
+            histogram[30 + i] = 5;
+            histogram[180 + i] = 50;
+        }
+        let split = otsu(&histogram).unwrap();
+        assert!((49..180).contains(&split), "{split}");
+        assert_eq!(otsu(&[1; 256]).map(|t| t.abs_diff(127) < 2), Some(true));
+        let mut even = [0; 256];
+        even[200] = 7;
+        even[210] = 7;
+        assert_eq!(otsu(&even), None);
+    }
+}

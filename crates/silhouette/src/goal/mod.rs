@@ -1,0 +1,172 @@
+//! Goal images: from a file to ink, with the place where the tree stands.
+//!
+//! 1. The file is decoded within limits: at most [`MOST_SIDE`] pixels to a side and [`MOST_BYTES`].
+//! 2. What is tree is told by opacity where that varies, else by Otsu's threshold on brightness; or
+//!    a mask file says.
+//! 3. Ground row and axis column are read off the ink, unless set by hand.
+//! 4. On request the picture is reduced to a working size, black from half coverage.
+//!
+//! How tall the tree is cannot be seen in a silhouette: [`Goal::frame`] takes it in metres.
+
+mod error;
+mod ink;
+mod read;
+mod shrink;
+mod stand;
+#[cfg(test)]
+mod tests;
+
+pub use error::GoalError;
+pub use ink::{Polarity, Split};
+pub use read::{LEAST_SIDE, MOST_BYTES, MOST_SIDE};
+pub use stand::Origin;
+
+use crate::bitmap::Bitmap;
+use crate::view::Frame;
+use std::path::{Path, PathBuf};
+
+/// What may be set by hand about a goal image.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GoalOptions {
+    /// A picture of the same size that says what is tree; read in the same way as a goal.
+    pub mask: Option<PathBuf>,
+    /// Which of the two tones is the tree, in the mask if there is one.
+    pub polarity: Polarity,
+    /// Where the ground is, in pixels of the file from its top edge.
+    pub ground_row: Option<f64>,
+    /// Where the trunk stands, in pixels of the file from its left edge.
+    pub axis_column: Option<f64>,
+    /// Most pixels to a side of the working picture; larger ones are reduced.
+    pub max_side: Option<u32>,
+}
+
+/// How a goal was understood, to be shown to its user.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Findings {
+    /// Width and height of the picture as it came, in pixels.
+    pub original_size: (u32, u32),
+    /// Pixels of the working picture to one of the original, at most 1.
+    pub reduction: f64,
+    /// How the tree was told from the paper.
+    pub split: Split,
+    /// Whether a mask file said what is tree.
+    pub masked: bool,
+    /// How the ground row came about.
+    pub ground: Origin,
+    /// How the axis column came about.
+    pub axis: Origin,
+}
+
+/// A picture of a tree that parameters are to be found for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goal {
+    /// The tree as ink, at the working size.
+    pub bitmap: Bitmap,
+    /// Where the ground is, in pixels of `bitmap` from its top edge; its height at most.
+    pub ground_row: f64,
+    /// Where the trunk stands, in pixels of `bitmap` from its left edge.
+    pub axis_column: f64,
+    /// The upper edge of the highest ink, in pixels of `bitmap` from its top edge; above the ground.
+    pub top_row: f64,
+    /// How the picture was understood.
+    pub findings: Findings,
+}
+
+impl Goal {
+    /// Reads a goal image: PNG, JPEG or WebP, told by content, not by name.
+    ///
+    /// # Errors
+    /// See [`GoalError`]: files that cannot be read, are no pictures, are damaged, too large, too
+    /// small or of one tone, and places set by hand that are not in the picture.
+    pub fn load(path: impl AsRef<Path>, options: &GoalOptions) -> Result<Self, GoalError> {
+        let path = path.as_ref();
+        let (source, tones) = if let Some(mask) = &options.mask {
+            let image_size = read::dimensions(path)?;
+            let tones = read::tones(mask)?;
+            let mask_size = (tones.width, tones.height);
+            if mask_size != image_size {
+                return Err(GoalError::MaskSize { mask: mask.clone(), mask_size, image_size });
+            }
+            (mask.as_path(), tones)
+        } else {
+            (path, read::tones(path)?)
+        };
+        let (ink, split) = ink::ink_of(&tones, options.polarity);
+        Self::build(ink, split, &source.display().to_string(), options)
+    }
+
+    /// A goal from a picture of ink at hand, its places detected.
+    ///
+    /// # Errors
+    /// [`GoalError::TooSmall`], [`GoalError::NoInk`], [`GoalError::AllInk`].
+    pub fn from_bitmap(bitmap: Bitmap) -> Result<Self, GoalError> {
+        Self::build(bitmap, Split::None, "the picture", &GoalOptions::default())
+    }
+
+    fn build(ink: Bitmap, split: Split, name: &str, options: &GoalOptions) -> Result<Self, GoalError> {
+        let original_size = (ink.width(), ink.height());
+        let (width, height) = original_size;
+        let name = || name.to_owned();
+        if width.min(height) < LEAST_SIDE {
+            return Err(GoalError::TooSmall { name: name(), width, height });
+        }
+        if ink.ink() == ink.area() {
+            return Err(GoalError::AllInk { name: name() });
+        }
+        let bounds = ink.ink_box().ok_or_else(|| GoalError::NoInk { name: name() })?;
+        let top_row = f64::from(bounds.1);
+        let (ground_row, ground) = given("the ground row", options.ground_row, height)?
+            .unwrap_or_else(|| stand::ground(&ink, bounds.3));
+        if ground_row <= top_row {
+            return Err(GoalError::GroundAboveTree { ground_row, top_row });
+        }
+        // Ink below a ground set by hand is no trunk.
+        let foot = (ground_row.ceil() as u32).min(bounds.3 + 1);
+        let (axis_column, axis) = given("the axis column", options.axis_column, width)?
+            .unwrap_or_else(|| stand::axis(&ink, bounds, foot));
+        let reduction = options
+            .max_side
+            .map_or(1.0, |side| f64::from(side.max(LEAST_SIDE)) / f64::from(width.max(height)))
+            .min(1.0);
+        let bitmap = if reduction < 1.0 { shrink::shrink(&ink, reduction) } else { ink };
+        if bitmap.ink() == 0 {
+            return Err(GoalError::NoInk { name: name() + ", at its working size," });
+        }
+        let masked = options.mask.is_some();
+        Ok(Self {
+            bitmap,
+            ground_row: ground_row * reduction,
+            axis_column: axis_column * reduction,
+            top_row: top_row * reduction,
+            findings: Findings { original_size, reduction, split, masked, ground, axis },
+        })
+    }
+
+    /// Pixels from the ground to the top of the tree; positive.
+    #[must_use]
+    pub fn height_in_pixels(&self) -> f64 {
+        self.ground_row - self.top_row
+    }
+
+    /// The frame in which a tree of `height` metres stands as the one in the picture.
+    #[must_use]
+    pub fn frame(&self, height: f64) -> Frame {
+        Frame {
+            width: self.bitmap.width(),
+            height: self.bitmap.height(),
+            metres_per_pixel: height / self.height_in_pixels(),
+            axis_column: self.axis_column,
+            ground_row: self.ground_row,
+        }
+    }
+}
+
+/// A place set by hand, if it is one in the picture.
+fn given(what: &'static str, value: Option<f64>, size: u32) -> Result<Option<(f64, Origin)>, GoalError> {
+    let limit = f64::from(size);
+    match value {
+        None => Ok(None),
+        Some(value) if (0.0..=limit).contains(&value) => Ok(Some((value, Origin::Given))),
+        Some(value) => Err(GoalError::OutsidePicture { what, value, limit }),
+    }
+}

@@ -1,0 +1,78 @@
+//! A smaller picture of the same tree.
+
+use crate::bitmap::Bitmap;
+
+/// The picture at `factor` (0 to 1) times its size, black where at least half of a pixel's area was.
+///
+/// The factor is the same in both directions, so that shapes keep their proportions; the last row
+/// and column take what half a pixel of rounding leaves.
+pub(super) fn shrink(ink: &Bitmap, factor: f64) -> Bitmap {
+    let size = |n: u32| ((f64::from(n) * factor).round() as u32).max(1);
+    let (width, height) = (size(ink.width()), size(ink.height()));
+    let columns = shares(ink.width(), width, factor);
+    let mut across = vec![0.0_f64; width as usize];
+    let mut out = Bitmap::new(width, height);
+    let whole = 1.0 / (factor * factor);
+    for y in 0..height {
+        across.fill(0.0);
+        let (from, to) = (f64::from(y) / factor, f64::from(y + 1) / factor);
+        for row in from as u32..(to.ceil() as u32).min(ink.height()) {
+            let share = (to.min(f64::from(row) + 1.0) - from.max(f64::from(row))).max(0.0);
+            for x in ink.ink_in_row(row) {
+                let (first, here) = columns[x as usize];
+                if let Some(sum) = across.get_mut(first as usize) {
+                    *sum += share * here;
+                }
+                if let Some(sum) = across.get_mut(first as usize + 1) {
+                    *sum += share * (1.0 - here);
+                }
+            }
+        }
+        for (x, &area) in across.iter().enumerate() {
+            out.set(x as u32, y, area >= 0.5 * whole - 1e-9);
+        }
+    }
+    out
+}
+
+/// For each column the first that it falls into after shrinking, and its part that falls in there.
+fn shares(from: u32, to: u32, factor: f64) -> Vec<(u32, f64)> {
+    let share = |x: u32| {
+        let (left, right) = (f64::from(x) * factor, f64::from(x + 1) * factor);
+        let edge = left.floor() + 1.0;
+        // Rounding may put an edge a hair before or behind a whole number: still one column.
+        (left as u32, ((edge - left) / (right - left)).clamp(0.0, 1.0))
+    };
+    debug_assert!(to > 0);
+    (0..from).map(share).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_blocks_stay_whole() {
+        let ink = Bitmap::from_fn(160, 80, |x, y| (x / 8 + y / 8).is_multiple_of(2));
+        let small = shrink(&ink, 0.125);
+        assert_eq!(small, Bitmap::from_fn(20, 10, |x, y| (x + y).is_multiple_of(2)));
+    }
+
+    #[test]
+    fn half_the_area_is_ink() {
+        let half = Bitmap::from_fn(16, 16, |x, _| x.is_multiple_of(2));
+        assert_eq!(shrink(&half, 0.25).ink(), 16);
+        let less = Bitmap::from_fn(16, 16, |x, _| x.is_multiple_of(4));
+        assert_eq!(shrink(&less, 0.25).ink(), 0);
+    }
+
+    #[test]
+    fn a_disc_keeps_its_area_at_odd_factors() {
+        let disc =
+            Bitmap::from_fn(301, 301, |x, y| (f64::from(x) - 150.0).hypot(f64::from(y) - 150.0) < 120.0);
+        for factor in [0.9, 0.37, 0.1] {
+            let area = shrink(&disc, factor).ink() as f64 / (factor * factor);
+            assert!((area / disc.ink() as f64 - 1.0).abs() < 0.03, "{factor}: {area}");
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! The goals in `targets/`: they load, and stand where they were put.
+
+use pleach_silhouette::goal::{Goal, GoalOptions};
+use std::path::PathBuf;
+
+fn targets() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../targets")
+}
+
+#[test]
+fn our_own_goals_stand_in_the_middle_of_the_bottom_edge() {
+    let mut seen = 0;
+    for name in pleach_generators::names() {
+        let path = targets().join(format!("{name}.png"));
+        if !path.exists() {
+            continue;
+        }
+        seen += 1;
+        let goal = Goal::load(&path, &GoalOptions::default()).unwrap();
+        let (width, height) = (f64::from(goal.bitmap.width()), f64::from(goal.bitmap.height()));
+        assert_eq!((goal.axis_column, goal.ground_row), (width / 2.0, height), "{name}: {:?}", goal.findings);
+    }
+    assert!(seen >= 15, "{seen} goals");
+}
+
+#[test]
+fn foreign_goals_load_whole_and_reduced() {
+    let foreign = ["treegen", "arbaro", "sapling", "eztree"];
+    let mut seen = 0;
+    for entry in targets().read_dir().unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if !name.ends_with(".png") || !foreign.iter().any(|f| name.starts_with(f)) {
+            continue;
+        }
+        seen += 1;
+        let whole = Goal::load(&path, &GoalOptions::default()).unwrap();
+        let small =
+            Goal::load(&path, &GoalOptions { max_side: Some(256), ..GoalOptions::default() }).unwrap();
+        assert_eq!(small.bitmap.width().max(small.bitmap.height()), 256, "{name}");
+        let ratio = |g: &Goal| g.bitmap.ink() as f64 / g.bitmap.area() as f64;
+        // Thin twigs lose some of themselves, foliage gains some: not more than a third.
+        assert!((ratio(&small) / ratio(&whole) - 1.0).abs() < 0.34, "{name}");
+        assert!(
+            (small.frame(10.0).metres_per_pixel * 256.0 / 512.0 - whole.frame(10.0).metres_per_pixel).abs()
+                < 1e-9
+        );
+    }
+    assert_eq!(seen, 10);
+}
