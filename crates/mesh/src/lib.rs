@@ -1,1 +1,32 @@
 //! Trees as triangles.
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | [`settings`] | how fine a mesh should be |
+//! | [`mesher`] | from a [`pleach_tree::Tree`] to blocks of triangles, sizes known beforehand |
+//! | [`sink`] | where blocks go: files of four formats, or memory |
+//! | [`block`] | corners and triangles |
+//! | [`wind`], [`rig`] | how stems sway |
+//!
+//! # Invariants
+//!
+//! A mesh is a function of the tree and the settings: nothing here draws random numbers, reads the
+//! clock or prints, and the number of threads changes nothing. A mesher knows trees, not generators.
+
+pub mod block;
+mod foliage;
+pub mod mesh;
+pub mod mesher;
+pub mod rig;
+pub mod settings;
+pub mod sink;
+mod tube;
+pub mod wind;
+
+pub use block::{Block, Placement, Vertex, Wind};
+pub use mesh::Mesh;
+pub use mesher::Mesher;
+pub use rig::Rig;
+pub use settings::{LeafStyle, MeshSettings};
+pub use sink::{Material, MeshError, Part, Sink, send};
+pub use tube::Count;

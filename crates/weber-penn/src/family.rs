@@ -3,6 +3,7 @@
 use crate::generator::WeberPenn;
 use crate::params::space;
 use crate::solid::{Solid, Surroundings};
+use pleach_tree::species::Appearance;
 use pleach_tree::{Family, Species, SpeciesDoc, SpeciesError};
 use std::sync::Arc;
 
@@ -38,6 +39,7 @@ impl Family for WeberPennFamily {
             issues.push(issue);
             None
         });
+        let appearance = Appearance::read(doc, &mut issues);
         // Values that were wrong have left their defaults behind, so this finds nothing new.
         match space().check(values) {
             Ok(params) if issues.is_empty() => Ok(Species {
@@ -46,6 +48,7 @@ impl Family for WeberPennFamily {
                 generator: Arc::new(WeberPenn { surroundings: Surroundings { inside, obstacles } }),
                 params,
                 tree_seed,
+                appearance,
             }),
             _ => Err(SpeciesError { issues }),
         }

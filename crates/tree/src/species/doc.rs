@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 /// Keys that every species file may have beside its parameters.
-const COMMON_KEYS: [&str; 4] = ["generator", "name", "description", "tree_seed"];
+const COMMON_KEYS: [&str; 5] = ["generator", "name", "description", "tree_seed", "appearance"];
 
 /// A value and the bytes of the file that it came from.
 #[derive(Clone, Debug, PartialEq)]

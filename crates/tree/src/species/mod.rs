@@ -8,13 +8,15 @@
 //!
 //! Parameters stand at the top level by their names; per-level values are arrays of four, vectors
 //! arrays of three; what is missing takes the generator's default. Beside them a file may say
-//! `name`, `description`, `tree_seed` (the seed of one particular tree), and whatever tables its
-//! generator knows.
+//! `name`, `description`, `tree_seed` (the seed of one particular tree), a table `[appearance]` (see
+//! [`Appearance`]), and whatever tables its generator knows.
 
+mod appearance;
 mod doc;
 mod error;
 mod write;
 
+pub use appearance::{Appearance, Colour, Season};
 pub use doc::{Entry, Node, SpeciesDoc, Value};
 pub use error::{Issue, SpeciesError};
 
@@ -36,6 +38,8 @@ pub struct Species {
     pub params: CheckedParams,
     /// The seed of one particular tree, where the file says so.
     pub tree_seed: Option<u64>,
+    /// Colours and season, where the file says so.
+    pub appearance: Appearance,
 }
 
 impl Species {

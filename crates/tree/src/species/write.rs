@@ -44,6 +44,8 @@ pub(super) fn species(species: &Species, comments: &[String]) -> String {
         text.push('\n');
         text.push_str(&extra);
     }
+    // A table ends where the next begins, so it comes last.
+    text.push_str(&species.appearance.to_toml());
     text
 }
 

@@ -1,0 +1,217 @@
+//! Leaves and blossoms as triangles: unit shapes carried to their places.
+
+mod ear;
+
+use crate::block::{Block, vertex};
+use crate::settings::LeafStyle;
+use crate::tube::Count;
+use glam::{Vec3, vec3};
+use pleach_tree::Leaf;
+use pleach_tree::leaf_shape::{BlossomShape, LeafShape};
+
+/// A unit shape as triangles, in the coordinates of [`pleach_tree::plant::Leaf`].
+#[derive(Clone, Debug, Default)]
+pub(crate) struct UnitMesh {
+    corners: Vec<Corner>,
+    triangles: Vec<[u32; 3]>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    at: Vec3,
+    normal: Vec3,
+    uv: [f32; 2],
+}
+
+impl UnitMesh {
+    /// The leaf in this style.
+    pub(crate) fn leaf(shape: LeafShape, style: LeafStyle) -> Self {
+        match style {
+            LeafStyle::Outline => Self::flat(&shape.outline()),
+            LeafStyle::Simple => Self::flat(&simple(shape)),
+            LeafStyle::CrossedCards => Self::crossed(width(shape)),
+            LeafStyle::None => Self::default(),
+        }
+    }
+
+    /// The blossom in this style.
+    pub(crate) fn blossom(shape: BlossomShape, style: LeafStyle) -> Self {
+        match style {
+            LeafStyle::Outline => Self::petals(shape),
+            LeafStyle::Simple => Self::pyramid(shape),
+            LeafStyle::CrossedCards => {
+                let widest = shape.faces().vertices.iter().map(|v| v[0].abs()).fold(0.0, f32::max);
+                Self::crossed(2.0 * widest)
+            }
+            LeafStyle::None => Self::default(),
+        }
+    }
+
+    pub(crate) fn count(&self) -> Count {
+        Count { vertices: self.corners.len() as u64, triangles: self.triangles.len() as u64 }
+    }
+
+    /// Appends the shape at `leaf`; its corners count from `base`.
+    pub(crate) fn push(&self, leaf: &Leaf, base: u32, block: &mut Block) {
+        let up = leaf.normal();
+        let unit = |v: Vec3| v.normalize_or_zero();
+        let (x, y, z) = (unit(leaf.across), unit(leaf.along), unit(up));
+        for corner in &self.corners {
+            let at = leaf.position + leaf.across * corner.at.x + leaf.along * corner.at.y + up * corner.at.z;
+            let normal = x * corner.normal.x + y * corner.normal.y + z * corner.normal.z;
+            block.vertices.push(vertex(at, normal, corner.uv[0], corner.uv[1]));
+        }
+        block.triangles.extend(self.triangles.iter().map(|t| t.map(|i| base + i)));
+    }
+
+    fn flat(outline: &[[f32; 2]]) -> Self {
+        let widest = outline.iter().map(|p| p[0].abs()).fold(f32::MIN_POSITIVE, f32::max);
+        let corners = outline
+            .iter()
+            .map(|p| Corner {
+                at: vec3(p[0], p[1], 0.0),
+                normal: Vec3::Z,
+                uv: [0.5 + 0.5 * p[0] / widest, 1.0 - p[1]],
+            })
+            .collect();
+        Self { corners, triangles: ear::triangulate(outline) }
+    }
+
+    /// Two cards through the middle of the blade, at right angles to each other.
+    fn crossed(width: f32) -> Self {
+        let half = width / 2.0;
+        let card = |axis: Vec3, normal: Vec3| {
+            [(-1.0, 0.0), (1.0, 0.0), (1.0, 1.0), (-1.0, 1.0)].map(|(s, v): (f32, f32)| Corner {
+                at: axis * (s * half) + Vec3::Y * v,
+                normal,
+                uv: [0.5 + 0.5 * s, 1.0 - v],
+            })
+        };
+        let corners = [card(Vec3::X, Vec3::Z), card(Vec3::Z, -Vec3::X)].concat();
+        Self { corners, triangles: vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]] }
+    }
+
+    fn petals(shape: BlossomShape) -> Self {
+        let faces = shape.faces();
+        let at = |i: u8| Vec3::from(faces.vertices[usize::from(i)]);
+        let mut normals = vec![Vec3::ZERO; faces.vertices.len()];
+        let mut triangles = Vec::new();
+        for polygon in faces.polygons {
+            for pair in polygon[1..].windows(2) {
+                let [a, b, c] = [polygon[0], pair[0], pair[1]];
+                let normal = (at(b) - at(a)).cross(at(c) - at(a));
+                for i in [a, b, c] {
+                    normals[usize::from(i)] += normal;
+                }
+                triangles.push([a, b, c].map(u32::from));
+            }
+        }
+        let widest = faces.vertices.iter().flat_map(|v| [v[0].abs(), v[2].abs()]).fold(f32::MIN_POSITIVE, f32::max);
+        let corners = faces
+            .vertices
+            .iter()
+            .zip(normals)
+            .map(|(&[u, v, w], normal)| Corner {
+                at: vec3(u, v, w),
+                normal: normal.try_normalize().unwrap_or(Vec3::Y),
+                uv: [0.5 + 0.5 * u / widest, 0.5 + 0.5 * w / widest],
+            })
+            .collect();
+        Self { corners, triangles }
+    }
+
+    /// Four triangles that open from the stalk, as wide and high as the blossom.
+    fn pyramid(shape: BlossomShape) -> Self {
+        let vertices = shape.faces().vertices;
+        let reach = vertices.iter().flat_map(|v| [v[0].abs(), v[2].abs()]).fold(f32::MIN_POSITIVE, f32::max);
+        let high = vertices.iter().map(|v| v[1]).fold(0.0, f32::max);
+        let rim = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
+        let mut corners = vec![Corner { at: Vec3::ZERO, normal: Vec3::Y, uv: [0.5, 0.5] }];
+        corners.extend(rim.map(|(x, z): (f32, f32)| Corner {
+            at: vec3(x * reach, high, z * reach),
+            normal: vec3(-x * high, reach, -z * high).normalize_or_zero(),
+            uv: [0.5 + 0.5 * x, 0.5 + 0.5 * z],
+        }));
+        Self { corners, triangles: vec![[0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 1, 4]] }
+    }
+}
+
+/// Width of the unit leaf.
+fn width(shape: LeafShape) -> f32 {
+    2.0 * shape.half_outline().iter().map(|p| p[0]).fold(0.0, f32::max)
+}
+
+/// Four corners (three for a triangle) with the area and, nearly, the place of the leaf's outline: a
+/// rectangle for blades that fill theirs, a kite for all others.
+fn simple(shape: LeafShape) -> Vec<[f32; 2]> {
+    let (area, width) = (shape.area(), width(shape));
+    match shape {
+        LeafShape::Triangle => shape.outline(),
+        _ if area > 0.75 * width => {
+            let half = area / 2.0;
+            vec![[half, 0.0], [half, 1.0], [-half, 1.0], [-half, 0.0]]
+        }
+        _ => {
+            // The kite is widest where half of the leaf's area lies below.
+            let half = shape.half_outline();
+            let middle = half
+                .windows(2)
+                .map(|w| (w[1][1] - w[0][1]) * (w[0][0] + w[1][0]) * (w[0][1] + w[1][1]) / 2.0)
+                .sum::<f32>()
+                / area;
+            vec![[0.0, 0.0], [area, middle], [0.0, 1.0], [-area, middle]]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn area(mesh: &UnitMesh) -> f32 {
+        let corner = |i: u32| mesh.corners[i as usize].at;
+        let cross = |t: &[u32; 3]| (corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0]));
+        mesh.triangles.iter().map(|t| cross(t).length() / 2.0).sum()
+    }
+
+    #[test]
+    fn simple_leaves_keep_the_area() {
+        for shape in LeafShape::ALL {
+            let mesh = UnitMesh::leaf(shape, LeafStyle::Simple);
+            assert!((area(&mesh) - shape.area()).abs() < 1e-5, "{shape:?}");
+            assert!(mesh.triangles.len() <= 2);
+        }
+    }
+
+    #[test]
+    fn texture_coordinates_fill_the_unit_square() {
+        let all = LeafShape::ALL.into_iter().map(|s| UnitMesh::leaf(s, LeafStyle::Outline));
+        let blossoms = BlossomShape::ALL.into_iter().map(|s| UnitMesh::blossom(s, LeafStyle::Outline));
+        for mesh in all.chain(blossoms) {
+            for corner in &mesh.corners {
+                assert!(corner.uv.iter().all(|c| (-1e-6..=1.0 + 1e-6).contains(c)), "{:?}", corner.uv);
+                assert!((corner.normal.length() - 1.0).abs() < 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn a_blossom_keeps_its_faces() {
+        for shape in BlossomShape::ALL {
+            let mesh = UnitMesh::blossom(shape, LeafStyle::Outline);
+            assert!((area(&mesh) - shape.faces().area()).abs() < 1e-4, "{shape:?}");
+        }
+    }
+
+    #[test]
+    fn a_leaf_stands_where_the_tree_says() {
+        let leaf =
+            Leaf { position: vec3(1.0, 2.0, 3.0), along: Vec3::Z * 2.0, across: Vec3::X * 3.0, stem: 0 };
+        let mut block = Block::default();
+        UnitMesh::leaf(LeafShape::Rectangle, LeafStyle::Outline).push(&leaf, 10, &mut block);
+        let corners: Vec<Vec3> = block.vertices.iter().map(crate::block::position).collect();
+        assert!(corners.contains(&vec3(2.5, 2.0, 5.0)) && corners.contains(&vec3(-0.5, 2.0, 3.0)));
+        assert_eq!(crate::block::normal(&block.vertices[0]), vec3(0.0, -1.0, 0.0));
+        assert!(block.triangles.iter().flatten().all(|i| (10..14).contains(i)));
+    }
+}

@@ -1,0 +1,57 @@
+//! What a mesh should be like.
+
+/// How leaves and blossoms become triangles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LeafStyle {
+    /// The ten leaf outlines and three blossoms of the model.
+    #[default]
+    Outline,
+    /// Two triangles a leaf with the area of the outline, four a blossom.
+    Simple,
+    /// Two upright cards through the middle of each leaf, for pictures with transparency.
+    CrossedCards,
+    /// No leaves and no blossom.
+    None,
+}
+
+/// How finely a tree is meshed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshSettings {
+    /// How far the bark may stray from the model's surface, in metres; positive. The number of
+    /// triangles grows as `tolerance^-1/2` along a stem and around it alike.
+    pub tolerance: f64,
+    /// Fewest sides of a stem, at least 3.
+    pub min_sides: u32,
+    /// Most sides of a stem, at least `min_sides`, at most [`MeshSettings::MOST_SIDES`].
+    pub max_sides: u32,
+    /// How leaves and blossoms are drawn.
+    pub leaves: LeafStyle,
+    /// Whether each corner carries wind data.
+    pub wind: bool,
+}
+
+impl MeshSettings {
+    /// No stem gets more sides than this.
+    pub const MOST_SIDES: u32 = 96;
+
+    /// Settings for a tolerance in metres, everything else as by default.
+    #[must_use]
+    pub fn with_tolerance(tolerance: f64) -> Self {
+        Self { tolerance, ..Self::default() }
+    }
+
+    /// The settings with every number moved into its range.
+    pub(crate) fn clamped(mut self) -> Self {
+        self.tolerance = if self.tolerance.is_finite() { self.tolerance.clamp(1e-5, 1e3) } else { 1e3 };
+        self.min_sides = self.min_sides.clamp(3, Self::MOST_SIDES);
+        self.max_sides = self.max_sides.clamp(self.min_sides, Self::MOST_SIDES);
+        self
+    }
+}
+
+impl Default for MeshSettings {
+    /// Two millimetres, 4 to 48 sides, leaves as outlines, no wind.
+    fn default() -> Self {
+        Self { tolerance: 0.002, min_sides: 4, max_sides: 48, leaves: LeafStyle::Outline, wind: false }
+    }
+}

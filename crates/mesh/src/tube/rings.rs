@@ -1,0 +1,148 @@
+//! Cross sections along a stem's spline.
+
+use super::frame::{perpendicular, transport};
+use glam::DVec3;
+use pleach_tree::{Stem, Tree};
+
+/// No ring is narrower, in metres: beads of periodic taper meet in points, and single precision
+/// thirty metres from the origin ends at two micrometres.
+const LEAST_RADIUS: f64 = 2e-4;
+/// A stem whose tip is thinner than this many metres ends in a point.
+const POINTED: f64 = 5e-4;
+/// Rings are at least this far apart, in metres.
+const LEAST_STEP: f64 = 1e-4;
+
+/// One cross section of a stem.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ring {
+    /// On the spline, in metres.
+    pub(crate) centre: DVec3,
+    /// Unit vector along the stem, at right angles to the ring.
+    pub(crate) tangent: DVec3,
+    /// Unit vector in the ring, towards its first corner.
+    pub(crate) side: DVec3,
+    /// In metres, after the model.
+    pub(crate) radius: f64,
+    /// Metres along the stem from its first knot.
+    pub(crate) along: f64,
+}
+
+/// The rings of one stem, in memory that is used again for the next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rings {
+    /// From base to tip; at least two unless the stem is too short to be drawn.
+    pub(crate) rings: Vec<Ring>,
+    /// Whether the last ring stands for a point.
+    pub(crate) pointed: bool,
+}
+
+impl Rings {
+    /// Samples `stem` so that neither its axis nor its outer side strays by more than `tolerance`.
+    pub(crate) fn sample(&mut self, tree: &Tree, stem: &Stem, tolerance: f64) {
+        self.rings.clear();
+        let mut along = 0.0;
+        let mut arrival: Option<DVec3> = None;
+        let knots = tree.knots_of(stem);
+        let pieces = knots.len() - 1;
+        for (k, (piece, from, to)) in tree.pieces_of(stem).enumerate() {
+            let [a, b, c, d] = piece.points;
+            let chord = (d - a).try_normalize().or(arrival).unwrap_or(DVec3::Z);
+            // How far the control polygon turns, in radians, from above for the angles of trees.
+            let legs = [b - a, c - b, d - c].map(|leg| leg.try_normalize().unwrap_or(chord));
+            let turn = legs[0].distance(legs[1]) + legs[1].distance(legs[2]);
+            let outer = (turn * (from.max(to) / (8.0 * tolerance)).sqrt()).ceil();
+            let chords = piece.chords(tolerance).max(outer.min(64.0) as u32);
+            let first = legs[0];
+            for i in u32::from(k > 0)..=chords {
+                let t = f64::from(i) / f64::from(chords);
+                let centre = piece.at(t);
+                let mut tangent = match i {
+                    0 => first,
+                    i if i == chords => legs[2],
+                    _ => piece.tangent(t, chord),
+                };
+                // The ring at a knot lies between what arrives and what leaves.
+                if i == chords && k + 1 < pieces {
+                    let (here, next) = (&knots[k + 1], &knots[k + 2]);
+                    let leaves = (here.handle_out - here.point)
+                        .try_normalize()
+                        .or_else(|| (next.point - here.point).try_normalize());
+                    tangent = (tangent + leaves.unwrap_or(tangent)).try_normalize().unwrap_or(tangent);
+                }
+                if let Some(last) = self.rings.last() {
+                    along += centre.distance(last.centre);
+                }
+                let radius = (from + (to - from) * t).max(LEAST_RADIUS);
+                self.rings.push(Ring { centre, tangent, side: DVec3::X, radius, along });
+            }
+            arrival = Some(legs[2]);
+        }
+        self.pointed = knots[knots.len() - 1].radius < POINTED;
+        self.untangle();
+        self.turn_frames();
+    }
+
+    /// Leaves out rings that would cut a neighbour, so that no face turns inside out.
+    fn untangle(&mut self) {
+        let rings = &mut self.rings;
+        let last = rings.len() - 1;
+        let mut kept = 1;
+        for i in 1..last {
+            if apart(&rings[kept - 1], &rings[i]) {
+                rings[kept] = rings[i];
+                kept += 1;
+            }
+        }
+        let mut tip = rings[last];
+        if self.pointed {
+            tip.radius = 0.0;
+        }
+        while kept > 1 && !apart(&rings[kept - 1], &tip) {
+            kept -= 1;
+        }
+        if !apart(&rings[0], &tip) {
+            // A prism: both rings at right angles to the line between them.
+            let line = tip.centre - rings[0].centre;
+            if line.length() < LEAST_STEP {
+                rings.clear();
+                return;
+            }
+            let line = line.normalize();
+            (rings[0].tangent, tip.tangent) = (line, line);
+            kept = 1;
+        }
+        rings[kept] = tip;
+        rings.truncate(kept + 1);
+    }
+
+    fn turn_frames(&mut self) {
+        let Some(first) = self.rings.first_mut() else { return };
+        first.side = perpendicular(first.tangent);
+        for i in 1..self.rings.len() {
+            let last = self.rings[i - 1];
+            let ring = &mut self.rings[i];
+            ring.side = transport(last.side, last.centre, last.tangent, ring.centre, ring.tangent);
+        }
+    }
+
+    /// Change of radius per metre at ring `i`, from its neighbours.
+    pub(crate) fn slope(&self, i: usize) -> f64 {
+        let (a, b) = (&self.rings[i.saturating_sub(1)], &self.rings[(i + 1).min(self.rings.len() - 1)]);
+        (b.radius - a.radius) / (b.along - a.along).max(LEAST_STEP)
+    }
+}
+
+/// Whether the tube between two rings has all its faces outside.
+///
+/// A face turns inside out when a corner of one ring comes to lie behind the plane of the other. A
+/// corner strays from its ring's centre along the other's tangent by at most its radius times the
+/// sine of the angle between the planes.
+fn apart(a: &Ring, b: &Ring) -> bool {
+    /// Polygons reach a little further out than circles, triangles the furthest.
+    const REACH: f64 = 1.25;
+    let line = b.centre - a.centre;
+    let cos = a.tangent.dot(b.tangent);
+    let sin = (1.0 - cos * cos).max(0.0).sqrt();
+    let clear = |tangent: DVec3, radius: f64| line.dot(tangent) > REACH * radius * sin + LEAST_STEP;
+    cos > 0.0 && clear(a.tangent, b.radius) && clear(b.tangent, a.radius)
+}

@@ -1,0 +1,188 @@
+//! Every tube is closed and right side out, whatever the spline does.
+
+use super::*;
+use crate::block::{normal, position};
+use glam::dvec3;
+use pleach_tree::{Knot, Stem, StemKind, Tree};
+use proptest::prelude::*;
+use std::collections::HashMap;
+
+/// A tree of one stem with these knots.
+fn tree_of(knots: Vec<Knot>) -> Tree {
+    let stem = Stem {
+        parent: None,
+        level: 0,
+        kind: StemKind::Trunk,
+        offset: 0.0,
+        length: 1.0,
+        first_knot: 0,
+        knot_count: knots.len() as u32,
+    };
+    Tree { stems: vec![stem], knots, ..Tree::default() }
+}
+
+/// Knots that turn sharply, stand still, swell and shrink: worse than any generator's.
+fn wild_knots() -> impl Strategy<Value = Vec<Knot>> {
+    let step = (-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64);
+    let radius = prop_oneof![Just(0.0), 0.0..0.01_f64, 0.0..2.0_f64];
+    let knot = (step.clone(), step, prop_oneof![Just(0.0), 0.0..1.5_f64], radius);
+    prop::collection::vec(knot, 2..8).prop_map(|steps| {
+        let mut point = dvec3(3.0, -2.0, 5.0);
+        let mut knots = Vec::new();
+        for ((x, y, z), (hx, hy, hz), reach, radius) in steps {
+            let handle = dvec3(hx, hy, hz) * reach * 0.5;
+            knots.push(Knot { point, handle_in: point - handle, handle_out: point + handle, radius });
+            point += dvec3(x, y, z);
+        }
+        knots
+    })
+}
+
+fn tube(knots: Vec<Knot>, tolerance: f64) -> (Rings, Count, Block) {
+    let tree = tree_of(knots);
+    let tubes = Tubes::new(MeshSettings::with_tolerance(tolerance).clamped());
+    let (mut rings, mut block) = (Rings::default(), Block::default());
+    rings.sample(&tree, &tree.stems[0], tolerance);
+    let count = tubes.count(&rings);
+    tubes.push(&rings, 0, 0.0, &mut block);
+    (rings, count, block)
+}
+
+/// The first broken promise of a closed tube.
+fn broken(block: &Block) -> Result<(), String> {
+    let corner = |i: u32| position(&block.vertices[i as usize]).as_dvec3();
+    let key = |i: u32| position(&block.vertices[i as usize]).to_array().map(f32::to_bits);
+    let mut edges: HashMap<_, i32> = HashMap::new();
+    let mut volume = 0.0;
+    let origin = corner(0);
+    for (k, t) in block.triangles.iter().enumerate() {
+        let [a, b, c] = t.map(corner);
+        let area = (b - a).cross(c - a);
+        if area.length() <= 0.0 {
+            return Err(format!("triangle {k} is degenerate: {a} {b} {c}"));
+        }
+        volume += (a - origin).dot((b - origin).cross(c - origin));
+        for (p, q) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
+            *edges.entry((key(p), key(q))).or_default() += 1;
+            *edges.entry((key(q), key(p))).or_default() -= 1;
+        }
+    }
+    if edges.values().any(|&n| n != 0) {
+        return Err("an edge has no partner".to_owned());
+    }
+    if volume <= 0.0 {
+        return Err(format!("the tube is inside out: volume {volume}"));
+    }
+    for v in &block.vertices {
+        if v.iter().any(|x| !x.is_finite()) || (normal(v).length() - 1.0).abs() > 1e-4 {
+            return Err(format!("a corner is not finite or its normal not of length 1: {v:?}"));
+        }
+        if !(0.0..=1.0).contains(&v[6]) || v[7] < 0.0 {
+            return Err(format!("texture coordinates out of range: {v:?}"));
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 600, ..ProptestConfig::default() })]
+
+    #[test]
+    fn wild_stems_make_closed_tubes(knots in wild_knots(), tolerance in 0.001..0.05_f64) {
+        let (rings, count, block) = tube(knots, tolerance);
+        prop_assert_eq!(count.vertices, block.vertices.len() as u64);
+        prop_assert_eq!(count.triangles, block.triangles.len() as u64);
+        if !rings.rings.is_empty() {
+            broken(&block).map_err(TestCaseError::fail)?;
+            for pair in rings.rings.windows(2) {
+                prop_assert!((pair[1].centre - pair[0].centre).dot(pair[0].tangent) > 0.0);
+                prop_assert!((pair[1].centre - pair[0].centre).dot(pair[1].tangent) > 0.0);
+                prop_assert!(pair[0].side.dot(pair[0].tangent).abs() < 1e-9);
+            }
+            faces_outwards(&block, &rings).map_err(TestCaseError::fail)?;
+        }
+    }
+}
+
+/// No face between two rings is inside out: the corners of each ring lie ahead of the plane of the
+/// one before and behind the plane of the one after.
+fn faces_outwards(block: &Block, rings: &Rings) -> Result<(), String> {
+    let corner = |i: u32| position(&block.vertices[i as usize]).as_dvec3();
+    let apex = block.vertices.len() as u32 - 1;
+    let sides = block.triangles.iter().filter(|t| t.contains(&apex)).count() as u32;
+    for (k, t) in block.triangles.iter().enumerate().skip(sides as usize - 2) {
+        let ring = |i: u32| &rings.rings[((i / (sides + 1)) as usize).min(rings.rings.len() - 1)];
+        let lowest = ring(t.iter().copied().min().unwrap_or(0));
+        let highest = ring(t.iter().copied().max().unwrap_or(0));
+        for edge in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
+            let (from, to) = (edge.0.min(edge.1), edge.0.max(edge.1));
+            if from / (sides + 1) == to / (sides + 1) {
+                continue;
+            }
+            let along = corner(to) - corner(from);
+            if along.dot(lowest.tangent) <= 0.0 || along.dot(highest.tangent) <= 0.0 {
+                return Err(format!("face {k} looks inwards"));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn straight(radii: &[f64]) -> Vec<Knot> {
+    let knot = |(i, &radius): (usize, &f64)| {
+        let point = dvec3(0.0, 0.0, i as f64);
+        Knot { point, handle_in: point - dvec3(0.0, 0.0, 1.0 / 3.0), handle_out: point + dvec3(0.0, 0.0, 1.0 / 3.0), radius }
+    };
+    radii.iter().enumerate().map(knot).collect()
+}
+
+#[test]
+fn a_cone_has_the_volume_of_a_cone() {
+    let (_, _, block) = tube(straight(&[0.5, 0.25, 0.0]), 1e-4);
+    let corner = |i: u32| position(&block.vertices[i as usize]).as_dvec3();
+    let volume: f64 =
+        block.triangles.iter().map(|t| t.map(corner)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum();
+    let cone = PI * 0.25 * 2.0 / 3.0;
+    assert!((volume / cone - 1.0).abs() < 0.01, "{volume} is not {cone}");
+    broken(&block).unwrap();
+}
+
+#[test]
+fn normals_of_a_cone_lean_by_its_taper() {
+    let (_, _, block) = tube(straight(&[1.0, 0.5, 0.0]), 1e-3);
+    let lean = 0.5_f64.atan();
+    for v in block.vertices.iter().filter(|v| (v[2] - 1.0).abs() < 1e-6) {
+        assert!((f64::from(v[5]) - lean.sin()).abs() < 1e-3, "{v:?}");
+    }
+}
+
+#[test]
+fn texture_runs_along_in_metres_and_once_around() {
+    let (_, _, block) = tube(straight(&[0.1, 0.1, 0.1]), 1e-3);
+    for v in &block.vertices[..block.vertices.len() - 1] {
+        assert!((v[7] - v[2]).abs() < 0.02, "v is the height of an upright stem: {v:?}");
+    }
+    let around: Vec<f32> = block.vertices.iter().filter(|v| v[2] == 0.0).map(|v| v[6]).collect();
+    assert_eq!((around[0], around[around.len() - 1]), (0.0, 1.0));
+}
+
+#[test]
+fn a_blunt_tip_gets_a_dome_and_a_thin_one_a_point() {
+    let top = |radii: &[f64]| {
+        let (rings, _, block) = tube(straight(radii), 1e-3);
+        (rings.pointed, block.vertices.iter().map(|v| v[2]).fold(0.0, f32::max))
+    };
+    assert_eq!(top(&[0.1, 0.05, 0.0]), (true, 2.0));
+    let (pointed, height) = top(&[0.1, 0.1, 0.1]);
+    assert!(!pointed && (height - 2.05).abs() < 1e-6, "{height}");
+}
+
+#[test]
+fn stems_too_short_to_draw_are_left_out() {
+    let mut knots = straight(&[0.1, 0.1]);
+    for knot in &mut knots {
+        (knot.point, knot.handle_in, knot.handle_out) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+    }
+    let (rings, count, block) = tube(knots, 1e-3);
+    assert!(rings.rings.is_empty() && count == Count::default() && block == Block::default());
+}
