@@ -39,6 +39,14 @@ impl Generator for WeberPenn {
         reads(&model, &self.surroundings, &space().params()[slot_of.param].name, slot_of.index)
     }
 
+    fn regimes(&self, slot: usize) -> &'static [f64] {
+        match space().param_of(slot).name.as_ref() {
+            "taper" => &[1.0, 2.0],
+            "branch_dist" => &[1.0],
+            _ => &[],
+        }
+    }
+
     fn extra_toml(&self) -> String {
         let mut text = String::new();
         if let Some(inside) = &self.surroundings.inside {

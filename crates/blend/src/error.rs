@@ -1,0 +1,87 @@
+//! Why there is no map or no blend.
+
+/// Why there is no map or no blend.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BlendError {
+    /// There is nothing between fewer than two species.
+    #[error("a map or a blend needs at least two species, found {found}")]
+    TooFew {
+        /// How many there were.
+        found: usize,
+    },
+    /// Two species whose parameters cannot be compared.
+    #[error(
+        "`{first}` grows by {first_family} and `{second}` by {second_family}: only species of one generator, with the same parameters, blend"
+    )]
+    MixedGenerators {
+        /// A species.
+        first: String,
+        /// Its generator's family.
+        first_family: String,
+        /// Another species.
+        second: String,
+        /// Its generator's family.
+        second_family: String,
+    },
+    /// Every species has the same parameters.
+    #[error("`{first}` and `{second}` have the same parameters: there is nothing between them")]
+    AllAlike {
+        /// A species.
+        first: String,
+        /// Another one.
+        second: String,
+    },
+    /// Two species have one name.
+    #[error("two species are called `{name}`")]
+    SameName {
+        /// The name.
+        name: String,
+    },
+    /// No species has this name.
+    #[error("no species of this map is called `{name}`{}", nearest.as_ref().map_or_else(String::new, |n| format!(", did you mean `{n}`?")))]
+    UnknownSpecies {
+        /// What was asked for.
+        name: String,
+        /// The nearest known name, if any is near.
+        nearest: Option<String>,
+    },
+    /// The wrong number of weights.
+    #[error("{found} weights for {expected} species")]
+    WeightCount {
+        /// How many species there are.
+        expected: usize,
+        /// How many weights were given.
+        found: usize,
+    },
+    /// A weight below zero, infinite or not a number.
+    #[error("the weight of `{name}` is {value}, expected a finite number of 0 or more")]
+    BadWeight {
+        /// The species.
+        name: String,
+        /// Its weight.
+        value: f64,
+    },
+    /// All weights are zero.
+    #[error("all weights are 0, expected at least one above")]
+    NoWeight,
+    /// A place between two species that is not between them.
+    #[error("{at} is not between the two species, expected a number from 0 (the first) to 1 (the second)")]
+    NotBetween {
+        /// What was asked for.
+        at: f64,
+    },
+    /// A point that is nowhere.
+    #[error("({x}, {y}) is no point of the plane")]
+    NowherePoint {
+        /// First coordinate.
+        x: f64,
+        /// Second coordinate.
+        y: f64,
+    },
+    /// The decomposition failed; a bug rather than bad input.
+    #[error("the principal components could not be computed: {message}")]
+    Decomposition {
+        /// What the library said.
+        message: String,
+    },
+}
