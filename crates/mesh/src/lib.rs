@@ -6,6 +6,8 @@
 //! | [`mesher`] | from a [`pleach_tree::Tree`] to blocks of triangles, sizes known beforehand |
 //! | [`sink`] | where blocks go: files of four formats, or memory |
 //! | [`block`] | corners and triangles |
+//! | [`write`] | GLB, OBJ, PLY, STL |
+//! | [`palette`] | colours of species and seasons |
 //! | [`wind`], [`rig`] | how stems sway |
 //!
 //! # Invariants
@@ -17,15 +19,18 @@ pub mod block;
 mod foliage;
 pub mod mesh;
 pub mod mesher;
+pub mod palette;
 pub mod rig;
 pub mod settings;
 pub mod sink;
 mod tube;
 pub mod wind;
+pub mod write;
 
 pub use block::{Block, Placement, Vertex, Wind};
 pub use mesh::Mesh;
 pub use mesher::Mesher;
+pub use palette::Palette;
 pub use rig::Rig;
 pub use settings::{LeafStyle, MeshSettings};
 pub use sink::{Material, MeshError, Part, Sink, send};

@@ -127,7 +127,7 @@ impl<'a> Mesher<'a> {
 
     fn placed(&self, material: Material) -> Option<(&'a [Leaf], &UnitMesh)> {
         match material {
-            Material::Bark => None,
+            Material::Bark | Material::Card => None,
             Material::Leaf => Some((&self.tree.leaves, &self.leaf)),
             Material::Blossom => Some((&self.tree.blossoms, &self.blossom)),
         }
@@ -198,12 +198,7 @@ impl<'a> Mesher<'a> {
 }
 
 /// Where the unit shape stands as it is.
-const UNIT: Leaf = Leaf {
-    position: glam::Vec3::ZERO,
-    along: glam::Vec3::Y,
-    across: glam::Vec3::X,
-    stem: 0,
-};
+const UNIT: Leaf = Leaf { position: glam::Vec3::ZERO, along: glam::Vec3::Y, across: glam::Vec3::X, stem: 0 };
 
 /// Translation, rotation and scale that carry the unit shape to `leaf`.
 fn placement(leaf: &Leaf) -> crate::block::Placement {

@@ -14,10 +14,12 @@ pub enum Material {
     Leaf,
     /// Blossoms.
     Blossom,
+    /// Upright cards that show a picture of the whole tree.
+    Card,
 }
 
 impl Material {
-    /// All, in the order of a mesh's parts.
+    /// Those of a meshed tree, in the order of its parts.
     pub const ALL: [Self; 3] = [Self::Bark, Self::Leaf, Self::Blossom];
 
     /// The material's name in files.
@@ -27,6 +29,7 @@ impl Material {
             Self::Bark => "bark",
             Self::Leaf => "leaves",
             Self::Blossom => "blossom",
+            Self::Card => "card",
         }
     }
 }
@@ -55,7 +58,9 @@ pub enum MeshError {
     #[error("{0}")]
     Io(#[from] std::io::Error),
     /// More than the format can count.
-    #[error("the mesh has {found} {what}, {format} holds at most {limit}; a coarser tolerance, fewer levels, or instances")]
+    #[error(
+        "the mesh has {found} {what}, {format} holds at most {limit}; a coarser tolerance, fewer levels, or instances"
+    )]
     TooLarge {
         /// What there is too much of.
         what: &'static str,

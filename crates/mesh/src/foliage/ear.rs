@@ -63,8 +63,7 @@ mod tests {
             let outline = shape.outline();
             let triangles = triangulate(&outline);
             assert_eq!(triangles.len(), outline.len() - 2, "{shape:?}");
-            let areas: Vec<f32> =
-                triangles.iter().map(|t| cross_of(&outline, *t) / 2.0).collect();
+            let areas: Vec<f32> = triangles.iter().map(|t| cross_of(&outline, *t) / 2.0).collect();
             assert!(areas.iter().all(|a| *a > 0.0), "{shape:?}: {areas:?}");
             let total: f32 = areas.iter().sum();
             assert!((total - shape.area()).abs() < 1e-5, "{shape:?}: {total}");

@@ -106,7 +106,8 @@ impl UnitMesh {
                 triangles.push([a, b, c].map(u32::from));
             }
         }
-        let widest = faces.vertices.iter().flat_map(|v| [v[0].abs(), v[2].abs()]).fold(f32::MIN_POSITIVE, f32::max);
+        let widest =
+            faces.vertices.iter().flat_map(|v| [v[0].abs(), v[2].abs()]).fold(f32::MIN_POSITIVE, f32::max);
         let corners = faces
             .vertices
             .iter()

@@ -95,7 +95,12 @@ impl Tubes {
         let n = self.sides(rings);
         let polygon = &self.polygons[n as usize];
         let mut wide = 0;
-        let mut ring = |centre: DVec3, (x, y): (DVec3, DVec3), tangent: DVec3, radius: f64, slope: f64, v: f64| {
+        let mut ring = |centre: DVec3,
+                        (x, y): (DVec3, DVec3),
+                        tangent: DVec3,
+                        radius: f64,
+                        slope: f64,
+                        v: f64| {
             let radius = radius * polygon.reach;
             let level = 1.0 / (1.0 + slope * slope).sqrt();
             for (j, &(cos, sin)) in polygon.corners.iter().enumerate() {

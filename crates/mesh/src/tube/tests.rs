@@ -131,7 +131,12 @@ fn faces_outwards(block: &Block, rings: &Rings) -> Result<(), String> {
 fn straight(radii: &[f64]) -> Vec<Knot> {
     let knot = |(i, &radius): (usize, &f64)| {
         let point = dvec3(0.0, 0.0, i as f64);
-        Knot { point, handle_in: point - dvec3(0.0, 0.0, 1.0 / 3.0), handle_out: point + dvec3(0.0, 0.0, 1.0 / 3.0), radius }
+        Knot {
+            point,
+            handle_in: point - dvec3(0.0, 0.0, 1.0 / 3.0),
+            handle_out: point + dvec3(0.0, 0.0, 1.0 / 3.0),
+            radius,
+        }
     };
     radii.iter().enumerate().map(knot).collect()
 }

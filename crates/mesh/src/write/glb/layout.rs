@@ -1,0 +1,129 @@
+//! Where everything lies in the binary chunk.
+
+use super::{Scene, animation};
+use crate::block::{Block, Placement, position};
+use crate::sink::Part;
+use glam::Vec3;
+
+/// Bytes of a corner's joint numbers and weights.
+pub(super) const SKIN_BYTES: u64 = 12;
+
+/// Offsets of a part's data in the binary chunk; those of data that it does not have are unused.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Place {
+    pub(super) vertices: u64,
+    pub(super) wind: u64,
+    pub(super) skin: u64,
+    pub(super) indices: u64,
+    pub(super) translations: u64,
+    pub(super) rotations: u64,
+    pub(super) scales: u64,
+}
+
+/// A part, its place, how much of it is written, and its bounds so far.
+#[derive(Clone, Debug)]
+pub(super) struct PartLayout {
+    pub(super) part: Part,
+    pub(super) place: Place,
+    next: Place,
+    /// Smallest and largest coordinates of what has been written.
+    pub(super) bounds: Option<(Vec3, Vec3)>,
+}
+
+impl PartLayout {
+    /// Where `block` goes; the next one goes behind it.
+    pub(super) fn advance(&mut self, block: &Block) -> Place {
+        let place = self.next;
+        let vertices = block.vertices.len() as u64;
+        self.next.vertices += vertices * 32;
+        self.next.wind += vertices * 32;
+        self.next.skin += vertices * SKIN_BYTES;
+        self.next.indices += block.triangles.len() as u64 * 12;
+        self.next.translations += block.instances.len() as u64 * 12;
+        self.next.rotations += block.instances.len() as u64 * 16;
+        self.next.scales += block.instances.len() as u64 * 12;
+        for at in block.vertices.iter().map(position) {
+            let (min, max) = self.bounds.unwrap_or((at, at));
+            self.bounds = Some((min.min(at), max.max(at)));
+        }
+        place
+    }
+}
+
+/// The binary chunk.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Layout {
+    pub(super) parts: Vec<PartLayout>,
+    pub(super) bind_matrices: u64,
+    pub(super) times: u64,
+    pub(super) rotations: u64,
+    pub(super) card: u64,
+    /// Size of the whole, a multiple of 4.
+    pub(super) bytes: u64,
+}
+
+impl Layout {
+    pub(super) fn new(parts: &[Part], scene: &Scene<'_>) -> Self {
+        let mut at = 0;
+        let mut take = |bytes: u64| {
+            let start = at;
+            at += bytes.next_multiple_of(4);
+            start
+        };
+        let parts = parts
+            .iter()
+            .map(|&part| {
+                let vertices = part.count.vertices;
+                let place = Place {
+                    vertices: take(vertices * 32),
+                    wind: take(if part.wind { vertices * 32 } else { 0 }),
+                    skin: take(if part.rigged { vertices * SKIN_BYTES } else { 0 }),
+                    indices: take(part.count.triangles * 12),
+                    translations: take(part.instances * 12),
+                    rotations: take(part.instances * 16),
+                    scales: take(part.instances * 12),
+                };
+                PartLayout { part, place, next: place, bounds: None }
+            })
+            .collect();
+        let joints = scene.rig.map_or(0, |rig| rig.joints.len() as u64);
+        let keys = if joints > 0 { u64::from(animation::KEYS) } else { 0 };
+        let bind_matrices = take(joints * 64);
+        let times = take(keys * 4);
+        let rotations = take(joints * keys * 16);
+        let card = take(scene.card.map_or(0, |png| png.len() as u64));
+        Self { parts, bind_matrices, times, rotations, card, bytes: at }
+    }
+
+    /// What does not come in blocks: offset and bytes.
+    pub(super) fn fixed(&self, scene: &Scene<'_>) -> Vec<(u64, Vec<u8>)> {
+        let mut fixed = Vec::new();
+        if let Some(rig) = scene.rig {
+            let floats = |values: &[f32]| bytemuck::cast_slice(values).to_vec();
+            fixed.push((self.bind_matrices, floats(&animation::bind_matrices(rig))));
+            fixed.push((self.times, floats(&animation::times())));
+            fixed.push((self.rotations, floats(&animation::rotations(rig))));
+        }
+        if let Some(png) = scene.card {
+            let mut bytes = png.to_vec();
+            bytes.resize(bytes.len().next_multiple_of(4), 0);
+            fixed.push((self.card, bytes));
+        }
+        fixed
+    }
+}
+
+/// One joint with all the weight: four numbers of 16 bits, four weights of 8.
+pub(super) fn skin(joint: u16) -> [u8; SKIN_BYTES as usize] {
+    let [low, high] = joint.to_le_bytes();
+    [low, high, 0, 0, 0, 0, 0, 0, 255, 0, 0, 0]
+}
+
+/// Translations, rotations and scales as three runs of numbers.
+pub(super) fn placements(instances: &[Placement]) -> [Vec<f32>; 3] {
+    [
+        instances.iter().flat_map(|p| p.translation.to_array()).collect(),
+        instances.iter().flat_map(|p| p.rotation.to_array()).collect(),
+        instances.iter().flat_map(|p| p.scale.to_array()).collect(),
+    ]
+}

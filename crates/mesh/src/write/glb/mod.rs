@@ -1,0 +1,170 @@
+//! Binary glTF 2.0 (Khronos, ISO/IEC 12113): one file with everything, y up, metres.
+//!
+//! Sizes are known before the first corner, so the binary chunk is written in place, block by block;
+//! the JSON in front of it gets its room at the start and its text, with the bounds, at the end.
+//!
+//! | what | how |
+//! | --- | --- |
+//! | corners | interleaved position, normal, texture coordinates; wind in `_WIND_PIVOT`, `_WIND_SWAY` |
+//! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided |
+//! | levels of detail | `MSFT_lod` on the node of the finest; whoever does not know it sees that one |
+//! | leaves as instances | `EXT_mesh_gpu_instancing`, then required: without it there is no crown |
+//! | forests | many nodes that share few meshes |
+//! | sway | a skin of rigid joints with one looping animation |
+
+mod animation;
+mod json;
+mod layout;
+
+use crate::block::Block;
+use crate::palette::Palette;
+use crate::rig::Rig;
+use crate::sink::{MeshError, Part, Sink};
+use glam::{Quat, Vec3, vec3};
+use layout::Layout;
+use std::io::{Seek, SeekFrom, Write};
+
+/// Where a tree stands in a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placed {
+    /// The node's name.
+    pub name: String,
+    /// Numbers of its meshes from fine to coarse; the first is shown.
+    pub meshes: Vec<usize>,
+    /// In metres, z up.
+    pub position: Vec3,
+    /// Turn about the vertical, in radians, counter-clockwise from above.
+    pub turn: f32,
+    /// Size against the mesh.
+    pub scale: f32,
+}
+
+impl Placed {
+    /// One tree at the origin with meshes 0 to `levels` as its levels of detail.
+    #[must_use]
+    pub fn at_origin(name: &str, levels: usize) -> Self {
+        let (position, meshes) = (Vec3::ZERO, (0..levels).collect());
+        Self { name: name.to_owned(), meshes, position, turn: 0.0, scale: 1.0 }
+    }
+}
+
+/// What a file says beside triangles.
+#[derive(Clone, Debug)]
+pub struct Scene<'a> {
+    /// The scene's name.
+    pub name: String,
+    /// Colours of the materials.
+    pub palette: Palette,
+    /// Free data about the scene: species, parameters, seed.
+    pub extras: serde_json::Value,
+    /// Where trees stand.
+    pub placed: Vec<Placed>,
+    /// Joints and their sway, for a mesh that was made with this rig.
+    pub rig: Option<&'a Rig>,
+    /// The picture that a last level of cards shows, as a PNG file.
+    pub card: Option<&'a [u8]>,
+}
+
+/// Writes GLB.
+#[derive(Debug)]
+pub struct Glb<'a, W> {
+    out: W,
+    scene: &'a Scene<'a>,
+    layout: Layout,
+    json_room: u64,
+}
+
+/// Header, chunk header of the JSON, chunk header of the binary part.
+const HEAD: u64 = 12 + 8;
+
+impl<'a, W: Write + Seek> Glb<'a, W> {
+    /// Writes `scene` to `out`, an empty file.
+    pub fn new(out: W, scene: &'a Scene<'a>) -> Self {
+        Self { out, scene, layout: Layout::default(), json_room: 0 }
+    }
+
+    fn write_at(&mut self, offset: u64, bytes: &[u8]) -> Result<(), MeshError> {
+        self.out.seek(SeekFrom::Start(HEAD + self.json_room + 8 + offset))?;
+        Ok(self.out.write_all(bytes)?)
+    }
+}
+
+impl<W: Write + Seek> Sink for Glb<'_, W> {
+    fn begin(&mut self, parts: &[Part]) -> Result<(), MeshError> {
+        self.layout = Layout::new(parts, self.scene);
+        let json = json::text(self.scene, &self.layout);
+        self.json_room = (json.len() as u64).next_multiple_of(4);
+        let whole = HEAD + self.json_room + 8 + self.layout.bytes;
+        let limit = u64::from(u32::MAX);
+        if whole > limit {
+            return Err(MeshError::TooLarge { what: "bytes", found: whole, limit, format: "GLB" });
+        }
+        self.out.write_all(b"glTF")?;
+        for number in [2, whole as u32, self.json_room as u32] {
+            self.out.write_all(&number.to_le_bytes())?;
+        }
+        self.out.write_all(b"JSON")?;
+        self.out.seek(SeekFrom::Start(HEAD + self.json_room))?;
+        self.out.write_all(&(self.layout.bytes as u32).to_le_bytes())?;
+        self.out.write_all(b"BIN\0")?;
+        for (offset, bytes) in self.layout.fixed(self.scene) {
+            self.write_at(offset, &bytes)?;
+        }
+        Ok(())
+    }
+
+    fn block(&mut self, part: usize, block: &mut Block) -> Result<(), MeshError> {
+        turn_upright(block);
+        let place = self.layout.parts[part].advance(block);
+        self.write_at(place.vertices, bytemuck::cast_slice(&block.vertices))?;
+        if !block.wind.is_empty() {
+            self.write_at(place.wind, bytemuck::cast_slice(&block.wind))?;
+        }
+        if !block.joints.is_empty() {
+            let bytes: Vec<u8> = block.joints.iter().flat_map(|&joint| layout::skin(joint)).collect();
+            self.write_at(place.skin, &bytes)?;
+        }
+        if !block.triangles.is_empty() {
+            self.write_at(place.indices, bytemuck::cast_slice(&block.triangles))?;
+        }
+        if !block.instances.is_empty() {
+            let [translations, rotations, scales] = layout::placements(&block.instances);
+            self.write_at(place.translations, bytemuck::cast_slice(&translations))?;
+            self.write_at(place.rotations, bytemuck::cast_slice(&rotations))?;
+            self.write_at(place.scales, bytemuck::cast_slice(&scales))?;
+        }
+        Ok(())
+    }
+
+    fn end(&mut self) -> Result<(), MeshError> {
+        let mut json = json::text(self.scene, &self.layout).into_bytes();
+        debug_assert!(json.len() as u64 <= self.json_room, "bounds take less room than was kept");
+        json.resize(self.json_room as usize, b' ');
+        self.out.seek(SeekFrom::Start(HEAD))?;
+        self.out.write_all(&json)?;
+        Ok(self.out.flush()?)
+    }
+}
+
+/// From z up to y up, for everything in a block.
+fn turn_upright(block: &mut Block) {
+    for vertex in &mut block.vertices {
+        let [_, y, z, _, ny, nz, ..] = *vertex;
+        (vertex[1], vertex[2], vertex[4], vertex[5]) = (z, -y, nz, -ny);
+    }
+    for wind in &mut block.wind {
+        (wind[1], wind[2]) = (wind[2], -wind[1]);
+    }
+    for placement in &mut block.instances {
+        let [x, y, z, w] = placement.rotation.to_array();
+        placement.translation = upright(placement.translation);
+        placement.rotation = Quat::from_xyzw(x, z, -y, w);
+        // The shape itself is turned too, so its axes change places.
+        let scale = placement.scale;
+        placement.scale = vec3(scale.x, scale.z, scale.y);
+    }
+}
+
+fn upright(v: Vec3) -> Vec3 {
+    vec3(v.x, v.z, -v.y)
+}

@@ -1,0 +1,143 @@
+//! Wavefront OBJ with a material file beside it; y up, metres.
+
+use super::{one_plain_mesh, total};
+use crate::block::Block;
+use crate::palette::{Palette, linear};
+use crate::sink::{Material, MeshError, Part, Sink};
+use std::io::Write;
+
+/// Writes OBJ text.
+#[derive(Debug)]
+pub struct Obj<W> {
+    out: W,
+    name: String,
+    material_file: String,
+    parts: Vec<Part>,
+    firsts: Vec<u32>,
+    current: Option<usize>,
+    text: Vec<u8>,
+}
+
+impl<W: Write> Obj<W> {
+    /// Writes to `out`, which should be buffered, an object called `name` that finds its materials in
+    /// `material_file` in the same folder.
+    pub fn new(out: W, name: &str, material_file: &str) -> Self {
+        let one_word = |text: &str| text.split_whitespace().collect::<Vec<_>>().join("_");
+        Self {
+            out,
+            name: one_word(name),
+            material_file: material_file.to_owned(),
+            parts: Vec::new(),
+            firsts: Vec::new(),
+            current: None,
+            text: Vec::new(),
+        }
+    }
+}
+
+/// The material file that goes with an OBJ file.
+#[must_use]
+pub fn materials(palette: &Palette) -> String {
+    let mut text = String::from("# materials of a tree\n");
+    for material in Material::ALL {
+        let [r, g, b] = linear(palette.colour(material));
+        text.push_str(&format!(
+            "\nnewmtl {}\nKd {r:.4} {g:.4} {b:.4}\nKs 0 0 0\nNs 0\nd 1\nillum 1\n",
+            material.name()
+        ));
+    }
+    text
+}
+
+impl<W: Write> Sink for Obj<W> {
+    fn begin(&mut self, parts: &[Part]) -> Result<(), MeshError> {
+        one_plain_mesh(parts, "OBJ")?;
+        total(parts, |p| p.count.vertices, "corners", "OBJ")?;
+        self.parts = parts.to_vec();
+        // Corners count from 1.
+        let mut first = 1;
+        for part in parts {
+            self.firsts.push(first);
+            first += part.count.vertices as u32;
+        }
+        writeln!(self.out, "# metres, y up\nmtllib {}\no {}", self.material_file, self.name)?;
+        Ok(())
+    }
+
+    fn block(&mut self, part: usize, block: &mut Block) -> Result<(), MeshError> {
+        let text = &mut self.text;
+        text.clear();
+        if self.current.replace(part) != Some(part) {
+            let name = self.parts[part].material.name();
+            text.extend_from_slice(format!("g {name}\nusemtl {name}\n").as_bytes());
+        }
+        for &[x, y, z, nx, ny, nz, u, v] in &block.vertices {
+            line(text, b"v", &[x, z, -y], 5);
+            line(text, b"vt", &[u, 1.0 - v], 4);
+            line(text, b"vn", &[nx, nz, -ny], 3);
+        }
+        let first = self.firsts[part];
+        for triangle in &block.triangles {
+            text.push(b'f');
+            for i in triangle.map(|i| u64::from(i + first)) {
+                text.push(b' ');
+                for slash in [true, true, false] {
+                    digits(text, i, 1);
+                    if slash {
+                        text.push(b'/');
+                    }
+                }
+            }
+            text.push(b'\n');
+        }
+        Ok(self.out.write_all(text)?)
+    }
+
+    fn end(&mut self) -> Result<(), MeshError> {
+        Ok(self.out.flush()?)
+    }
+}
+
+/// A keyword and numbers with so many decimals. The standard formatter took four fifths of the time.
+fn line(text: &mut Vec<u8>, keyword: &[u8], numbers: &[f32], decimals: usize) {
+    text.extend_from_slice(keyword);
+    let scale = 10_u64.pow(decimals as u32);
+    for &number in numbers {
+        text.push(b' ');
+        let scaled = (f64::from(number.abs()) * scale as f64).round() as u64;
+        if number < 0.0 && scaled > 0 {
+            text.push(b'-');
+        }
+        digits(text, scaled / scale, 1);
+        text.push(b'.');
+        digits(text, scaled % scale, decimals);
+    }
+    text.push(b'\n');
+}
+
+/// A whole number with at least `least` digits.
+fn digits(text: &mut Vec<u8>, mut number: u64, least: usize) {
+    let mut buffer = [b'0'; 20];
+    let mut at = buffer.len();
+    while number > 0 || buffer.len() - at < least {
+        at -= 1;
+        buffer[at] = b'0' + (number % 10) as u8;
+        number /= 10;
+    }
+    text.extend_from_slice(&buffer[at..]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_as_the_standard_formatter_would() {
+        for number in [0.0, -0.0, 1.0, -1.5, 0.000_004, -0.000_004, 12.345_678, -1234.5, 0.999_999_9_f32] {
+            let mut text = Vec::new();
+            line(&mut text, b"v", &[number], 5);
+            let expected = format!("v {:.5}\n", f64::from(number)).replace(" -0.00000", " 0.00000");
+            assert_eq!(String::from_utf8(text).unwrap(), expected);
+        }
+    }
+}
