@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`bitmap`] | one-bit pictures in 64-bit words |
 //! | [`view`] | directions of view, frames, cameras |
+//! | [`picture`] | overlays and sheets for people |
 //! | [`score`] | how alike two silhouettes are |
 //! | [`raster`] | a tree drawn straight into bits |
 //! | [`goal`] | a picture file becomes ink with a ground and a trunk |
@@ -11,6 +12,7 @@
 pub mod bitmap;
 mod encode;
 pub mod goal;
+pub mod picture;
 pub mod raster;
 pub mod score;
 pub mod view;
