@@ -4,6 +4,8 @@
 //! of the willow). The two draw other random numbers, so means are compared: within 10 %, or within
 //! two standard errors of the difference.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use pleach_tree::TreeStats;
 use std::collections::BTreeMap;
 
@@ -92,7 +94,9 @@ fn fifteen_species_have_the_reference_statistics() {
                 .iter()
                 .any(|(s, f, most, _)| s == name && figure.starts_with(f) && relative <= *most);
             if relative > 0.10 && errors > 2.0 && !excepted {
-                wrong.push(format!("{name} {figure}: {mean:.4}, reference {aim:.4}, off by {errors:.1} standard errors"));
+                wrong.push(format!(
+                    "{name} {figure}: {mean:.4}, reference {aim:.4}, off by {errors:.1} standard errors"
+                ));
             }
         }
     }

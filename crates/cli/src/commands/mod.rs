@@ -1,7 +1,10 @@
 //! One module a command: what was typed, and what it does.
 
+mod experiment;
+mod fit;
 mod grow;
 mod params;
+mod score;
 mod silhouette;
 mod species;
 
@@ -21,10 +24,13 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Fit(Box<fit::Fit>),
     Grow(grow::Grow),
     Silhouette(silhouette::Silhouette),
+    Score(score::Score),
     Species(species::SpeciesCommand),
     Params(params::Params),
+    Experiment(experiment::Experiment),
 }
 
 impl Arguments {
@@ -33,7 +39,10 @@ impl Arguments {
             rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global()?;
         }
         match self.command {
+            Command::Fit(command) => command.run(),
             Command::Grow(command) => command.run(),
+            Command::Score(command) => command.run(),
+            Command::Experiment(command) => command.run(),
             Command::Silhouette(command) => command.run(),
             Command::Species(command) => command.run(),
             Command::Params(command) => command.run(),

@@ -1,0 +1,62 @@
+//! `experiment.toml`.
+
+use anyhow::Context;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// What an experiment runs.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub(super) enum Spec {
+    /// Optimisers against each other on goals.
+    Fits(FitsSpec),
+    /// Time and size of trees, species by species.
+    Growth(GrowthSpec),
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FitsSpec {
+    /// The goals.
+    pub(super) goals: Vec<GoalSpec>,
+    /// Optimisers by name, at their default settings.
+    pub(super) optimizers: Vec<String>,
+    /// Searches of each optimiser on each goal, seeded 1, 2, ….
+    pub(super) repetitions: u64,
+    /// Evaluations of each search.
+    pub(super) evaluations: u64,
+    /// Seed of every tree.
+    pub(super) tree_seed: u64,
+    /// What is made small; the default objective if it is not said.
+    pub(super) objective: Option<String>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GoalSpec {
+    /// The picture, from the experiment's folder.
+    pub(super) file: PathBuf,
+    /// Height of its tree in metres.
+    pub(super) height: f64,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GrowthSpec {
+    /// Species by name.
+    pub(super) species: Vec<String>,
+    /// Seeds 1 to this of each species.
+    pub(super) seeds: u64,
+    /// Whether growing is timed as well.
+    pub(super) timed: bool,
+}
+
+impl Spec {
+    pub(super) fn read(folder: &Path) -> anyhow::Result<Self> {
+        let path = folder.join("experiment.toml");
+        let text = std::fs::read_to_string(&path).with_context(|| {
+            format!("cannot read {}: an experiment is a folder with an experiment.toml", path.display())
+        })?;
+        toml::from_str(&text).with_context(|| format!("{} is no experiment", path.display()))
+    }
+}

@@ -1,0 +1,191 @@
+//! The run folder.
+
+use crate::{files, output};
+use anyhow::{Context, bail};
+use pleach_fit::{COLUMNS, FitProblem, FitSettings, Outcome, Scored, StopReason};
+use pleach_silhouette::goal::Goal;
+use pleach_silhouette::picture;
+use pleach_silhouette::score::ScoreCard;
+use pleach_silhouette::{Bitmap, Rasteriser, View};
+use pleach_tree::{Species, Tree};
+use serde::Serialize;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The folder of one fit.
+pub(super) struct RunFolder {
+    path: PathBuf,
+}
+
+/// What a fit leaves in its folder.
+pub(super) struct Results<'a> {
+    pub(super) settings: &'a FitSettings,
+    pub(super) outcome: &'a Outcome,
+    pub(super) species: &'a Species,
+    pub(super) tree: &'a Tree,
+    pub(super) goal: &'a Goal,
+    pub(super) view: &'a View,
+    pub(super) height: f64,
+    pub(super) foliage: bool,
+    pub(super) from: &'a str,
+}
+
+/// `summary.json`.
+#[derive(Debug, Serialize)]
+pub(super) struct Summary {
+    species: String,
+    generator: String,
+    tree_seed: u64,
+    #[serde(flatten)]
+    scores: ScoreCard,
+    evaluations: u64,
+    generations: u64,
+    seconds: f64,
+    evaluations_per_second: f64,
+    optimizer: &'static str,
+    optimizer_settings: Value,
+    objective: String,
+    cost: f64,
+    stopped_by: StopReason,
+    finished: bool,
+    seed: u64,
+    from: String,
+    free: Vec<String>,
+    fix: Vec<String>,
+    height_m: f64,
+    metres_per_pixel: f64,
+    goal_width: u32,
+    goal_height: u32,
+    version: &'static str,
+}
+
+impl RunFolder {
+    /// Opens or makes the folder. An unfinished fit in it is neither overwritten nor gone on with
+    /// unless that was asked for.
+    pub(super) fn open(path: PathBuf, resume: bool, overwrite: bool) -> anyhow::Result<Self> {
+        files::make_folder(&path)?;
+        let folder = Self { path };
+        let unfinished = folder.checkpoint().exists();
+        if unfinished && !resume && !overwrite {
+            bail!(
+                "{} holds an unfinished fit; --resume goes on with it, --overwrite starts anew",
+                folder.path.display()
+            );
+        }
+        if resume && !unfinished {
+            bail!("{} holds no checkpoint to resume from", folder.path.display());
+        }
+        Ok(folder)
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(super) fn checkpoint(&self) -> PathBuf {
+        self.path.join("checkpoint")
+    }
+
+    /// Removes the checkpoint of a finished fit.
+    pub(super) fn remove_checkpoint(&self) {
+        if let Err(error) = std::fs::remove_file(self.checkpoint()) {
+            output::note(format!("warning: {} stays: {error}", self.checkpoint().display()));
+        }
+    }
+
+    /// Writes everything but the checkpoint.
+    pub(super) fn write(&self, results: &Results<'_>) -> anyhow::Result<Summary> {
+        let Results { settings, outcome, species, goal, .. } = *results;
+        let best = outcome.best.as_ref().context("a fit with a result")?;
+        let frame = goal.frame(results.height);
+        let mut bitmap = Bitmap::default();
+        Rasteriser::new().draw(results.tree, results.view, &frame, results.foliage, &mut bitmap);
+        let scores = ScoreCard::of(&bitmap, &goal.bitmap)?;
+
+        let comments = [
+            format!(
+                "Fitted by pleach {} in {} evaluations ({}).",
+                env!("CARGO_PKG_VERSION"),
+                outcome.evaluations,
+                settings.optimizer.name()
+            ),
+            format!(
+                "IoU {:.4}, pixel accuracy {:.4} with tree_seed below.",
+                scores.iou, scores.pixel_accuracy
+            ),
+        ];
+        files::write_text(&self.path.join("best.toml"), &species.to_toml(&comments))?;
+        files::write_whole(&self.path.join("best.png"), |file| Ok(bitmap.write_png(file)?))?;
+        let overlay = picture::overlay(&bitmap, &goal.bitmap);
+        files::write_whole(&self.path.join("overlay.png"), |file| Ok(overlay.write_png(file)?))?;
+        files::write_whole(&self.path.join("history.csv"), |file| {
+            let mut csv = csv::Writer::from_writer(file);
+            csv.write_record(COLUMNS.iter().map(|c| c.name))?;
+            for row in &outcome.history {
+                csv.write_record(row.cells())?;
+            }
+            Ok(csv.flush()?)
+        })?;
+
+        let seconds = outcome.elapsed.as_secs_f64();
+        let optimizer = serde_json::to_value(&settings.optimizer)?;
+        let summary = Summary {
+            species: species.name.clone(),
+            generator: species.generator.family().to_owned(),
+            tree_seed: best.genome.tree_seed,
+            scores,
+            evaluations: outcome.evaluations,
+            generations: outcome.generations,
+            seconds,
+            evaluations_per_second: outcome.evaluations as f64 / seconds.max(1e-9),
+            optimizer: settings.optimizer.name(),
+            optimizer_settings: optimizer.get(settings.optimizer.name()).cloned().unwrap_or_default(),
+            objective: settings.objective.to_string(),
+            cost: best.score.cost,
+            stopped_by: outcome.stop,
+            finished: outcome.stop != StopReason::Interrupted,
+            seed: settings.seed,
+            from: results.from.to_owned(),
+            free: settings.freedom.free.clone(),
+            fix: settings.freedom.fix.clone(),
+            height_m: results.height,
+            metres_per_pixel: frame.metres_per_pixel,
+            goal_width: goal.bitmap.width(),
+            goal_height: goal.bitmap.height(),
+            version: env!("CARGO_PKG_VERSION"),
+        };
+        files::write_text(
+            &self.path.join("summary.json"),
+            &(serde_json::to_string_pretty(&summary)? + "\n"),
+        )?;
+        Ok(summary)
+    }
+}
+
+/// The species that an individual is.
+pub(super) fn species(problem: &FitProblem, best: &Scored, name: &str) -> anyhow::Result<Species> {
+    Ok(Species {
+        name: name.to_owned(),
+        description: String::new(),
+        generator: Arc::clone(&problem.generator),
+        params: problem.generator.space().check(best.genome.values.clone())?,
+        tree_seed: Some(best.genome.tree_seed),
+        appearance: Default::default(),
+    })
+}
+
+/// The score card that ends a fit.
+pub(super) fn report(summary: &Summary, folder: &RunFolder, stop: StopReason) -> String {
+    format!(
+        "{}\n\n{} trees in {:.1} s ({:.0} a second) by `{}`; {stop}\n\n\
+         overlay  {}\nspecies  {}",
+        crate::commands::score::card(&summary.scores),
+        summary.evaluations,
+        summary.seconds,
+        summary.evaluations_per_second,
+        summary.optimizer,
+        folder.path.join("overlay.png").display(),
+        folder.path.join("best.toml").display(),
+    )
+}

@@ -1,0 +1,323 @@
+//! `pleach fit`: from a goal image to a run folder.
+
+mod folder;
+mod options;
+mod progress;
+
+use crate::{input, output};
+use anyhow::{Context, bail};
+use folder::RunFolder;
+use options::Settings;
+use pleach_fit::{
+    Budget, CheckpointSettings, Control, FitProblem, FitSettings, GoalView, Objective, StopReason,
+};
+use pleach_silhouette::View;
+use pleach_silhouette::goal::{Goal, GoalOptions, Origin, Polarity, Split};
+use pleach_tree::{Foliage, Growth};
+use progress::Bar;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+const EXAMPLES: &str = "Examples:
+  pleach fit targets/quaking_aspen.png                a minute of search, results in runs/quaking_aspen
+  pleach fit oak.jpg --height 18 --timeout 5m         a tree of 18 m, five minutes
+  pleach fit goal.png --optimizer hewitt --evaluations 20000 --seed 3
+  pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
+  pleach fit goal.png --out DIR --resume              go on after ctrl-C or a crash
+
+The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png,
+history.csv (a row a generation) and summary.json; and a checkpoint while the fit is unfinished.";
+
+/// Fit a generator's parameters to a goal image
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Fit {
+    /// The goal: PNG, JPEG or WebP; black on white, white on black, or by transparency
+    goal: PathBuf,
+    /// The run folder; runs/GOAL by default
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Go on from the checkpoint in the run folder, if there is one
+    #[arg(long)]
+    resume: bool,
+    /// Start anew over an unfinished fit in the run folder
+    #[arg(long, conflicts_with = "resume")]
+    overwrite: bool,
+    /// Say more: what was found in the goal
+    #[arg(short, long)]
+    verbose: bool,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    goal_options: GoalArgs,
+    #[command(flatten)]
+    search: SearchArgs,
+    #[command(flatten)]
+    budget: BudgetArgs,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "The goal")]
+struct GoalArgs {
+    /// Height of the tree in metres: a silhouette does not show it
+    #[arg(long, value_name = "METRES", default_value_t = 10.0, value_parser = options::positive)]
+    height: f64,
+    /// Longer side of the pictures that are compared, in pixels; larger goals are reduced
+    #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(16..=2048))]
+    size: u32,
+    /// A picture of the goal's size that says what is tree: white on black
+    #[arg(long, value_name = "FILE")]
+    mask: Option<PathBuf>,
+    /// Which of the two tones is the tree
+    #[arg(long, value_enum, default_value_t = options::Tone::Auto)]
+    tree: options::Tone,
+    /// Row where the tree stands, in pixels of the goal from its top; detected by default
+    #[arg(long, value_name = "PIXELS")]
+    ground_row: Option<f64>,
+    /// Column of the trunk's foot, in pixels of the goal from its left; detected by default
+    #[arg(long, value_name = "PIXELS")]
+    axis_column: Option<f64>,
+    /// Direction of view in degrees: azimuth, and elevation where it is not 0
+    #[arg(long, value_name = "AZ[,EL]", default_value = "0", allow_hyphen_values = true, value_parser = input::view)]
+    view: View,
+    /// The goal is a bare tree: grow no leaves
+    #[arg(long)]
+    no_leaves: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "The search")]
+struct SearchArgs {
+    /// Where to start: a species (name or file), or `random` parameter lists
+    #[arg(long, value_name = "SPECIES|random", default_value = "random")]
+    from: String,
+    /// Parameters that may change: a name, a slot such as length[1], a group, or level:N; repeatable.
+    /// All by default; see `pleach params`
+    #[arg(long, value_name = "PATTERN")]
+    free: Vec<String>,
+    /// Parameters that keep the start's value; repeatable
+    #[arg(long, value_name = "PATTERN")]
+    fix: Vec<String>,
+    /// The optimiser
+    #[arg(long, value_name = "NAME", default_value = pleach_fit::Optimizer::NAMES[0])]
+    optimizer: String,
+    /// A setting of the optimiser, such as population=60; repeatable. `--set help` lists them
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    settings: Vec<String>,
+    /// What is made small
+    #[arg(long, value_name = "NAME", default_value = "blend")]
+    objective: String,
+    /// Seed of the search
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = input::seed)]
+    seed: u64,
+    /// Seed of the tree, or `any` to search it too
+    #[arg(long, value_name = "N|any", default_value = "1", value_parser = options::tree_seed)]
+    tree_seed: pleach_fit::TreeSeed,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "When to stop (whatever comes first; after a minute if nothing is said)")]
+struct BudgetArgs {
+    /// After this time, such as 90s, 10m or 2h
+    #[arg(long, value_name = "TIME", value_parser = options::duration)]
+    timeout: Option<Duration>,
+    /// After this many trees were grown and compared
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    evaluations: Option<u64>,
+    /// After this many generations
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    generations: Option<u64>,
+    /// When the intersection over union reaches this
+    #[arg(long, value_name = "0..1", value_parser = options::share)]
+    target_iou: Option<f64>,
+}
+
+impl Fit {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        let settings = self.settings()?;
+        let Settings::Fit(settings) = settings else {
+            return output::line(options::describe(&self.search.optimizer)?);
+        };
+        let goal = self.goal()?;
+        let problem = self.problem(&goal.working)?;
+        let folder = self.folder()?;
+        let checkpoint =
+            CheckpointSettings { resume: self.resume, ..CheckpointSettings::new(folder.checkpoint()) };
+
+        let stop = Arc::new(AtomicBool::new(false));
+        let raised = Arc::clone(&stop);
+        ctrlc::set_handler(move || {
+            // A second signal means now; the checkpoint on disk is at most a second old.
+            if raised.swap(true, Ordering::SeqCst) {
+                std::process::exit(1);
+            }
+        })
+        .context("cannot catch signals")?;
+
+        let started = Instant::now();
+        let clock = || started.elapsed();
+        let mut bar = Bar::new(&settings);
+        let control = Control {
+            observers: vec![&mut bar],
+            checkpoint: Some(checkpoint),
+            ..Control::new(&clock, &stop)
+        };
+        let outcome = pleach_fit::fit(&problem, &settings, control)?;
+        bar.finish();
+
+        let Some(best) = outcome.best.as_ref().filter(|best| best.score.cost.is_finite()) else {
+            bail!("no parameter list that grows a tree was found in {} evaluations", outcome.evaluations);
+        };
+        let species = folder::species(&problem, best, &goal.name)?;
+        let growth = Growth {
+            limits: settings.limits,
+            foliage: if problem.foliage { Foliage::All } else { Foliage::None },
+            ..Growth::seed(best.genome.tree_seed)
+        };
+        let tree = species.grow_with(&growth)?;
+        let summary = folder.write(&folder::Results {
+            settings: &settings,
+            outcome: &outcome,
+            species: &species,
+            tree: &tree,
+            goal: &goal.full,
+            view: &self.goal_options.view,
+            height: self.goal_options.height,
+            foliage: problem.foliage,
+            from: &self.search.from,
+        })?;
+        if self.json {
+            output::json(&summary)?;
+        } else {
+            output::line(folder::report(&summary, &folder, outcome.stop))?;
+        }
+        if outcome.stop == StopReason::Interrupted {
+            bail!(
+                "interrupted; `pleach fit {} --out {} --resume` with the same options goes on",
+                self.goal.display(),
+                folder.path().display()
+            );
+        }
+        folder.remove_checkpoint();
+        Ok(())
+    }
+
+    fn goal(&self) -> anyhow::Result<Goals> {
+        let args = &self.goal_options;
+        let options = GoalOptions {
+            mask: args.mask.clone(),
+            polarity: match args.tree {
+                options::Tone::Auto => Polarity::Auto,
+                options::Tone::Dark => Polarity::DarkTree,
+                options::Tone::Light => Polarity::LightTree,
+            },
+            ground_row: args.ground_row,
+            axis_column: args.axis_column,
+            max_side: None,
+        };
+        let full = Goal::load(&self.goal, &options)?;
+        if self.verbose {
+            output::note(describe(&full));
+        }
+        let working = Goal::load(&self.goal, &GoalOptions { max_side: Some(args.size), ..options })?;
+        let name = self.goal.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Goals { working, full, name })
+    }
+
+    fn problem(&self, goal: &Goal) -> anyhow::Result<FitProblem> {
+        let start = match self.search.from.as_str() {
+            "random" => {
+                pleach_generators::preset("quaking_aspen").context("the default species is built in")?
+            }
+            species => input::species(species)?,
+        };
+        Ok(FitProblem {
+            generator: start.generator,
+            base: start.params.values().to_vec(),
+            goals: vec![GoalView {
+                goal: goal.bitmap.clone(),
+                view: self.goal_options.view,
+                frame: goal.frame(self.goal_options.height),
+            }],
+            foliage: !self.goal_options.no_leaves,
+        })
+    }
+
+    fn settings(&self) -> anyhow::Result<Settings> {
+        let search = &self.search;
+        if search.settings.iter().any(|s| s == "help") {
+            return Ok(Settings::Help);
+        }
+        let budget = &self.budget;
+        let mut timeout = budget.timeout;
+        if timeout.is_none() && budget.evaluations.or(budget.generations).is_none() {
+            timeout = Some(Duration::from_secs(60));
+        }
+        let start = match search.from.as_str() {
+            "random" => pleach_fit::Start::Random,
+            species => pleach_fit::Start::Lists(vec![input::species(species)?.params.values().to_vec()]),
+        };
+        Ok(Settings::Fit(Box::new(FitSettings {
+            optimizer: options::optimizer(&search.optimizer, &search.settings)?,
+            budget: Budget {
+                timeout,
+                evaluations: budget.evaluations,
+                generations: budget.generations,
+                target_iou: budget.target_iou,
+            },
+            seed: search.seed,
+            tree_seed: search.tree_seed,
+            objective: search.objective.parse::<Objective>()?,
+            start,
+            freedom: pleach_fit::Freedom { free: search.free.clone(), fix: search.fix.clone() },
+            ..FitSettings::default()
+        })))
+    }
+
+    fn folder(&self) -> anyhow::Result<RunFolder> {
+        let path = self.out.clone().unwrap_or_else(|| {
+            std::path::Path::new("runs").join(self.goal.file_stem().unwrap_or_else(|| "goal".as_ref()))
+        });
+        RunFolder::open(path, self.resume, self.overwrite)
+    }
+}
+
+/// What was found in a goal.
+fn describe(goal: &Goal) -> String {
+    let found = &goal.findings;
+    let how = match found.split {
+        Split::Opacity => "the tree is what is opaque".to_owned(),
+        Split::Brightness { threshold, dark_tree } => {
+            let side = if dark_tree { "up to" } else { "above" };
+            format!("the tree is what is {side} brightness {threshold} of 255")
+        }
+        Split::None => "the picture has one bit a pixel".to_owned(),
+    };
+    let origin = |origin: Origin| match origin {
+        Origin::Detected => "detected",
+        Origin::Snapped => "detected and snapped to the picture's edge or middle",
+        Origin::Given => "given",
+    };
+    let (width, height) = found.original_size;
+    let ink = 100.0 * goal.bitmap.ink() as f64 / goal.bitmap.area() as f64;
+    format!(
+        "goal of {width} × {height} pixels: {how}{}; {ink:.1} % ink\n\
+         ground at row {:.1} ({}), trunk at column {:.1} ({}), top at row {:.1}",
+        if found.masked { ", in the mask" } else { "" },
+        goal.ground_row,
+        origin(found.ground),
+        goal.axis_column,
+        origin(found.axis),
+        goal.top_row,
+    )
+}
+
+/// The goal as it was given, and as it is compared with.
+struct Goals {
+    full: Goal,
+    working: Goal,
+    name: String,
+}

@@ -1,0 +1,98 @@
+//! Arguments of `fit` that are more than a number.
+
+use anyhow::{Context, bail};
+use pleach_fit::{FitSettings, Optimizer, TreeSeed};
+use serde_json::Value;
+use std::time::Duration;
+
+/// What the arguments ask for.
+pub(super) enum Settings {
+    /// A fit.
+    Fit(Box<FitSettings>),
+    /// The list of settings of an optimiser.
+    Help,
+}
+
+/// Which tone of a picture is the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Tone {
+    /// Whichever does not fill the border
+    Auto,
+    /// The darker one
+    Dark,
+    /// The lighter one
+    Light,
+}
+
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    text.parse::<f64>()
+        .ok()
+        .filter(|v| *v > 0.0 && *v <= 1000.0)
+        .ok_or_else(|| "expected a number of metres above 0 and up to 1000".to_owned())
+}
+
+pub(super) fn share(text: &str) -> Result<f64, String> {
+    text.parse::<f64>()
+        .ok()
+        .filter(|v| (0.0..=1.0).contains(v))
+        .ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
+
+/// `90s`, `10m`, `2h`, `500ms`, or plain seconds.
+pub(super) fn duration(text: &str) -> Result<Duration, String> {
+    let units = [("ms", 1e-3), ("s", 1.0), ("m", 60.0), ("h", 3600.0)];
+    let (number, unit) =
+        units.iter().find_map(|(name, unit)| Some((text.strip_suffix(name)?, *unit))).unwrap_or((text, 1.0));
+    number
+        .parse::<f64>()
+        .ok()
+        .map(|n| n * unit)
+        .filter(|s| *s > 0.0 && *s <= 1e7)
+        .map(Duration::from_secs_f64)
+        .ok_or_else(|| "expected a time such as 90s, 10m or 2h".to_owned())
+}
+
+pub(super) fn tree_seed(text: &str) -> Result<TreeSeed, String> {
+    if text == "any" {
+        return Ok(TreeSeed::Any);
+    }
+    crate::input::seed(text).map(TreeSeed::Fixed).map_err(|e| format!("{e}, or `any`"))
+}
+
+/// The optimiser called `name` with `KEY=VALUE` settings applied.
+pub(super) fn optimizer(name: &str, settings: &[String]) -> anyhow::Result<Optimizer> {
+    let optimizer: Optimizer = name.parse()?;
+    if settings.is_empty() {
+        return Ok(optimizer);
+    }
+    let mut value = serde_json::to_value(&optimizer)?;
+    let fields = fields(&mut value)?;
+    for setting in settings {
+        let (key, text) =
+            setting.split_once('=').with_context(|| format!("`--set {setting}` is no KEY=VALUE"))?;
+        let known: Vec<String> = fields.keys().cloned().collect();
+        let Some(field) = fields.get_mut(key) else {
+            bail!("`{name}` has no setting `{key}`, known are {}", known.join(", "));
+        };
+        *field = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.to_owned()));
+    }
+    serde_json::from_value(value)
+        .with_context(|| format!("the settings of `{name}` do not fit together: {}", settings.join(" ")))
+}
+
+/// The settings of the optimiser called `name` with their defaults.
+pub(super) fn describe(name: &str) -> anyhow::Result<String> {
+    let mut value = serde_json::to_value(name.parse::<Optimizer>()?)?;
+    let lines: Vec<String> =
+        fields(&mut value)?.iter().map(|(key, value)| format!("  {key}={value}")).collect();
+    Ok(format!("settings of `{name}` and their defaults:\n{}", lines.join("\n")))
+}
+
+/// The one struct inside the serialised enum.
+fn fields(value: &mut Value) -> anyhow::Result<&mut serde_json::Map<String, Value>> {
+    value
+        .as_object_mut()
+        .and_then(|outer| outer.values_mut().next())
+        .and_then(Value::as_object_mut)
+        .context("this optimiser has no settings")
+}

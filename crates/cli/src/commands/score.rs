@@ -1,0 +1,56 @@
+//! `pleach score`: how alike two silhouettes are.
+
+use crate::output;
+use pleach_silhouette::goal::{Goal, GoalOptions};
+use pleach_silhouette::score::ScoreCard;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "Examples:
+  pleach score best.png goal.png           the score card as a table
+  pleach score best.png goal.png --json    for scripts
+
+Each score stands beside what says nothing would have: pixel accuracy beside that of an empty
+picture, IoU beside that of the best single ellipse.";
+
+/// Print the score card of two silhouettes of one size
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Score {
+    /// The picture to be judged
+    image: PathBuf,
+    /// The goal
+    goal: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Score {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        let options = GoalOptions::default();
+        let image = Goal::load(&self.image, &options)?;
+        let goal = Goal::load(&self.goal, &options)?;
+        let scores = ScoreCard::of(&image.bitmap, &goal.bitmap)?;
+        if self.json { output::json(&scores) } else { output::line(card(&scores)) }
+    }
+}
+
+/// The score card as a table.
+pub(crate) fn card(scores: &ScoreCard) -> String {
+    let row = |name: &str, value: f64, beside: String| vec![name.to_owned(), format!("{value:.4}"), beside];
+    let rows = vec![
+        row("IoU", scores.iou, format!("best single ellipse {:.4}", scores.best_ellipse_iou)),
+        row("pixel accuracy", scores.pixel_accuracy, format!("empty picture {:.4}", scores.empty_accuracy)),
+        row("Dice", scores.dice, String::new()),
+        row("boundary F", scores.boundary_f, String::new()),
+        row("blurred IoU", scores.blurred_iou.sixteenth, "blurred by 1/16 of the height".to_owned()),
+        row("", scores.blurred_iou.thirty_second, "1/32".to_owned()),
+        row("", scores.blurred_iou.sixty_fourth, "1/64".to_owned()),
+        row(
+            "Chamfer",
+            scores.chamfer,
+            "mean distance of the outlines, in image heights; 0 is best".to_owned(),
+        ),
+    ];
+    output::table(&rows, &[1])
+}

@@ -1,0 +1,99 @@
+//! Blurred overlap: how well masses agree, twigs aside.
+
+use crate::bitmap::Bitmap;
+
+/// Soft intersection over union, Σ min / Σ max, of the two pictures blurred by a Gaussian of `sigma`
+/// pixels; 1 where both are empty. Beyond the edges is paper.
+///
+/// The Gaussian is three running means (Wells 1986, *Efficient synthesis of Gaussian filters by
+/// cascaded uniform filters*, IEEE PAMI 8): its sigma is within 5 % from 4 pixels up, and any sigma is
+/// as fast as another.
+pub(crate) fn blurred_iou(a: &Bitmap, b: &Bitmap, sigma: f64) -> f64 {
+    let (a, b) = (blurred(a, sigma), blurred(b, sigma));
+    let (mut least, mut most) = (0.0, 0.0);
+    for (a, b) in a.iter().zip(&b) {
+        least += f64::from(a.min(*b));
+        most += f64::from(a.max(*b));
+    }
+    if most > 0.0 { least / most } else { 1.0 }
+}
+
+fn blurred(bitmap: &Bitmap, sigma: f64) -> Vec<f32> {
+    let (width, height) = (bitmap.width() as usize, bitmap.height() as usize);
+    let mut field = vec![0.0; width * height];
+    for y in 0..height {
+        for x in bitmap.ink_in_row(y as u32) {
+            field[y * width + x as usize] = 1.0;
+        }
+    }
+    let mut line = Vec::new();
+    for half in half_widths(sigma) {
+        for row in field.chunks_exact_mut(width) {
+            line.clear();
+            line.extend_from_slice(row);
+            running_mean(&line, half, row.iter_mut());
+        }
+        for x in 0..width {
+            line.clear();
+            line.extend(field[x..].iter().step_by(width));
+            running_mean(&line, half, field[x..].iter_mut().step_by(width));
+        }
+    }
+    field
+}
+
+/// Half widths of three running means whose variances add up to sigma².
+fn half_widths(sigma: f64) -> [usize; 3] {
+    // A mean over 2h + 1 pixels has variance h(h + 1)/3.
+    let ideal = (sigma * sigma + 0.25).sqrt() - 0.5;
+    let low = ideal.floor();
+    let (short, long) = (low * (low + 1.0), (low + 1.0) * (low + 2.0));
+    let longer = ((3.0 * sigma * sigma - 3.0 * short) / (long - short)).round().clamp(0.0, 3.0) as usize;
+    std::array::from_fn(|i| low as usize + usize::from(i < longer))
+}
+
+fn running_mean<'a>(line: &[f32], half: usize, out: impl Iterator<Item = &'a mut f32>) {
+    let scale = 1.0 / (2 * half + 1) as f32;
+    let mut sum: f32 = line.iter().take(half).sum();
+    for (i, out) in out.enumerate() {
+        sum += line.get(i + half).copied().unwrap_or(0.0);
+        // Rounding may leave a tiny negative sum where all ink has left the window.
+        *out = (sum * scale).max(0.0);
+        if i >= half {
+            sum -= line[i - half];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dot_becomes_a_bell_of_the_right_width() {
+        for sigma in [4.0, 4.3, 8.0, 16.0] {
+            let dot = Bitmap::from_fn(129, 129, |x, y| x == 64 && y == 64);
+            let field = blurred(&dot, sigma);
+            let (mut mass, mut variance) = (0.0, 0.0);
+            for (i, v) in field.iter().enumerate() {
+                mass += f64::from(*v);
+                variance += f64::from(*v) * ((i % 129) as f64 - 64.0).powi(2);
+            }
+            assert!((mass - 1.0).abs() < 1e-3, "{mass}");
+            assert!((variance.sqrt() / sigma - 1.0).abs() < 0.05, "sigma {sigma}: {}", variance.sqrt());
+            let peak = 1.0 / (std::f64::consts::TAU * sigma * sigma);
+            assert!((f64::from(field[64 * 129 + 64]) / peak - 1.0).abs() < 0.1);
+        }
+    }
+
+    #[test]
+    fn shifts_cost_less_than_their_pixels() {
+        let line = |x0: u32| Bitmap::from_fn(64, 64, |x, _| x == x0);
+        assert_eq!(blurred_iou(&line(30), &line(30), 4.0), 1.0);
+        let near = blurred_iou(&line(30), &line(31), 4.0);
+        let far = blurred_iou(&line(30), &line(50), 4.0);
+        assert!(near > 0.75 && far < 0.05, "{near} {far}");
+        assert_eq!(blurred_iou(&Bitmap::new(8, 8), &Bitmap::new(8, 8), 1.0), 1.0);
+        assert_eq!(blurred_iou(&line(30), &Bitmap::new(64, 64), 2.0), 0.0);
+    }
+}

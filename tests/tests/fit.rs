@@ -1,0 +1,221 @@
+//! `pleach fit`, as a user runs it: results, determinism, interruption.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use pleach_tests::Dir;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+
+fn goal(name: &str) -> String {
+    pleach_tests::root().join("targets").join(name).to_str().unwrap().to_owned()
+}
+
+/// A small fit: acer grows in a millisecond.
+fn small<'a>(goal: &'a str, out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&["fit", goal, "--out", out, "--size", "64", "--from", "acer"], more].concat()
+}
+
+fn read(path: &Path) -> Vec<u8> {
+    std::fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// The history without its time column, the species and the picture: what must be the same bits.
+fn results(folder: &Path) -> (Vec<u8>, Vec<u8>, Vec<String>) {
+    let history = String::from_utf8(read(&folder.join("history.csv"))).unwrap();
+    let rows = history.lines().map(|l| l.rsplit_once(',').unwrap().0.to_owned()).collect();
+    (read(&folder.join("best.toml")), read(&folder.join("best.png")), rows)
+}
+
+#[test]
+fn the_run_folder_holds_what_it_should() {
+    let dir = Dir::new();
+    let goal = goal("acer.png");
+    let run = dir.run(small(&goal, "run", &["--evaluations", "300", "--json"]));
+    let printed = run.json();
+    let folder = dir.path("run");
+    let summary: serde_json::Value = serde_json::from_slice(&read(&folder.join("summary.json"))).unwrap();
+    assert_eq!(summary, printed);
+    let keys = [
+        "pixel_accuracy", "empty_accuracy", "iou", "best_ellipse_iou", "dice", "boundary_f", "chamfer", "blurred_iou",
+        "species", "generator", "tree_seed", "evaluations", "seconds", "evaluations_per_second", "optimizer",
+    ];
+    for key in keys {
+        assert!(summary.get(key).is_some(), "`{key}` is missing in {summary}");
+    }
+    assert_eq!(summary["evaluations"], 300);
+    for key in ["16", "32", "64"] {
+        assert!(summary["blurred_iou"][key].is_number());
+    }
+    let names = |folder: &Path| {
+        let mut names: Vec<String> =
+            std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(names(&folder), ["best.png", "best.toml", "history.csv", "overlay.png", "summary.json"]);
+
+    // The picture has the goal's size, the card is that of `score`, and the species grows the picture.
+    let best = folder.join("best.png");
+    assert_eq!(image::open(&best).unwrap().to_luma8().dimensions(), (256, 256));
+    let card = dir.run(["score", best.to_str().unwrap(), &goal, "--json"]).json();
+    assert_eq!(card["iou"], summary["iou"]);
+    let grown = dir.run(["grow", "run/best.toml", "--stats-only", "--json"]).json();
+    assert_eq!(grown["seed"], summary["tree_seed"]);
+    assert_eq!(names(&dir.path("")), ["run"], "nothing is written beside the run folder");
+}
+
+#[test]
+fn every_optimizer_is_the_same_on_any_number_of_threads() {
+    let dir = Dir::new();
+    let goal = goal("acer.png");
+    for optimizer in pleach_fit::Optimizer::NAMES {
+        let run = |threads: &str| {
+            let out = format!("{optimizer}-{threads}");
+            let more = ["--evaluations", "250", "--optimizer", optimizer, "--threads", threads, "--seed", "5"];
+            let _ = dir.run(small(&goal, &out, &more)).ok();
+            results(&dir.path(&out))
+        };
+        let one = run("1");
+        assert!(one == run("2") && one == run("8"), "{optimizer}");
+    }
+}
+
+#[test]
+fn another_seed_is_another_search() {
+    let dir = Dir::new();
+    let goal = goal("acer.png");
+    let _ = dir.run(small(&goal, "a", &["--evaluations", "200", "--seed", "1"])).ok();
+    let _ = dir.run(small(&goal, "b", &["--evaluations", "200", "--seed", "2"])).ok();
+    assert!(results(&dir.path("a")) != results(&dir.path("b")));
+}
+
+#[test]
+fn fixed_parameters_keep_their_values() {
+    let dir = Dir::new();
+    let goal = goal("acer.png");
+    let _ = dir.run(small(&goal, "run", &["--evaluations", "200", "--free", "crown", "--free", "length[1]", "--fix", "levels"])).ok();
+    let fitted = dir.run(["species", "run/best.toml", "--json"]).json();
+    let start = dir.run(["species", "acer", "--json"]).json();
+    let (fitted, start) = (&fitted["parameters"], &start["parameters"]);
+    let mut changed: Vec<&str> = Vec::new();
+    for (name, value) in fitted.as_object().unwrap() {
+        if *value != start[name] {
+            changed.push(name);
+        }
+    }
+    assert!(!changed.is_empty());
+    for name in changed {
+        assert!(["shape", "g_scale", "g_scale_v", "length"].contains(&name), "`{name}` was not free");
+    }
+    assert_eq!(fitted["length"][0], start["length"][0]);
+    dir.run(small(&goal, "x", &["--free", "crwn"])).fails(1, &["crwn", "did you mean `crown`?"]);
+}
+
+fn spawn(dir: &Dir, args: &[&str]) -> Child {
+    dir.command(args).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// Waits until the checkpoint has been written over at least once.
+fn wait_for_progress(checkpoint: &Path) {
+    let started = Instant::now();
+    let stamp = |p: &Path| std::fs::metadata(p).and_then(|m| m.modified()).ok();
+    let mut first: Option<std::time::SystemTime> = None;
+    loop {
+        assert!(started.elapsed() < Duration::from_secs(60), "no checkpoint within a minute");
+        match (first, stamp(checkpoint)) {
+            (None, Some(now)) => first = Some(now),
+            (Some(then), Some(now)) if now > then => return,
+            _ => {}
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+const LONG: &[&str] = &["--generations", "260", "--seed", "3", "--size", "96"];
+
+fn long_run(dir: &Dir, goal: &str) -> PathBuf {
+    let _ = dir.run(small(goal, "whole", LONG)).ok();
+    dir.path("whole")
+}
+
+#[cfg(unix)]
+fn signal(child: &Child, name: &str) {
+    let status = std::process::Command::new("kill").args([name, &child.id().to_string()]).status().unwrap();
+    assert!(status.success());
+}
+
+/// Killed without warning, and asked to stop: either way the resumed run ends in the same bits as one
+/// that was never interrupted.
+#[test]
+#[cfg(unix)]
+fn an_interrupted_run_resumes_to_the_same_bits() {
+    let dir = Dir::new();
+    let goal = goal("hill_cherry.png");
+    let whole = long_run(&dir, &goal);
+
+    let mut killed = spawn(&dir, &small(&goal, "parts", LONG));
+    wait_for_progress(&dir.path("parts/checkpoint"));
+    signal(&killed, "-KILL");
+    let _ = killed.wait();
+    assert!(dir.path("parts/checkpoint").exists(), "the run was long enough to be killed");
+
+    // An unfinished fit is neither overwritten nor gone on with by accident, nor with other options.
+    dir.run(small(&goal, "parts", LONG)).fails(1, &["unfinished", "--resume", "--overwrite"]);
+    dir.run(small(&goal, "parts", &["--resume", "--generations", "260", "--seed", "4", "--size", "96"])).fails(1, &["seed"]);
+
+    let resume = [LONG, &["--resume"]].concat();
+    let stopped = spawn(&dir, &small(&goal, "parts", &resume));
+    wait_for_progress(&dir.path("parts/checkpoint"));
+    signal(&stopped, "-TERM");
+    let output = stopped.wait_with_output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    if output.status.code() == Some(1) {
+        assert!(message.contains("interrupted") && message.contains("--resume"), "{message}");
+        assert!(dir.path("parts/best.toml").exists(), "what was found so far is there");
+        let _ = dir.run(small(&goal, "parts", &resume)).ok();
+    } else {
+        assert_eq!(output.status.code(), Some(0), "{message}");
+    }
+    assert!(results(&whole) == results(&dir.path("parts")), "interrupted and whole run differ");
+    assert!(!dir.path("parts/checkpoint").exists(), "a finished fit leaves no checkpoint");
+    dir.run(small(&goal, "parts", &resume)).fails(1, &["no checkpoint to resume from"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_checkpoint_cut_in_half_is_told() {
+    let dir = Dir::new();
+    let goal = goal("hill_cherry.png");
+    let mut killed = spawn(&dir, &small(&goal, "run", LONG));
+    wait_for_progress(&dir.path("run/checkpoint"));
+    signal(&killed, "-KILL");
+    let _ = killed.wait();
+    let checkpoint = dir.path("run/checkpoint");
+    let bytes = read(&checkpoint);
+    std::fs::write(&checkpoint, &bytes[..bytes.len() / 2]).unwrap();
+    let resume = [LONG, &["--resume"]].concat();
+    dir.run(small(&goal, "run", &resume)).fails(1, &["checkpoint"]);
+}
+
+#[test]
+fn a_time_budget_ends_a_fit_and_a_target_ends_it_sooner() {
+    let dir = Dir::new();
+    let goal = goal("acer.png");
+    let timed = dir.run(small(&goal, "timed", &["--timeout", "1s", "--json"])).json();
+    assert_eq!(timed["stopped_by"], "timeout");
+    let reached = dir.run(small(&goal, "target", &["--target-iou", "0.05", "--evaluations", "5000", "--json"])).json();
+    assert_eq!(reached["stopped_by"], "target-iou");
+    assert!(reached["evaluations"].as_u64().unwrap() < 5000);
+}
+
+#[test]
+fn optimizers_and_their_settings_are_told() {
+    let dir = Dir::new();
+    let goal = goal("acer.png");
+    let settings = dir.run(["fit", &goal, "--optimizer", "hewitt", "--set", "help"]).ok();
+    assert!(settings.contains("population=") && settings.contains("flip_chance="), "{settings}");
+    dir.run(small(&goal, "x", &["--optimizer", "newton"])).fails(1, &["newton", "hewitt", "evolution"]);
+    dir.run(small(&goal, "x", &["--optimizer", "hewitt", "--set", "pop=3"])).fails(1, &["`pop`", "population"]);
+    dir.run(small(&goal, "x", &["--objective", "beauty"])).fails(1, &["beauty", "iou"]);
+}

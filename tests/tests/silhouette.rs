@@ -1,0 +1,58 @@
+//! `pleach silhouette`, as a user runs it.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use image::GenericImageView;
+use pleach_tests::Dir;
+
+fn png(dir: &Dir, args: &[&str]) -> image::DynamicImage {
+    let out = dir.path("out.png");
+    let args = [&["silhouette"], args, &["-o", out.to_str().unwrap()]].concat();
+    let _ = dir.run(args).ok();
+    image::open(out).unwrap()
+}
+
+#[test]
+fn the_picture_is_black_on_white_with_the_tree_where_it_should_be() {
+    let dir = Dir::new();
+    let picture = png(&dir, &["quaking_aspen", "--seed", "1", "--size", "200"]);
+    assert_eq!(picture.dimensions(), (200, 200));
+    let grey = picture.to_luma8();
+    assert!(grey.pixels().all(|p| p[0] == 0 || p[0] == 255));
+    let ink: Vec<(u32, u32)> =
+        grey.enumerate_pixels().filter(|(_, _, p)| p[0] == 0).map(|(x, y, _)| (x, y)).collect();
+    let top = ink.iter().map(|p| p.1).min().unwrap();
+    assert!((8..=11).contains(&top), "95 % of the height is filled, not from row {top}");
+    let foot: Vec<u32> = ink.iter().filter(|p| p.1 == 199).map(|p| p.0).collect();
+    let middle = f64::from(foot.iter().sum::<u32>()) / foot.len() as f64;
+    assert!((middle - 99.5).abs() < 1.0, "the trunk's foot is in the middle, not at {middle}");
+    // One bit a pixel: a 200 × 200 picture is at most 5,200 bytes before compression.
+    assert!(std::fs::metadata(dir.path("out.png")).unwrap().len() < 5_200);
+}
+
+#[test]
+fn views_and_leaves_make_a_difference() {
+    let dir = Dir::new();
+    let front = png(&dir, &["hill_cherry", "--size", "128"]);
+    let side = png(&dir, &["hill_cherry", "--size", "128", "--view", "90"]);
+    let above = png(&dir, &["hill_cherry", "--size", "128", "--view", "-30,60"]);
+    let bare = png(&dir, &["hill_cherry", "--size", "128", "--no-leaves"]);
+    let ink = |p: &image::DynamicImage| p.to_luma8().pixels().filter(|p| p[0] == 0).count();
+    assert!(front != side && front != above);
+    assert!(ink(&bare) * 3 < ink(&front) * 2);
+}
+
+#[test]
+fn without_a_file_the_tree_is_drawn_in_the_terminal() {
+    let text = Dir::new().run(["silhouette", "palm"]).ok();
+    assert!(text.lines().count() > 30 && text.contains('⣿'), "{text}");
+}
+
+#[test]
+fn wrong_arguments_are_told() {
+    let dir = Dir::new();
+    dir.run(["silhouette", "palm", "--view", "0,100"]).fails(2, &["-90 to 90"]);
+    dir.run(["silhouette", "palm", "--size", "4"]).fails(2, &["8..=8192"]);
+    dir.run(["silhouette", "palm", "-o", "palm.gif"]).fails(1, &["palm.gif", "PNG"]);
+    dir.run(["silhouette", "plam"]).fails(1, &["`plam`", "did you mean `palm`?"]);
+}
