@@ -47,6 +47,12 @@ impl Generator for WeberPenn {
         }
     }
 
+    fn redeals(&self, slot: usize) -> bool {
+        let param = space().param_of(slot);
+        let feeds_counts = matches!(param.name.as_ref(), "base_size" | "branch_dist" | "seg_splits");
+        param.kind.is_whole() || feeds_counts || param.name == "rotate"
+    }
+
     fn extra_toml(&self) -> String {
         let mut text = String::new();
         if let Some(inside) = &self.surroundings.inside {

@@ -1,5 +1,7 @@
 //! What each parameter of Appendix C does to a tree, seen from outside.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use pleach_tree::{Family, Species, SpeciesDoc, SpeciesError, StemKind, Tree};
 use pleach_weber_penn::WeberPennFamily;
 

@@ -1,5 +1,7 @@
 //! Every species keeps the promises of a generator.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use pleach_tree::{Family, conformance};
 use pleach_weber_penn::{WeberPennFamily, preset};
 

@@ -20,9 +20,9 @@ pub fn best_ellipse_iou(goal: &Bitmap) -> f64 {
     let small = Rows::new(goal, reduction);
     let Some((mean, spread)) = small.moments(1.0) else { return 0.0 };
     let mut best = (0.0, [0.0; 5]);
-    for part in [1.0, 0.85, 0.7, 0.55] {
+    for part in [1.0, 0.8, 0.6] {
         let Some((mean, spread)) = small.moments(part) else { continue };
-        for size in [1.4, 2.0] {
+        for size in [1.2, 1.7, 2.2] {
             for tilt in [0.0, 0.35, -0.35] {
                 let start = [mean[0], mean[1], size * spread[0], size * spread[1], tilt];
                 let found = small.climb(start, [4.0, 4.0, 4.0, 4.0, 0.2], 0.05);
@@ -46,6 +46,18 @@ pub fn best_ellipse_iou(goal: &Bitmap) -> f64 {
     full.climb([x * scale, y * scale, a * scale, b * scale, angle], [scale, scale, scale, scale, 0.02], 0.25)
         .0
 }
+
+/// Directions of steps: each number alone; one end of the upright axis with the other held; both axes.
+const WAYS: [Ellipse; 8] = [
+    [1.0, 0.0, 0.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0, 0.0, 0.0],
+    [0.0, 0.0, 1.0, 0.0, 0.0],
+    [0.0, 0.0, 0.0, 1.0, 0.0],
+    [0.0, 0.0, 0.0, 0.0, 1.0],
+    [0.0, 1.0, 0.0, 1.0, 0.0],
+    [0.0, 1.0, 0.0, -1.0, 0.0],
+    [0.0, 0.0, 1.0, 1.0, 0.0],
+];
 
 /// Ink before each column of each row: a span's ink is one subtraction.
 struct Rows {
@@ -107,7 +119,7 @@ impl Rows {
         Some((mean, spread))
     }
 
-    /// Intersection over union with an ellipse; the part of it outside the picture counts as missed.
+    /// Intersection over union with an ellipse, cut off at the picture's edges as any picture is.
     fn iou(&self, &[cx, cy, a, b, angle]: &Ellipse) -> f64 {
         if a < 0.3 || b < 0.3 {
             return 0.0;
@@ -120,33 +132,32 @@ impl Rows {
         let reach = (p / (p * r - q * q)).sqrt();
         let first = (cy - reach).floor().max(0.0) as usize;
         let last = ((cy + reach).ceil().max(0.0) as usize).min(self.height);
-        let mut inside = 0.0;
+        let (mut inside, mut area) = (0.0, 0.0);
+        let edge = self.width as f64;
         for y in first..last {
             let dy = y as f64 + 0.5 - cy;
             let root = q * q * dy * dy - p * (r * dy * dy - 1.0);
             if root > 0.0 {
                 let (middle, half) = (cx - q * dy / p, root.sqrt() / p);
                 let row = self.row(y);
-                inside += at(row, middle + half) - at(row, middle - half);
+                let (from, to) = ((middle - half).clamp(0.0, edge), (middle + half).clamp(0.0, edge));
+                inside += at(row, to) - at(row, from);
+                area += to - from;
             }
         }
-        let area = std::f64::consts::PI * a * b;
-        // Sampling by rows may find a little more than there is.
-        let inside = inside.min(area).min(self.ink);
-        inside / (area + self.ink - inside)
+        if area > 0.0 { inside / (area + self.ink - inside) } else { 0.0 }
     }
 
-    /// Climbs from `start` by steps along each number and both ways, halving them until all are
-    /// below `least` of their first size.
+    /// Climbs from `start` by steps along [`WAYS`], forwards and back, halving them until they are below
+    /// `least` of their first size.
     fn climb(&self, start: Ellipse, steps: Ellipse, least: f64) -> (f64, Ellipse) {
         let mut best = (self.iou(&start), start);
         let mut size = 1.0;
         while size > least {
             let mut moved = false;
-            for k in 0..5 {
-                for sign in [1.0, -1.0] {
-                    let mut trial = best.1;
-                    trial[k] += sign * size * steps[k];
+            for way in WAYS {
+                for sign in [size, -size] {
+                    let trial: Ellipse = std::array::from_fn(|k| best.1[k] + sign * way[k] * steps[k]);
                     let iou = self.iou(&trial);
                     if iou > best.0 {
                         best = (iou, trial);

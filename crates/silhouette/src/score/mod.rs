@@ -9,5 +9,6 @@ mod distance;
 mod ellipse;
 pub mod fast;
 
+pub use blur::blurred_iou;
 pub use card::{BlurredIou, Crown, ScoreCard, SizeMismatch};
 pub use ellipse::best_ellipse_iou;
