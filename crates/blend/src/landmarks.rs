@@ -2,7 +2,7 @@
 
 use crate::coding::{Code, Coding, Features};
 use crate::error::BlendError;
-use pleach_tree::{CheckedParams, ParamSpace, Species};
+use pleach_tree::{CheckedParams, Kind, ParamSpace, Species};
 
 /// How much of each landmark is in a blend: 0 or more each, 1 together.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +34,21 @@ impl Weights {
         &self.0
     }
 
+    /// The nearest weights that are whole numbers of thirds: those of the counts of a blend. Nearest by
+    /// largest remainders, of equals the first.
+    #[must_use]
+    pub fn in_thirds(&self) -> Self {
+        const PARTS: f64 = 3.0;
+        let scaled: Vec<f64> = self.0.iter().map(|w| w * PARTS).collect();
+        let mut whole: Vec<f64> = scaled.iter().map(|s| s.floor()).collect();
+        let missing = PARTS - whole.iter().sum::<f64>();
+        let mut order: Vec<usize> = (0..scaled.len()).collect();
+        let rest = |i: usize| scaled[i] - scaled[i].floor();
+        order.sort_by(|&a, &b| rest(b).total_cmp(&rest(a)).then(a.cmp(&b)));
+        order.iter().take(missing.round() as usize).for_each(|&i| whole[i] += 1.0);
+        Self::of_shares(whole)
+    }
+
     /// The landmark with the largest weight, the first of equals.
     #[must_use]
     pub fn dominant(&self) -> usize {
@@ -60,6 +75,8 @@ pub struct Landmarks {
     codes: Vec<Code>,
     /// Whether a landmark reads a slot: `reads[landmark][slot]`.
     reads: Vec<Vec<bool>>,
+    /// Whether a slot changes in steps, with all others that deal parts out.
+    deals: Vec<bool>,
 }
 
 impl Landmarks {
@@ -98,7 +115,12 @@ impl Landmarks {
             (0..space.len()).map(read).collect()
         };
         let reads = species.iter().map(reads_of).collect();
-        Ok(Self { species, coding, codes, reads })
+        let deals_of = |slot: usize| {
+            let is_choice = matches!(space.kind_of(slot), Kind::Choice { .. });
+            features == Features::Declared && !is_choice && first.generator.redeals(slot)
+        };
+        let deals = (0..space.len()).map(deals_of).collect();
+        Ok(Self { species, coding, codes, reads, deals })
     }
 
     /// The species, in the order given.
@@ -192,10 +214,12 @@ impl Landmarks {
 
     /// The blend of the landmarks: valid parameters.
     ///
-    /// Real numbers change gradually with the weights. Whole numbers step. Choices and signs take
-    /// the side with more weight among those landmarks to which they matter. A slot on which all
-    /// landmarks with weight agree keeps their number bit for bit, so all weight on one landmark
-    /// gives that landmark exactly.
+    /// Real numbers change gradually with the weights. Choices and signs take the side with more
+    /// weight among those landmarks to which they matter. Counts, and other numbers that deal the parts
+    /// of a tree out anew ([`pleach_tree::Generator::redeals`]), change together, by the nearest weights
+    /// in [thirds](Weights::in_thirds): of 250 branches each one more would shuffle all the others, so
+    /// they come in three larger steps with peace in between. A slot on which all landmarks with weight
+    /// agree keeps their number bit for bit, so all weight on one landmark gives that landmark exactly.
     #[must_use]
     pub fn mix(&self, weights: &Weights) -> CheckedParams {
         self.decode(weights, &self.average(weights), |_| false)
@@ -210,10 +234,15 @@ impl Landmarks {
         moved: impl Fn(usize) -> bool,
     ) -> CheckedParams {
         let space = self.space();
+        let whole = weights.in_thirds();
+        let whole_features = self.average(&whole);
         let dominant = weights.dominant();
         let mut params = self.species[dominant].params.clone();
         let values = (0..space.len())
             .map(|slot| {
+                let dealt = self.deals[slot] && !moved(slot);
+                let (weights, features) =
+                    if dealt { (&whole, whole_features.as_slice()) } else { (weights, features) };
                 let mut readers = weights.present().filter(|(l, _)| self.reads[*l][slot]);
                 // What nobody reads is nobody's concern: the number of the nearest species.
                 let Some((one, _)) = readers.next() else { return params.values()[slot] };
@@ -284,8 +313,9 @@ mod tests {
         assert!((value(&mix, &two, "ratio_power") - 1.35).abs() < 1e-12);
         assert!((value(&mix, &two, "g_scale") - (13.0_f64 * 20.0).sqrt()).abs() < 1e-9);
         assert!((value(&mix, &two, "tropism.z") + 0.75).abs() < 1e-12);
-        // 50 and 30 branches: sqrt(51 · 31) − 1 = 38.8.
-        assert_eq!(value(&mix, &two, "branches[1]"), 39.0);
+        // 50 and 30 branches: the cube root of 51 · 51 · 31, less 1, is 42.2.
+        let thirds = two.mix(&two.between(0, 1, 1.0 / 3.0).unwrap());
+        assert_eq!(value(&thirds, &two, "branches[1]"), 42.0);
         assert_eq!(value(&mix, &two, "ratio"), 0.015, "what both agree on stays");
     }
 

@@ -24,6 +24,10 @@
 //! | [`plane`] | points, the convex hull |
 //! | [`natural`] | natural-neighbour weights: how much of which species is at a point |
 //! | [`map`] | all of it together: point → parameters, parameters → point |
+//! | [`looks`] | the other layout: dots by how alike silhouettes are |
+//! | [`draw`] | species as silhouettes, on all threads |
+//! | [`traits`] | what people see of a tree, as numbers |
+//! | [`picture`] | the map as a picture |
 //!
 //! # Invariants
 //!
@@ -32,14 +36,18 @@
 //! from its declaration or from [`pleach_tree::Generator`]. `linfa` and `ndarray` stay inside.
 
 pub mod coding;
+pub mod draw;
 mod error;
 pub mod landmarks;
+pub mod looks;
 pub mod map;
 pub mod natural;
 pub mod pca;
+pub mod picture;
 pub mod plane;
 #[cfg(test)]
 mod testing;
+pub mod traits;
 
 pub use coding::{Coding, Features};
 pub use error::BlendError;
@@ -47,3 +55,4 @@ pub use landmarks::{Landmarks, Weights};
 pub use map::{Blend, BlendMap, Settings};
 pub use pca::Pca;
 pub use plane::{Hull, Point};
+pub use traits::Trait;

@@ -103,6 +103,12 @@ impl BlendMap {
         self.natural.hull()
     }
 
+    /// The part of the box from `low` to `high` in which landmark number `landmark` is the nearest.
+    #[must_use]
+    pub fn region(&self, landmark: usize, low: Point, high: Point) -> Vec<Point> {
+        self.natural.region(landmark, low, high)
+    }
+
     /// Whether the plane's axes are the first two principal components.
     #[must_use]
     pub const fn is_by_components(&self) -> bool {

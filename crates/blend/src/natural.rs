@@ -93,6 +93,21 @@ impl Natural {
         (Weights::of_shares(shares), place)
     }
 
+    /// The part of the box from `low` to `high` that is nearer to landmark number `landmark` than to
+    /// any other, as a polygon; empty if there is none.
+    #[must_use]
+    pub fn region(&self, landmark: usize, low: Point, high: Point) -> Vec<Point> {
+        let own = self.site_of[landmark];
+        let corner = |x: f64, y: f64| Point { x, y };
+        let mut cell = Polygon(vec![low, corner(high.x, low.y), high, corner(low.x, high.y)]);
+        for (site, (place, _)) in self.sites.iter().enumerate() {
+            if site != own {
+                cell.keep_nearer(self.sites[own].0, *place);
+            }
+        }
+        cell.0
+    }
+
     /// The areas that a cell around `point` would take from the cells of the sites.
     fn stolen_areas(&self, point: Point) -> Vec<(usize, f64)> {
         // All places relative to the point, so that areas of small cells keep their digits.

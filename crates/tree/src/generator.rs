@@ -159,6 +159,14 @@ pub trait Generator: Send + Sync + fmt::Debug {
         &[]
     }
 
+    /// Whether a small change of the number in slot number `slot` deals the parts of a tree out anew:
+    /// counts, what counts are computed from, angles that add up from part to part.
+    ///
+    /// Blends change such numbers together, in few steps, so that a tree stays itself in between.
+    fn redeals(&self, slot: usize) -> bool {
+        self.space().kind_of(slot).is_whole()
+    }
+
     /// The parts of a species file beside the numbers (solids, a grammar), as TOML lines that
     /// follow the parameters; empty if there are none.
     fn extra_toml(&self) -> String {

@@ -1,0 +1,76 @@
+//! Species as silhouettes: grown and drawn side by side on all threads, results in order.
+
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
+use pleach_tree::{GrowError, Growth, Species, Tree, Workspace};
+use rayon::prelude::*;
+
+/// Memory that one thread reuses from tree to tree.
+#[derive(Default)]
+struct Bench {
+    workspace: Workspace,
+    tree: Tree,
+    rasteriser: Rasteriser,
+}
+
+/// Why the tree of one species was not drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("`{species}` does not grow from seed {seed}: {source}")]
+pub struct DrawError {
+    /// The species.
+    pub species: String,
+    /// The seed of the tree.
+    pub seed: u64,
+    /// What stopped it.
+    pub source: GrowError,
+}
+
+/// How silhouettes are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drawing {
+    /// Height and width in pixels.
+    pub pixels: u32,
+    /// How finely pixels are sampled.
+    pub detail: Detail,
+}
+
+/// The silhouettes of the trees of `seed`, each in its own automatic frame from the front: ground at the
+/// bottom edge, the trunk's foot in the middle.
+///
+/// # Errors
+/// The first species, in the order given, that does not grow.
+pub fn silhouettes(species: &[Species], seed: u64, drawing: Drawing) -> Result<Vec<Bitmap>, DrawError> {
+    each_tree(species, seed, |tree, rasteriser| picture(tree, rasteriser, drawing))
+}
+
+/// The silhouette of one tree, as [`silhouettes`] draws it.
+pub fn picture(tree: &Tree, rasteriser: &mut Rasteriser, drawing: Drawing) -> Bitmap {
+    let frame = Frame::automatic(tree, &View::FRONT, true, drawing.pixels, drawing.pixels);
+    let mut bitmap = Bitmap::default();
+    rasteriser.detail = drawing.detail;
+    rasteriser.draw(tree, &View::FRONT, &frame, true, &mut bitmap);
+    bitmap
+}
+
+/// Grows every species' tree of `seed` and gives what `look` makes of each, in order.
+///
+/// # Errors
+/// The first species, in the order given, that does not grow.
+pub fn each_tree<T: Send>(
+    species: &[Species],
+    seed: u64,
+    look: impl Fn(&Tree, &mut Rasteriser) -> T + Sync,
+) -> Result<Vec<T>, DrawError> {
+    let grown: Vec<Result<T, DrawError>> = species
+        .par_iter()
+        .with_max_len(1)
+        .map_init(Bench::default, |bench, species| {
+            let Bench { workspace, tree, rasteriser } = bench;
+            species
+                .generator
+                .grow(&species.params, &Growth::seed(seed), workspace, tree)
+                .map_err(|source| DrawError { species: species.name.clone(), seed, source })?;
+            Ok(look(tree, rasteriser))
+        })
+        .collect();
+    grown.into_iter().collect()
+}

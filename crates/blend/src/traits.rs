@@ -1,0 +1,120 @@
+//! What people see of a tree, as numbers: how traits change across the map.
+
+use pleach_silhouette::{Bitmap, Detail, Rasteriser};
+use pleach_tree::{StemKind, Tree, TreeStats};
+
+use crate::draw::{Drawing, picture};
+
+/// A readable property of a tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trait {
+    /// Height over the wider of its two widths.
+    HeightToWidth,
+    /// Share of ink in the box around its silhouette, 0 to 1.
+    Ink,
+    /// Height of the lowest branch over the tree's height, 0 to 1.
+    BareTrunk,
+    /// Mean angle between the vertical and the first-level branches where they leave, in degrees: 0 up,
+    /// 90 level, above that down.
+    BranchAngle,
+    /// Mean angle by which first-level branches point lower at their tips than where they leave, in
+    /// degrees; negative where they rise.
+    Droop,
+}
+
+impl Trait {
+    /// Every trait.
+    pub const ALL: [Self; 5] =
+        [Self::HeightToWidth, Self::Ink, Self::BareTrunk, Self::BranchAngle, Self::Droop];
+
+    /// Its name in commands and columns.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::HeightToWidth => "height_to_width",
+            Self::Ink => "ink",
+            Self::BareTrunk => "bare_trunk",
+            Self::BranchAngle => "branch_angle",
+            Self::Droop => "droop",
+        }
+    }
+
+    /// The trait called `name`.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|t| t.name() == name)
+    }
+
+    /// Measures `tree`; 0 for angles of a tree without branches.
+    #[must_use]
+    pub fn of(self, tree: &Tree) -> f64 {
+        match self {
+            Self::HeightToWidth => {
+                let stats = TreeStats::of(tree);
+                stats.height_m / stats.crown_width_x_m.max(stats.crown_width_y_m).max(1e-9)
+            }
+            Self::Ink => {
+                let drawing = Drawing { pixels: 128, detail: Detail::Half };
+                share_of_ink(&picture(tree, &mut Rasteriser::new(), drawing))
+            }
+            Self::BareTrunk => {
+                let stats = TreeStats::of(tree);
+                stats.lowest_branch_m / stats.height_m.max(1e-9)
+            }
+            Self::BranchAngle => mean(branches(tree).map(|(leaving, _)| leaving)),
+            Self::Droop => mean(branches(tree).map(|(leaving, arriving)| arriving - leaving)),
+        }
+    }
+}
+
+/// Ink over the area of the box around it; 0 for an empty picture.
+fn share_of_ink(bitmap: &Bitmap) -> f64 {
+    bitmap.ink_box().map_or(0.0, |(x0, y0, x1, y1)| {
+        let area = f64::from(x1 - x0 + 1) * f64::from(y1 - y0 + 1);
+        bitmap.ink() as f64 / area
+    })
+}
+
+/// Angles from the vertical, in degrees, of the first-level branches: where they leave and at their
+/// tips.
+fn branches(tree: &Tree) -> impl Iterator<Item = (f64, f64)> + '_ {
+    tree.stems.iter().filter(|s| s.level == 1 && s.kind == StemKind::Branch).filter_map(|stem| {
+        let knots = tree.knots_of(stem);
+        let (first, last) = (knots.first()?, knots.last()?);
+        let leaving = (first.handle_out - first.point).try_normalize()?;
+        let arriving = (last.point - last.handle_in).try_normalize()?;
+        let angle = |z: f64| z.clamp(-1.0, 1.0).acos().to_degrees();
+        Some((angle(leaving.z), angle(arriving.z)))
+    })
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0.0_f64), |(s, n), v| (s + v, n + 1.0));
+    if count > 0.0 { sum / count } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::species;
+
+    #[test]
+    fn traits_say_what_everybody_sees() {
+        let of = |t: Trait, name: &str| t.of(&species(name).grow(1).unwrap());
+        let poplar = of(Trait::HeightToWidth, "lombardy_poplar");
+        assert!(poplar > 1.5 * of(Trait::HeightToWidth, "black_oak"), "{poplar}");
+        assert!(of(Trait::BareTrunk, "palm") > 0.7);
+        assert!(of(Trait::BareTrunk, "balsam_fir") < 0.2);
+        assert!(of(Trait::Droop, "palm") > of(Trait::Droop, "lombardy_poplar") + 20.0);
+        let fir = of(Trait::BranchAngle, "douglas_fir");
+        assert!(fir > 60.0 && of(Trait::BranchAngle, "lombardy_poplar") < 50.0, "{fir}");
+        let ink = of(Trait::Ink, "apple");
+        assert!((0.3..=1.0).contains(&ink) && of(Trait::Ink, "palm") < ink, "{ink}");
+    }
+
+    #[test]
+    fn names_lead_back_to_traits() {
+        assert!(Trait::ALL.into_iter().all(|t| Trait::named(t.name()) == Some(t)));
+        assert_eq!(Trait::named("beauty"), None);
+    }
+}
