@@ -116,7 +116,7 @@ impl Rasteriser {
         for blossom in &tree.blossoms {
             let Some([at, across, along]) = placer.place(blossom) else { continue };
             let normal = placer.normal(blossom);
-            for polygon in faces.polygons {
+            for polygon in faces.petals {
                 let corners = &mut corners[..polygon.len()];
                 for (corner, &vertex) in corners.iter_mut().zip(*polygon) {
                     let [u, v, w] = faces.vertices[usize::from(vertex)];

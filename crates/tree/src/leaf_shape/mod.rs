@@ -98,6 +98,8 @@ pub struct Faces {
     pub vertices: &'static [[f32; 3]],
     /// Faces by corner number, each convex and (nearly) flat, counter-clockwise from inside the cup.
     pub polygons: &'static [&'static [u8]],
+    /// Outlines by corner number, a petal each: fewer polygons for (nearly) the same silhouette.
+    pub petals: &'static [&'static [u8]],
 }
 
 impl Faces {

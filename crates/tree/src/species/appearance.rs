@@ -108,7 +108,8 @@ impl Appearance {
                 let text = doc.text_of(&name, &entry.node).map_err(|issue| issues.push(issue)).ok()?;
                 let colour = Colour::parse(text);
                 if colour.is_none() {
-                    let message = format!("\"{text}\" is no colour, expected \"#rrggbb\" such as \"#4f7a2e\"");
+                    let message =
+                        format!("\"{text}\" is no colour, expected \"#rrggbb\" such as \"#4f7a2e\"");
                     issues.push(doc.issue(entry.node.span.clone(), &name, Problem::Conflict { message }));
                 }
                 colour
@@ -181,10 +182,13 @@ mod tests {
 
     #[test]
     fn mistakes_are_named_with_their_place() {
-        let (_, issues) = read("[appearance]\nbark = \"brown\"\nleef = \"#000000\"\nseason = \"sumer\"\nleaf = 3");
+        let (_, issues) =
+            read("[appearance]\nbark = \"brown\"\nleef = \"#000000\"\nseason = \"sumer\"\nleaf = 3");
         assert_eq!(issues.len(), 4, "{issues:?}");
         let said = |words: [&str; 2]| issues.iter().any(|i| words.iter().all(|w| i.contains(w)));
-        for words in [["t.toml:2:8", "#rrggbb"], ["t.toml:3:1", "`leaf`"], ["sumer", "summer"], ["5:8", "a string"]] {
+        for words in
+            [["t.toml:2:8", "#rrggbb"], ["t.toml:3:1", "`leaf`"], ["sumer", "summer"], ["5:8", "a string"]]
+        {
             assert!(said(words), "{words:?} in {issues:?}");
         }
         assert!(read("appearance = 3").1[0].contains("a table"));
