@@ -56,8 +56,8 @@ pub(crate) struct OutlineCache {
     corners: Vec<[f32; 2]>,
 }
 
-/// Tolerance of outlines in pixels: a third of a sample's height.
-const TOLERANCE: f32 = 0.08;
+/// Tolerance of outlines in pixels: over half a sample's height.
+const TOLERANCE: f32 = 0.15;
 
 impl OutlineCache {
     /// The outline of `shape` for leaves whose unit measures `scale` pixels across and along.
