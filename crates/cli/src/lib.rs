@@ -11,6 +11,7 @@
 //! println!("{} leaves", TreeStats::of(&tree).leaves);
 //! ```
 
+pub use pleach_blend as blend;
 pub use pleach_fit as fit;
 pub use pleach_generators as generators;
 pub use pleach_silhouette as silhouette;

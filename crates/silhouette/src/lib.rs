@@ -19,5 +19,5 @@ pub mod view;
 
 pub use bitmap::Bitmap;
 pub use goal::{Goal, GoalError, GoalOptions, Polarity};
-pub use raster::{Detail, FULL_COVERAGE, Rasteriser};
+pub use raster::{Detail, FULL_COVERAGE, Part, Rasteriser};
 pub use view::{Camera, Frame, Projection, View};

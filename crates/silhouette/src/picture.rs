@@ -1,7 +1,10 @@
 //! Pictures for people: overlays of fit and goal, and sheets of silhouettes side by side.
 
 use crate::bitmap::Bitmap;
+use crate::raster::{FULL_COVERAGE, Part, Rasteriser};
+use crate::view::{Frame, View};
 use font8x8::UnicodeFonts;
+use pleach_tree::Tree;
 use std::io::{self, Write};
 
 /// Red, green, blue.
@@ -117,6 +120,38 @@ pub fn overlay(fit: &Bitmap, goal: &Bitmap) -> Picture {
     for y in 0..goal.height() {
         for x in goal.ink_in_row(y) {
             picture.set(x, y, if fit.get(x, y) { BOTH } else { MISSED });
+        }
+    }
+    picture
+}
+
+/// A tree in two flat colours, bark below foliage, with soft edges.
+///
+/// Depth is not shown: foliage covers bark wherever both are.
+#[must_use]
+pub fn two_colours(tree: &Tree, view: &View, frame: &Frame, foliage: bool) -> Picture {
+    const BARK: Rgb = [92, 70, 52];
+    const LEAVES: Rgb = [86, 125, 62];
+    const BLOSSOM: Rgb = [222, 160, 178];
+    let mut picture = Picture::new(frame.width, frame.height);
+    let mut rasteriser = Rasteriser::new();
+    let (mut bitmap, mut coverage) = (Bitmap::default(), Vec::new());
+    for part in [Part::Stems, Part::Leaves, Part::Blossoms] {
+        let colour = match part {
+            Part::Stems => BARK,
+            Part::Leaves => LEAVES,
+            Part::Blossoms => BLOSSOM,
+        };
+        if part != Part::Stems && !foliage {
+            continue;
+        }
+        rasteriser.draw_parts(tree, view, frame, &[part], &mut bitmap);
+        rasteriser.coverage(&mut coverage);
+        for (pixel, &samples) in picture.pixels.iter_mut().zip(&coverage) {
+            let share = f32::from(samples) / f32::from(FULL_COVERAGE);
+            for (under, over) in pixel.iter_mut().zip(colour) {
+                *under = (f32::from(*under) * (1.0 - share) + f32::from(over) * share).round() as u8;
+            }
         }
     }
     picture

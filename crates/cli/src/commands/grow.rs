@@ -4,6 +4,7 @@ use crate::input::LimitArgs;
 use crate::{files, input, output, skeleton};
 use anyhow::{Context, bail};
 use indicatif::{ProgressBar, ProgressStyle};
+use pleach_silhouette::{Frame, View, picture};
 use pleach_tree::{Foliage, Growth, Species, Tree, TreeStats, Workspace};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -132,8 +133,12 @@ impl Grow {
         }
     }
 
-    fn picture(&self, _path: &Path, _tree: &Tree) -> anyhow::Result<()> {
-        Ok(())
+    /// Bark and foliage in two colours, seen from the front.
+    fn picture(&self, path: &Path, tree: &Tree) -> anyhow::Result<()> {
+        let foliage = !self.no_leaves;
+        let frame = Frame::automatic(tree, &View::FRONT, foliage, self.size, self.size);
+        let picture = picture::two_colours(tree, &View::FRONT, &frame, foliage);
+        files::write_whole(path, |file| Ok(picture.write_png(file)?))
     }
 }
 
@@ -161,7 +166,8 @@ fn report<'a>(species: &'a Species, seed: u64, tree: &Tree) -> Report<'a> {
 
 fn progress(total: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{pos}/{len} trees {wide_bar} {per_sec}, {eta} left");
-    ProgressBar::new(total).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    let bar = if output::is_watched() { ProgressBar::new(total) } else { ProgressBar::hidden() };
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 fn describe(report: &Report<'_>) -> String {

@@ -1,8 +1,11 @@
 //! One module a command: what was typed, and what it does.
 
+mod blend;
 mod experiment;
 mod fit;
 mod grow;
+mod landmarks;
+mod map;
 mod params;
 mod score;
 mod silhouette;
@@ -28,6 +31,8 @@ enum Command {
     Grow(grow::Grow),
     Silhouette(silhouette::Silhouette),
     Score(score::Score),
+    Map(map::Map),
+    Blend(Box<blend::BlendCommand>),
     Species(species::SpeciesCommand),
     Params(params::Params),
     Experiment(experiment::Experiment),
@@ -44,6 +49,8 @@ impl Arguments {
             Command::Score(command) => command.run(),
             Command::Experiment(command) => command.run(),
             Command::Silhouette(command) => command.run(),
+            Command::Map(command) => command.run(),
+            Command::Blend(command) => command.run(),
             Command::Species(command) => command.run(),
             Command::Params(command) => command.run(),
         }

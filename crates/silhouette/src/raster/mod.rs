@@ -42,6 +42,17 @@ impl Detail {
     }
 }
 
+/// A kind of part of a tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// Trunks, branches, twigs.
+    Stems,
+    /// Leaves.
+    Leaves,
+    /// Blossoms.
+    Blossoms,
+}
+
 /// Draws silhouettes; keeps its memory from one to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Rasteriser {
@@ -67,7 +78,13 @@ impl Rasteriser {
     /// Draws `tree` into `out`, which takes the frame's size; `foliage` says whether leaves and
     /// blossoms are drawn. Allocates nothing once its memory has grown to the picture's size.
     pub fn draw(&mut self, tree: &Tree, view: &View, frame: &Frame, foliage: bool, out: &mut Bitmap) {
-        self.sample(tree, view, frame, foliage);
+        let parts = if foliage { &[Part::Stems, Part::Leaves, Part::Blossoms][..] } else { &[Part::Stems] };
+        self.draw_parts(tree, view, frame, parts, out);
+    }
+
+    /// Draws only some `parts` of `tree`; otherwise as [`Rasteriser::draw`].
+    pub fn draw_parts(&mut self, tree: &Tree, view: &View, frame: &Frame, parts: &[Part], out: &mut Bitmap) {
+        self.sample(tree, view, frame, parts);
         self.grid.resolve(out);
     }
 
@@ -77,17 +94,21 @@ impl Rasteriser {
         self.grid.coverage(out);
     }
 
-    fn sample(&mut self, tree: &Tree, view: &View, frame: &Frame, foliage: bool) {
+    fn sample(&mut self, tree: &Tree, view: &View, frame: &Frame, parts: &[Part]) {
         let down = self.detail.down();
         self.grid.reset(frame.width, frame.height, down);
         let camera = Camera::new(view, frame);
         let scale = Vec2::new(ACROSS as f32, down as f32);
-        for stem in tree.stems.iter().filter(|s| s.kind != StemKind::Root) {
-            strip::draw(&mut self.grid, &camera, scale, tree, stem);
-        }
-        if foliage {
-            self.leaves(tree, &camera, scale);
-            self.blossoms(tree, &camera, scale);
+        for part in parts {
+            match part {
+                Part::Stems => {
+                    for stem in tree.stems.iter().filter(|s| s.kind != StemKind::Root) {
+                        strip::draw(&mut self.grid, &camera, scale, tree, stem);
+                    }
+                }
+                Part::Leaves => self.leaves(tree, &camera, scale),
+                Part::Blossoms => self.blossoms(tree, &camera, scale),
+            }
         }
     }
 

@@ -1,0 +1,138 @@
+//! Which species a map or a blend is made of, and how they are laid out: shared by `map` and `blend`.
+
+use crate::{input, output};
+use anyhow::{Context, bail};
+use pleach_blend::{BlendError, BlendMap, Features, Point, Settings, looks};
+use pleach_tree::Species;
+use std::path::{Path, PathBuf};
+
+/// How many of the built-in species are the dissertation's, in front.
+const FIFTEEN: usize = 15;
+
+/// Where dots stand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Layout {
+    /// By parameters: the two principal components
+    #[default]
+    Numbers,
+    /// By how alike the silhouettes are
+    Looks,
+}
+
+/// How numbers are compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Coding {
+    /// By what their declarations say they mean
+    #[default]
+    Declared,
+    /// As the plain list of numbers, the dissertation's way
+    Raw,
+}
+
+/// Species and layout of a map.
+#[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = "The map")]
+pub(super) struct MapArgs {
+    /// Your own species beside the built-in ones: a file, or a folder of .toml files; may be repeated
+    #[arg(long, value_name = "PATH")]
+    species: Vec<PathBuf>,
+    /// All built-in species instead of the fifteen of the dissertation
+    #[arg(long)]
+    all: bool,
+    /// Only these built-in species
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', conflicts_with = "all")]
+    only: Option<Vec<String>>,
+    /// Leave out species files that are broken, and say so
+    #[arg(long)]
+    keep_going: bool,
+    /// Where the dots stand
+    #[arg(long, value_enum, default_value_t)]
+    layout: Layout,
+    /// How numbers are compared and averaged
+    #[arg(long, value_enum, default_value_t)]
+    features: Coding,
+}
+
+impl MapArgs {
+    /// The map of the chosen species, and of `more` where they are not among them.
+    pub(super) fn map(&self, more: &[Species]) -> anyhow::Result<BlendMap> {
+        let mut species = self.built_in()?;
+        for path in &self.species {
+            for file in files_of(path)? {
+                match pleach_generators::read_file(&file) {
+                    Ok(read) => species.push(read),
+                    Err(error) if self.keep_going => output::note(format!("left out: {error}")),
+                    Err(error) => {
+                        return Err(error).with_context(|| {
+                            format!("{} is no species; --keep-going leaves it out", file.display())
+                        });
+                    }
+                }
+            }
+        }
+        for one in more {
+            if !species.iter().any(|s| s.name == one.name && s.params == one.params) {
+                species.push(one.clone());
+            }
+        }
+        let features = match self.features {
+            Coding::Declared => Features::Declared,
+            Coding::Raw => Features::Raw,
+        };
+        let dots = match self.layout {
+            Layout::Numbers => None,
+            Layout::Looks => Some(by_looks(&species)?),
+        };
+        let map = BlendMap::new(species, Settings { features, dots })?;
+        let all = map.landmarks().species();
+        for (i, one) in all.iter().enumerate() {
+            if let Some(twin) = all[..i].iter().find(|s| s.params == one.params) {
+                output::note(format!("`{}` and `{}` have the same parameters and share a dot", twin.name, one.name));
+            }
+        }
+        Ok(map)
+    }
+
+    fn built_in(&self) -> anyhow::Result<Vec<Species>> {
+        if let Some(names) = &self.only {
+            return names.iter().map(|name| Ok(input::species(name)?)).collect();
+        }
+        let names = pleach_generators::names();
+        let count = if self.all { names.len() } else { FIFTEEN };
+        Ok(names.iter().take(count).filter_map(|name| pleach_generators::preset(name)).collect())
+    }
+}
+
+fn by_looks(species: &[Species]) -> anyhow::Result<Vec<Point>> {
+    if species.len() < 2 {
+        return Err(BlendError::TooFew { found: species.len() }.into());
+    }
+    let unlike = looks::unlikeness(species)?;
+    let dots = looks::scale(&unlike);
+    output::note(format!(
+        "the plane shows {:.0} % of how unlike the silhouettes are (stress {:.2})",
+        100.0 * (1.0 - looks::stress(&unlike, &dots)),
+        looks::stress(&unlike, &dots)
+    ));
+    Ok(dots)
+}
+
+/// A file itself, or the species files of a folder by name.
+fn files_of(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let unreadable = || format!("cannot read the folder {}", path.display());
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(path).with_context(unreadable)? {
+        let file = entry.with_context(unreadable)?.path();
+        if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
+            files.push(file);
+        }
+    }
+    if files.is_empty() {
+        bail!("{} holds no .toml file", path.display());
+    }
+    files.sort();
+    Ok(files)
+}

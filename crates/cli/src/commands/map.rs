@@ -1,0 +1,198 @@
+//! `pleach map`: species on a plane.
+
+use super::landmarks::MapArgs;
+use crate::{files, input, output};
+use pleach_blend::draw::{Drawing, each_tree, silhouettes};
+use pleach_blend::picture::{self, Extras, TraitField};
+use pleach_blend::{BlendMap, Point, Trait};
+use pleach_silhouette::Detail;
+use pleach_silhouette::picture::{Picture, sheet_of_pictures};
+use pleach_tree::Species;
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "Examples:
+  pleach map --out map                              the fifteen species: map.png, map.svg, map.csv, loadings.csv
+  pleach map --grid 9x9 --out map                   and grid.png, trees across the plane
+  pleach map --traits bare_trunk,droop --out map    with iso-lines of what a tree looks like
+  pleach map --species my-trees --layout looks --out map
+
+Every point inside the dashed line is a tree; `pleach blend --point X,Y` writes its species file.";
+
+/// Lay species out on a plane, every point of which is a tree
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Map {
+    /// Folder for what is written
+    #[arg(short, long, value_name = "DIR")]
+    out: PathBuf,
+    /// Also write grid.png: so many trees across and down the plane
+    #[arg(long, value_name = "COLUMNSxROWS", value_parser = grid)]
+    grid: Option<(usize, usize)>,
+    /// Draw iso-lines of traits: height_to_width, ink, bare_trunk, branch_angle, droop
+    #[arg(long, value_name = "TRAIT,…", value_delimiter = ',', value_parser = trait_named)]
+    traits: Vec<Trait>,
+    /// Leave out the silhouettes
+    #[arg(long)]
+    no_thumbnails: bool,
+    /// Seed of the trees that are drawn
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = input::seed)]
+    seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    map: MapArgs,
+}
+
+/// `9x9`.
+fn grid(text: &str) -> Result<(usize, usize), String> {
+    let hint = || format!("`{text}` is no grid, expected COLUMNSxROWS from 1x1 to 40x40, such as 9x9");
+    let (columns, rows) = text.split_once(['x', '×']).ok_or_else(hint)?;
+    let number = |part: &str| part.trim().parse().ok().filter(|n| (1..=40).contains(n)).ok_or_else(hint);
+    Ok((number(columns)?, number(rows)?))
+}
+
+fn trait_named(name: &str) -> Result<Trait, String> {
+    Trait::named(name).ok_or_else(|| {
+        let names = Trait::ALL.map(Trait::name);
+        let hint = pleach_tree::param::nearest(name, names).map_or_else(String::new, |n| format!(", did you mean `{n}`?"));
+        format!("no trait is called `{name}`{hint} Known are {}", names.join(", "))
+    })
+}
+
+/// Height and width of a thumbnail on the map, and of a tree on a sheet, in pixels.
+const THUMBNAIL: u32 = 92;
+const CELL: u32 = 128;
+
+impl Map {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        let map = self.map.map(&[])?;
+        let mut extras = Extras::default();
+        if !self.no_thumbnails {
+            let drawing = Drawing { pixels: THUMBNAIL, detail: Detail::Full };
+            extras.thumbnails = silhouettes(map.landmarks().species(), self.seed, drawing)?;
+        }
+        if !self.traits.is_empty() {
+            extras.traits = sample(&map, &self.traits, self.seed)?;
+        }
+        let scene = picture::scene(&map, &extras)?;
+        files::make_folder(&self.out)?;
+        let png = scene.to_png().ok_or_else(|| anyhow::anyhow!("the picture of the map is too large"))?;
+        files::write_whole(&self.out.join("map.png"), |file| Ok(std::io::Write::write_all(file, &png)?))?;
+        files::write_text(&self.out.join("map.svg"), &scene.to_svg())?;
+        write_dots(&map, &self.out.join("map.csv"))?;
+        write_loadings(&map, &self.out.join("loadings.csv"))?;
+        if let Some((columns, rows)) = self.grid {
+            let sheet = grid_sheet(&map, columns, rows, self.seed)?;
+            files::write_whole(&self.out.join("grid.png"), |file| Ok(sheet.write_png(file)?))?;
+        }
+        if self.json { output::json(&report_json(&map)) } else { output::line(report(&map)) }?;
+        output::note(format!("wrote {}", self.out.display()));
+        Ok(())
+    }
+}
+
+/// Grows a tree at each point of the traits' grid and measures it.
+fn sample(map: &BlendMap, traits: &[Trait], seed: u64) -> anyhow::Result<Vec<TraitField>> {
+    let points = picture::trait_points(map);
+    let species = species_at(map, &points.iter().flatten().copied().collect::<Vec<_>>())?;
+    let measured = each_tree(&species, seed, |tree, _| traits.iter().map(|t| t.of(tree)).collect::<Vec<f64>>())?;
+    let fields = traits.iter().enumerate().map(|(number, &of)| {
+        let mut values = measured.iter().map(|values| values[number]);
+        TraitField { of, values: points.iter().map(|point| point.and_then(|_| values.next())).collect() }
+    });
+    Ok(fields.collect())
+}
+
+fn species_at(map: &BlendMap, points: &[Point]) -> anyhow::Result<Vec<Species>> {
+    let at = |p: &Point| Ok(map.species_at(&map.at(*p)?, &format!("tree at {:.2},{:.2}", p.x, p.y)));
+    points.iter().map(at).collect()
+}
+
+/// Trees across the plane; those outside the hull in grey.
+fn grid_sheet(map: &BlendMap, columns: usize, rows: usize, seed: u64) -> anyhow::Result<Picture> {
+    let points = picture::grid_points(map, columns, rows);
+    let drawing = Drawing { pixels: CELL, detail: Detail::Full };
+    let drawn = silhouettes(&species_at(map, &points)?, seed, drawing)?;
+    let cells: Vec<(String, Picture)> = points
+        .iter()
+        .zip(drawn)
+        .map(|(point, bitmap)| {
+            let inside = map.hull().contains(*point);
+            let mut picture = Picture::new(bitmap.width(), bitmap.height());
+            picture.stamp(&bitmap, 0, 0, if inside { [20; 3] } else { [190; 3] });
+            (format!("{:.2},{:.2}", point.x, point.y), picture)
+        })
+        .collect();
+    let cells: Vec<(&str, Picture)> = cells.iter().map(|(label, p)| (label.as_str(), p.clone())).collect();
+    Ok(sheet_of_pictures(&cells, columns))
+}
+
+fn write_dots(map: &BlendMap, path: &Path) -> anyhow::Result<()> {
+    files::write_whole(path, |file| {
+        let mut csv = csv::Writer::from_writer(file);
+        csv.write_record(["species", "x", "y", "residual"])?;
+        for (i, (species, dot)) in map.landmarks().species().iter().zip(map.dots()).enumerate() {
+            let numbers = [dot.x, dot.y, map.residual(i)].map(|v| format!("{v:.6}"));
+            csv.write_record(std::iter::once(species.name.clone()).chain(numbers))?;
+        }
+        Ok(csv.flush()?)
+    })
+}
+
+/// Every feature's part of every axis.
+fn write_loadings(map: &BlendMap, path: &Path) -> anyhow::Result<()> {
+    files::write_whole(path, |file| {
+        let mut csv = csv::Writer::from_writer(file);
+        let axes = map.pca().axes().len();
+        let space = map.landmarks().space();
+        let heading = ["parameter", "feature"].map(str::to_owned).into_iter();
+        csv.write_record(heading.chain((1..=axes).map(|a| format!("axis_{a}"))))?;
+        for (f, feature) in map.landmarks().coding().features().iter().enumerate() {
+            let cells = (0..axes).map(|a| format!("{:.6}", map.pca().loading(a, f)));
+            csv.write_record([space.slot_name(feature.slot), feature.name.clone()].into_iter().chain(cells))?;
+        }
+        Ok(csv.flush()?)
+    })
+}
+
+fn report(map: &BlendMap) -> String {
+    let explained = map.pca().explained();
+    let mut rows = vec![["axis", "explained", "together", "the parameters that weigh most"].map(str::to_owned).to_vec()];
+    let mut together = 0.0;
+    for (axis, share) in explained.iter().enumerate() {
+        together += share;
+        let heavy = if axis < 2 { heaviest(map, axis).join("  ") } else { String::new() };
+        rows.push(vec![
+            (axis + 1).to_string(),
+            format!("{:.1} %", 100.0 * share),
+            format!("{:.1} %", 100.0 * together),
+            heavy,
+        ]);
+    }
+    output::table(&rows, &[0, 1, 2])
+}
+
+/// The six features that weigh most on an axis, with the direction in which they grow.
+fn heaviest(map: &BlendMap, axis: usize) -> Vec<String> {
+    let features = map.landmarks().coding().features();
+    let heavy = map.heaviest(axis).into_iter().take(6);
+    heavy.map(|l| format!("{}{}", if l.loading > 0.0 { "+" } else { "−" }, features[l.feature].name)).collect()
+}
+
+fn report_json(map: &BlendMap) -> serde_json::Value {
+    let species: Vec<_> = map
+        .landmarks()
+        .species()
+        .iter()
+        .zip(map.dots())
+        .enumerate()
+        .map(|(i, (s, dot))| json!({"species": s.name, "x": dot.x, "y": dot.y, "residual": map.residual(i)}))
+        .collect();
+    json!({
+        "species": species,
+        "explained_variance": map.pca().explained(),
+        "heaviest": [heaviest(map, 0), heaviest(map, 1)],
+    })
+}
