@@ -100,13 +100,14 @@ impl Coding {
         Code { values: code }
     }
 
-    /// The value of slot number `slot` that fits its features best: valid by kind and range. `None`
-    /// if its features are missing.
+    /// The value of slot number `slot` that fits its features best: valid by kind and range, and
+    /// rounded to twelve digits, since 0.55 reads better than 0.5499999999999999. `None` if its
+    /// features are missing.
     ///
     /// `features` are all features, of which only those of the slot are read.
     #[must_use]
     pub fn decode(&self, space: &ParamSpace, slot: usize, features: &[Option<f64>]) -> Option<f64> {
-        self.slots[slot].decode(features).map(|value| space.kind_of(slot).repair(value))
+        self.slots[slot].decode(features).map(|value| space.kind_of(slot).repair(rounded(value)))
     }
 
     /// The numbers of the features of slot number `slot`.
@@ -114,6 +115,19 @@ impl Coding {
     pub fn features_of(&self, slot: usize) -> std::ops::Range<usize> {
         self.slots[slot].features()
     }
+}
+
+/// To twelve significant digits.
+fn rounded(value: f64) -> f64 {
+    if !value.is_finite() {
+        return value;
+    }
+    if value.abs() < 1e-200 {
+        return 0.0;
+    }
+    let digits = 11 - value.abs().log10().floor() as i32;
+    let power = 10.0_f64.powi(digits.abs());
+    if digits >= 0 { (value * power).round() / power } else { (value / power).round() * power }
 }
 
 #[cfg(test)]
@@ -203,6 +217,15 @@ mod tests {
             assert_eq!(code.values[feature(&coding, name)], None, "{name}");
         }
         assert!(code.values[feature(&coding, "length[1]")].is_some());
+    }
+
+    #[test]
+    fn rounding_drops_the_noise_of_the_last_bits_only() {
+        assert_eq!(
+            [0.549_999_999_999_999_9, 97.999_999_999_999_99, -1e-300, 0.0].map(rounded),
+            [0.55, 98.0, 0.0, 0.0]
+        );
+        assert_eq!(rounded(16.124_515_496_597_1), 16.124_515_496_6);
     }
 
     #[test]

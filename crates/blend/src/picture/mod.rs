@@ -45,9 +45,9 @@ const MARGIN: f64 = 60.0;
 const HEAD: f64 = 76.0;
 
 /// Samples of the plane across, for the lines where values switch.
-const SWITCH_COLUMNS: usize = 180;
+const SWITCH_COLUMNS: usize = 240;
 /// Samples of the plane across, for iso-lines of traits.
-const TRAIT_COLUMNS: usize = 17;
+const TRAIT_COLUMNS: usize = 21;
 
 const INK: Colour = Colour::opaque([40, 40, 40]);
 const GREY: Colour = Colour::opaque([110, 110, 110]);
@@ -73,8 +73,8 @@ impl Sheet {
             high = Point { x: high.x.max(dot.x), y: high.y.max(dot.y) };
         }
         let (w, h) = (f64::from(WIDTH) - 2.0 * MARGIN, f64::from(HEIGHT) - HEAD - MARGIN);
-        // A tenth of free room around the dots, and never a flat sheet.
-        let pad = 0.1 * (high.x - low.x).max(high.y - low.y).max(1e-9);
+        // Free room around the dots, and never a flat sheet.
+        let pad = 0.17 * (high.x - low.x).max(high.y - low.y).max(1e-9);
         let (low, high) = (low - Point { x: pad, y: pad }, high + Point { x: pad, y: pad });
         let scale = (w / (high.x - low.x)).min(h / (high.y - low.y));
         let middle = (low + high) * 0.5;
@@ -253,7 +253,7 @@ fn switches(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) -> Result<(), Blen
     let grid = Grid { columns: SWITCH_COLUMNS, cells };
     let differing = |a: &Vec<f64>, b: &Vec<f64>| {
         // Values that are not read are NaN and differ from nothing.
-        a.iter().zip(b).filter(|(a, b)| a < b || a > b).count() as f64
+        a.iter().zip(b).filter(|(a, b)| !a.is_nan() && !b.is_nan() && a != b).count() as f64
     };
     let step = (sheet.high.x - sheet.low.x) / (SWITCH_COLUMNS - 1) as f64;
     let place = |p: (f64, f64)| sheet.at(Point { x: sheet.low.x + p.0 * step, y: sheet.high.y - p.1 * step });
@@ -328,9 +328,11 @@ fn species(map: &BlendMap, sheet: &Sheet, thumbnails: &[Bitmap], scene: &mut Sce
     let window = [MARGIN, HEAD, f64::from(WIDTH) - MARGIN, f64::from(HEIGHT) - MARGIN];
     let boxes = place::boxes(&dots, &sizes, window);
     for ((dot, corner), size) in dots.iter().zip(&boxes).zip(&sizes) {
-        let near = (dot.0.clamp(corner.0, corner.0 + size.0), dot.1.clamp(corner.1, corner.1 + size.1));
-        if (near.0 - dot.0).hypot(near.1 - dot.1) > 8.0 {
-            scene.add(Shape::Line { points: vec![*dot, near], colour: GREY, width: 1.0, dash: None });
+        let near = place::nearest(*dot, *corner, *size);
+        if (near.0 - dot.0).hypot(near.1 - dot.1) > 6.0 {
+            // To the middle of the box, where the silhouette covers it.
+            let end = if side > 0.0 { (corner.0 + size.0 / 2.0, corner.1 + 0.6 * side) } else { near };
+            scene.add(Shape::Line { points: vec![*dot, end], colour: GREY, width: 1.0, dash: None });
         }
     }
     for (i, (corner, size)) in boxes.iter().zip(&sizes).enumerate() {

@@ -25,6 +25,9 @@ pub(super) fn boxes(dots: &[Pair], sizes: &[Pair], window: [f64; 4]) -> Vec<Pair
                     cost += overlap((corner, sizes[i]), around) * 12.0;
                     if let Some(other) = corners[j].filter(|_| j != i) {
                         cost += overlap((corner, sizes[i]), (other, sizes[j])) * 3.0;
+                        // The line to the box runs free of the others, and theirs of it.
+                        cost += hidden(dots[i], (corner, sizes[i]), (other, sizes[j])) * 250.0;
+                        cost += hidden(dots[j], (other, sizes[j]), (corner, sizes[i])) * 250.0;
                     }
                 }
                 if best.is_none_or(|(least, _)| cost < least) {
@@ -53,6 +56,23 @@ fn candidates(dot: Pair, size: Pair) -> impl Iterator<Item = Pair> {
 
 fn middle_distance(corner: Pair, size: Pair, dot: Pair) -> f64 {
     (corner.0 + size.0 / 2.0 - dot.0).hypot(corner.1 + size.1 / 2.0 - dot.1)
+}
+
+/// The point of a box that is nearest to `dot`.
+pub(super) fn nearest(dot: Pair, corner: Pair, size: Pair) -> Pair {
+    (dot.0.clamp(corner.0, corner.0 + size.0), dot.1.clamp(corner.1, corner.1 + size.1))
+}
+
+/// Which part of the line from `dot` to its own box lies under `other`.
+fn hidden(dot: Pair, own: (Pair, Pair), other: (Pair, Pair)) -> f64 {
+    const SAMPLES: u32 = 8;
+    let to = nearest(dot, own.0, own.1);
+    let under = |k: &u32| {
+        let part = f64::from(*k) / f64::from(SAMPLES);
+        let at = (dot.0 + part * (to.0 - dot.0), dot.1 + part * (to.1 - dot.1));
+        nearest(at, other.0, other.1) == at
+    };
+    (0..SAMPLES).filter(under).count() as f64 / f64::from(SAMPLES)
 }
 
 /// Area in which two boxes overlap.

@@ -191,10 +191,9 @@ impl Scene {
                 for y in 0..bitmap.height() {
                     for x in bitmap.ink_in_row(y) {
                         let (px, py) = (x0 + i64::from(x), y0 + i64::from(y));
-                        if (0..width).contains(&px) && (0..height).contains(&py) {
-                            if let Some(black) = black {
-                                page.pixels_mut()[(py * width + px) as usize] = black;
-                            }
+                        let inside = (0..width).contains(&px) && (0..height).contains(&py);
+                        if let Some(black) = black.filter(|_| inside) {
+                            page.pixels_mut()[(py * width + px) as usize] = black;
                         }
                     }
                 }

@@ -117,7 +117,8 @@ impl BlendCommand {
             (Some(steps), Some(folder)) => {
                 let last = f64::from(steps - 1);
                 let parts: Vec<f64> = (0..steps).map(|i| f64::from(i) / last).collect();
-                let blends = parts.iter().map(|at| Ok(between(*at)?.0)).collect::<anyhow::Result<Vec<_>>>()?;
+                let blends =
+                    parts.iter().map(|at| Ok(between(*at)?.0)).collect::<anyhow::Result<Vec<_>>>()?;
                 self.write_row(&map, &parts, &blends, folder)
             }
             _ => {
@@ -136,7 +137,11 @@ impl BlendCommand {
         for (landmark, weight) in weights.present() {
             let dot = map.dots()[landmark];
             // All weight on one dot is that dot, bit for bit.
-            point = if weight == 1.0 { dot } else { Point { x: point.x + weight * dot.x, y: point.y + weight * dot.y } };
+            point = if weight == 1.0 {
+                dot
+            } else {
+                Point { x: point.x + weight * dot.x, y: point.y + weight * dot.y }
+            };
         }
         Ok((map.at(point)?, Some(point)))
     }
@@ -185,10 +190,18 @@ impl BlendCommand {
         map.species_at(blend, &name)
     }
 
-    fn write_row(&self, map: &BlendMap, parts: &[f64], blends: &[Blend], folder: &Path) -> anyhow::Result<()> {
+    fn write_row(
+        &self,
+        map: &BlendMap,
+        parts: &[f64],
+        blends: &[Blend],
+        folder: &Path,
+    ) -> anyhow::Result<()> {
         let species: Vec<Species> = (1..)
             .zip(blends)
-            .map(|(number, blend)| map.species_at(blend, &format!("{}_{number}", self.name.as_deref().unwrap_or("step"))))
+            .map(|(number, blend)| {
+                map.species_at(blend, &format!("{}_{number}", self.name.as_deref().unwrap_or("step")))
+            })
             .collect();
         let drawing = Drawing { pixels: 192, detail: Detail::Full };
         let drawn = silhouettes(&species, self.seed, drawing)?;
@@ -219,7 +232,10 @@ impl BlendCommand {
             let steps: Vec<_> = blends.iter().map(|blend| report(map, blend, None)).collect();
             output::json(&json!(steps))?;
         } else {
-            species.iter().zip(parts).try_for_each(|(s, at)| output::line(format!("{at:.3}  {}", s.description)))?;
+            species
+                .iter()
+                .zip(parts)
+                .try_for_each(|(s, at)| output::line(format!("{at:.3}  {}", s.description)))?;
         }
         output::note(format!("wrote {}", folder.display()));
         Ok(())

@@ -87,7 +87,10 @@ impl MapArgs {
         let all = map.landmarks().species();
         for (i, one) in all.iter().enumerate() {
             if let Some(twin) = all[..i].iter().find(|s| s.params == one.params) {
-                output::note(format!("`{}` and `{}` have the same parameters and share a dot", twin.name, one.name));
+                output::note(format!(
+                    "`{}` and `{}` have the same parameters and share a dot",
+                    twin.name, one.name
+                ));
             }
         }
         Ok(map)

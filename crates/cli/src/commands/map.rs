@@ -56,7 +56,8 @@ fn grid(text: &str) -> Result<(usize, usize), String> {
 fn trait_named(name: &str) -> Result<Trait, String> {
     Trait::named(name).ok_or_else(|| {
         let names = Trait::ALL.map(Trait::name);
-        let hint = pleach_tree::param::nearest(name, names).map_or_else(String::new, |n| format!(", did you mean `{n}`?"));
+        let hint = pleach_tree::param::nearest(name, names)
+            .map_or_else(String::new, |n| format!(", did you mean `{n}`?"));
         format!("no trait is called `{name}`{hint} Known are {}", names.join(", "))
     })
 }
@@ -97,7 +98,8 @@ impl Map {
 fn sample(map: &BlendMap, traits: &[Trait], seed: u64) -> anyhow::Result<Vec<TraitField>> {
     let points = picture::trait_points(map);
     let species = species_at(map, &points.iter().flatten().copied().collect::<Vec<_>>())?;
-    let measured = each_tree(&species, seed, |tree, _| traits.iter().map(|t| t.of(tree)).collect::<Vec<f64>>())?;
+    let measured =
+        each_tree(&species, seed, |tree, _| traits.iter().map(|t| t.of(tree)).collect::<Vec<f64>>())?;
     let fields = traits.iter().enumerate().map(|(number, &of)| {
         let mut values = measured.iter().map(|values| values[number]);
         TraitField { of, values: points.iter().map(|point| point.and_then(|_| values.next())).collect() }
@@ -159,7 +161,8 @@ fn write_loadings(map: &BlendMap, path: &Path) -> anyhow::Result<()> {
 
 fn report(map: &BlendMap) -> String {
     let explained = map.pca().explained();
-    let mut rows = vec![["axis", "explained", "together", "the parameters that weigh most"].map(str::to_owned).to_vec()];
+    let mut rows =
+        vec![["axis", "explained", "together", "the parameters that weigh most"].map(str::to_owned).to_vec()];
     let mut together = 0.0;
     for (axis, share) in explained.iter().enumerate() {
         together += share;
@@ -178,7 +181,9 @@ fn report(map: &BlendMap) -> String {
 fn heaviest(map: &BlendMap, axis: usize) -> Vec<String> {
     let features = map.landmarks().coding().features();
     let heavy = map.heaviest(axis).into_iter().take(6);
-    heavy.map(|l| format!("{}{}", if l.loading > 0.0 { "+" } else { "−" }, features[l.feature].name)).collect()
+    heavy
+        .map(|l| format!("{}{}", if l.loading > 0.0 { "+" } else { "−" }, features[l.feature].name))
+        .collect()
 }
 
 fn report_json(map: &BlendMap) -> serde_json::Value {

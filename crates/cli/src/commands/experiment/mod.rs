@@ -3,6 +3,7 @@
 //! `experiment.toml` says what to run, `results.csv` has a row for every repetition. Columns whose
 //! names begin with `wall_` depend on the clock and are never compared.
 
+mod blend;
 mod fits;
 mod growth;
 mod plot;
@@ -107,6 +108,7 @@ impl Experiment {
                 let report = match Spec::read(folder)? {
                     Spec::Fits(spec) => fits::run(folder, &spec)?,
                     Spec::Growth(spec) => growth::run(folder, &spec)?,
+                    Spec::Blend(spec) => blend::run(folder, &spec)?,
                 };
                 output::line(report)?;
                 output::note(format!("wrote {}", folder.join("results.csv").display()));
@@ -116,6 +118,7 @@ impl Experiment {
                 let table = match Spec::read(folder)? {
                     Spec::Fits(spec) => fits::table(folder, &spec, *slice)?.0,
                     Spec::Growth(spec) => growth::table(&spec, *slice)?,
+                    Spec::Blend(spec) => blend::table(&spec, *slice)?,
                 };
                 table.check(&folder.join("results.csv"))?;
                 output::line(format!(

@@ -12,6 +12,8 @@ pub(super) enum Spec {
     Fits(FitsSpec),
     /// Time and size of trees, species by species.
     Growth(GrowthSpec),
+    /// Blends of species, ours against the dissertation's.
+    Blend(BlendSpec),
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -49,6 +51,17 @@ pub(super) struct GrowthSpec {
     pub(super) seeds: u64,
     /// Whether growing is timed as well.
     pub(super) timed: bool,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BlendSpec {
+    /// Species by name; the palm, the quaking aspen and the silver birch among them.
+    pub(super) species: Vec<String>,
+    /// Steps from one species to another.
+    pub(super) steps: u32,
+    /// Random points of the hull.
+    pub(super) points: u32,
 }
 
 impl Spec {
