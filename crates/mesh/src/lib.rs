@@ -6,6 +6,7 @@
 //! | [`mesher`] | from a [`pleach_tree::Tree`] to blocks of triangles, sizes known beforehand |
 //! | [`sink`] | where blocks go: files of four formats, or memory |
 //! | [`block`] | corners and triangles |
+//! | [`lod`] | levels of detail |
 //! | [`write`] | GLB, OBJ, PLY, STL |
 //! | [`palette`] | colours of species and seasons |
 //! | [`wind`], [`rig`] | how stems sway |
@@ -17,6 +18,7 @@
 
 pub mod block;
 mod foliage;
+pub mod lod;
 pub mod mesh;
 pub mod mesher;
 pub mod palette;

@@ -6,6 +6,8 @@ pub enum LeafStyle {
     /// The ten leaf outlines and three blossoms of the model.
     #[default]
     Outline,
+    /// At most eight triangles a leaf, along the outline and with its area; blossoms as they are.
+    Reduced,
     /// Two triangles a leaf with the area of the outline, four a blossom.
     Simple,
     /// Two upright cards through the middle of each leaf, for pictures with transparency.

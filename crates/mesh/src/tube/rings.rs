@@ -100,7 +100,7 @@ impl Rings {
         while kept > 1 && !apart(&rings[kept - 1], &tip) {
             kept -= 1;
         }
-        if !apart(&rings[0], &tip) {
+        if !apart(&rings[kept - 1], &tip) {
             // A prism: both rings at right angles to the line between them.
             let line = tip.centre - rings[0].centre;
             if line.length() < LEAST_STEP {

@@ -191,3 +191,20 @@ fn stems_too_short_to_draw_are_left_out() {
     let (rings, count, block) = tube(knots, 1e-3);
     assert!(rings.rings.is_empty() && count == Count::default() && block == Block::default());
 }
+
+/// A stem that turns through three quarters of a circle keeps all its rings.
+#[test]
+fn a_stem_that_turns_back_follows_its_spline() {
+    let knots = (0..=12).map(|i| {
+        let angle = f64::from(i) * PI / 8.0;
+        let (sin, cos) = angle.sin_cos();
+        let (point, along) = (dvec3(cos, 0.0, sin), dvec3(-sin, 0.0, cos) * (PI / 24.0));
+        Knot { point, handle_in: point - along, handle_out: point + along, radius: 0.01 }
+    });
+    let (rings, ..) = tube(knots.collect(), 1e-3);
+    let length = rings.rings.last().unwrap().along;
+    assert!(rings.rings.len() > 20 && (length - 1.5 * PI).abs() < 0.02, "{length}");
+    for ring in &rings.rings {
+        assert!((ring.centre.length() - 1.0).abs() < 1e-3);
+    }
+}
