@@ -1,10 +1,10 @@
 //! Grow, draw, score: what a fit does a million times.
 
-use crate::genome::{Genome, Score};
+use crate::genome::{Genome, Score, Size};
 use crate::objective::{Agreement, Objective};
 use crate::search::Evaluate;
 use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
 use pleach_tree::{CheckedParams, Foliage, Generator, Growth, Limits, Tree, Workspace};
 use rayon::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -161,7 +161,7 @@ impl Evaluator {
             params: space.check(space.defaults()).expect("defaults are allowed values"),
             tree: Tree::default(),
             workspace: Workspace::default(),
-            rasteriser: Rasteriser::default(),
+            rasteriser: Rasteriser::with_detail(Detail::Half),
             bitmap: Bitmap::default(),
             scratch: Scratch::default(),
         }
@@ -171,20 +171,29 @@ impl Evaluator {
     ///
     /// Allocates nothing once `memory` has held a tree as large as this one.
     pub fn evaluate(&self, genome: &Genome, memory: &mut EvalWorkspace) -> Score {
+        let Limits { stems, leaves, knots } = self.limits;
+        self.evaluate_within(genome, Size { stems, leaves, knots }, memory)
+    }
+
+    fn evaluate_within(&self, genome: &Genome, most: Size, memory: &mut EvalWorkspace) -> Score {
         let EvalWorkspace { params, tree, workspace, rasteriser, bitmap, scratch } = memory;
         if params.set(self.generator.space(), &genome.values).is_err() {
             return Score::FAILED;
         }
         let growth = Growth {
             seed: genome.tree_seed,
-            limits: self.limits,
+            limits: Limits {
+                stems: self.limits.stems.min(most.stems),
+                leaves: self.limits.leaves.min(most.leaves),
+                knots: self.limits.knots.min(most.knots),
+            },
             foliage: if self.foliage { Foliage::All } else { Foliage::None },
             parallel: false,
         };
         if self.generator.grow(params, &growth, workspace, tree).is_err() {
             return Score::FAILED;
         }
-        let mut sum = Score { cost: 0.0, iou: 0.0, accuracy: 0.0 };
+        let mut sum = Score::of_cost(0.0);
         for view in &self.views {
             rasteriser.draw(tree, &view.view, &view.frame, self.foliage, bitmap);
             let agreement = view.compare(bitmap, scratch);
@@ -193,7 +202,12 @@ impl Evaluator {
             sum.accuracy += agreement.accuracy;
         }
         let views = self.views.len() as f64;
-        Score { cost: sum.cost / views, iou: sum.iou / views, accuracy: sum.accuracy / views }
+        let size = Size {
+            stems: tree.stems.len(),
+            leaves: tree.leaves.len() + tree.blossoms.len(),
+            knots: tree.knots.len(),
+        };
+        Score { cost: sum.cost / views, iou: sum.iou / views, accuracy: sum.accuracy / views, size }
     }
 
     /// Share of equal pixels that an empty picture has, in 0..=1; the mean over views.
@@ -234,7 +248,7 @@ impl PreparedView {
 }
 
 impl Evaluate for Evaluator {
-    fn scores(&self, genomes: &[Genome]) -> Vec<Score> {
+    fn scores(&self, genomes: &[Genome], most: Size) -> Vec<Score> {
         let pool = || self.pool.lock().unwrap_or_else(PoisonError::into_inner);
         genomes
             .par_iter()
@@ -243,7 +257,7 @@ impl Evaluate for Evaluator {
             .map(|genome| {
                 let taken = pool().pop();
                 let mut memory = taken.unwrap_or_else(|| Box::new(self.workspace()));
-                let score = self.evaluate(genome, &mut memory);
+                let score = self.evaluate_within(genome, most, &mut memory);
                 pool().push(memory);
                 score
             })

@@ -7,6 +7,7 @@
 //! | [`picture`] | overlays and sheets for people |
 //! | [`score`] | how alike two silhouettes are |
 //! | [`raster`] | a tree drawn straight into bits |
+//! | [`referee`] | the same by tiny-skia, many times as fine |
 //! | [`goal`] | a picture file becomes ink with a ground and a trunk |
 
 pub mod bitmap;
@@ -14,10 +15,11 @@ mod encode;
 pub mod goal;
 pub mod picture;
 pub mod raster;
+pub mod referee;
 pub mod score;
 pub mod view;
 
 pub use bitmap::Bitmap;
 pub use goal::{Goal, GoalError, GoalOptions, Polarity};
-pub use raster::{Detail, FULL_COVERAGE, Part, Rasteriser};
+pub use raster::{Detail, Part, Rasteriser};
 pub use view::{Camera, Frame, Projection, View};

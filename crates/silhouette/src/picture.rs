@@ -1,7 +1,7 @@
 //! Pictures for people: overlays of fit and goal, and sheets of silhouettes side by side.
 
 use crate::bitmap::Bitmap;
-use crate::raster::{FULL_COVERAGE, Part, Rasteriser};
+use crate::raster::{Part, Rasteriser};
 use crate::view::{Frame, View};
 use font8x8::UnicodeFonts;
 use pleach_tree::Tree;
@@ -148,7 +148,7 @@ pub fn two_colours(tree: &Tree, view: &View, frame: &Frame, foliage: bool) -> Pi
         rasteriser.draw_parts(tree, view, frame, &[part], &mut bitmap);
         rasteriser.coverage(&mut coverage);
         for (pixel, &samples) in picture.pixels.iter_mut().zip(&coverage) {
-            let share = f32::from(samples) / f32::from(FULL_COVERAGE);
+            let share = f32::from(samples) / f32::from(rasteriser.samples());
             for (under, over) in pixel.iter_mut().zip(colour) {
                 *under = (f32::from(*under) * (1.0 - share) + f32::from(over) * share).round() as u8;
             }

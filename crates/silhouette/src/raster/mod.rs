@@ -17,27 +17,29 @@ use outline::OutlineCache;
 use pleach_tree::plant::Leaf;
 use pleach_tree::{StemKind, Tree};
 
-/// Samples of ink in a fully covered pixel at [`Detail::Full`].
-pub const FULL_COVERAGE: u8 = 32;
-
 /// How finely pixels are sampled: always eight samples across.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Detail {
-    /// Four samples down.
+    /// Eight samples down, sixteen where leaves are thinner than a twelfth of a pixel.
     #[default]
     Full,
-    /// Two samples down: for searches.
+    /// Four samples down: for searches.
     Half,
-    /// One sample down: for coarse searches.
+    /// Two samples down: for coarse searches.
     Draft,
 }
 
+/// Leaves thinner than this, in pixels, are sampled twice as finely at [`Detail::Full`]: a crown of
+/// needles is grey all over, and a grey pixel needs many samples to be told black or white.
+const THIN: f32 = 1.0 / 12.0;
+
 impl Detail {
-    const fn down(self) -> u32 {
+    fn down(self, thinnest_leaf: f32) -> u32 {
         match self {
-            Self::Full => 4,
-            Self::Half => 2,
-            Self::Draft => 1,
+            Self::Full if thinnest_leaf < THIN => 16,
+            Self::Full => 8,
+            Self::Half => 4,
+            Self::Draft => 2,
         }
     }
 }
@@ -88,16 +90,23 @@ impl Rasteriser {
         self.grid.resolve(out);
     }
 
-    /// The share of each pixel that the last drawn tree covers, row by row: set samples, of eight
-    /// times as many as the detail has down ([`FULL_COVERAGE`] at [`Detail::Full`]).
+    /// What the last drawn tree covers of each pixel, row by row: the number of samples, of
+    /// [`Rasteriser::samples`].
     pub fn coverage(&self, out: &mut Vec<u8>) {
         self.grid.coverage(out);
     }
 
+    /// Samples of each pixel of the last drawn tree.
+    #[must_use]
+    pub const fn samples(&self) -> u8 {
+        self.grid.samples()
+    }
+
     fn sample(&mut self, tree: &Tree, view: &View, frame: &Frame, parts: &[Part]) {
-        let down = self.detail.down();
-        self.grid.reset(frame.width, frame.height, down);
         let camera = Camera::new(view, frame);
+        let thinnest = if parts.contains(&Part::Leaves) { leaf_width(tree, &camera) } else { f32::INFINITY };
+        let down = self.detail.down(thinnest);
+        self.grid.reset(frame.width, frame.height, down);
         let scale = Vec2::new(ACROSS as f32, down as f32);
         for part in parts {
             match part {
@@ -150,6 +159,12 @@ impl Rasteriser {
             }
         }
     }
+}
+
+/// Width of the tree's leaves in pixels, seen from the front of the blade; infinite without leaves.
+fn leaf_width(tree: &Tree, camera: &Camera) -> f32 {
+    let unit = 2.0 * tree.leaf_shape.half_outline().iter().map(|p| p[0]).fold(0.0, f32::max);
+    tree.leaves.first().map_or(f32::INFINITY, |l| unit * l.across.length() * camera.pixels_per_metre() as f32)
 }
 
 /// Takes the frames of leaves from the world to samples.

@@ -58,6 +58,9 @@ pub(crate) struct OutlineCache {
 
 /// Tolerance of outlines in pixels: over half a sample's height.
 const TOLERANCE: f32 = 0.15;
+/// And as a part of a leaf's width: needles far thinner than a pixel keep their shape, since longer
+/// ones of the same area would overlap less.
+const RELATIVE_TOLERANCE: f32 = 0.1;
 
 impl OutlineCache {
     /// The outline of `shape` for leaves whose unit measures `scale` pixels across and along.
@@ -69,7 +72,11 @@ impl OutlineCache {
         let key = (shape, steps.map(f32::to_bits));
         if self.key != Some(key) {
             self.key = Some(key);
-            self.corners = simplify(&shape.outline(), steps.map(|s| (s / 10.0).exp()), TOLERANCE);
+            let scale = steps.map(|s| (s / 10.0).exp());
+            let outline = shape.outline();
+            let width = 2.0 * outline.iter().map(|p| p[0]).fold(0.0, f32::max);
+            let least = (width * scale[0]).min(scale[1]);
+            self.corners = simplify(&outline, scale, TOLERANCE.min(RELATIVE_TOLERANCE * least));
         }
         &self.corners
     }

@@ -1,0 +1,182 @@
+//! The same silhouettes drawn by tiny-skia, many times as fine: slow, simple, and not ours.
+//!
+//! Every shape at full detail (splines flattened to a fiftieth of a pixel, leaves with all their
+//! corners, blossoms with all their faces), each as a path of its own, since overlapping shapes of
+//! one path would cancel. The fast path is judged by it in the tests.
+
+use crate::bitmap::Bitmap;
+use crate::raster::Part;
+use crate::view::{Camera, Frame, View};
+use glam::{DVec2, DVec3};
+use pleach_tree::plant::Leaf;
+use pleach_tree::spline::Cubic;
+use pleach_tree::{StemKind, Tree};
+use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
+
+/// What the referee saw.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// Black from half coverage.
+    pub bitmap: Bitmap,
+    /// Covered area in pixels: the sum of all pixels' coverage.
+    pub coverage: f64,
+}
+
+/// A frame was too large to be drawn so finely.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{width} × {height} pixels, {fineness} times as fine, are more than the referee's {MOST_SIDE}")]
+pub struct TooFine {
+    /// Width of the frame in pixels.
+    pub width: u32,
+    /// Height of the frame in pixels.
+    pub height: u32,
+    /// Samples a side of a pixel.
+    pub fineness: u32,
+}
+
+/// Longest side, in samples: 256 megabytes.
+pub const MOST_SIDE: u32 = 16_384;
+
+/// Farthest that a chord strays from its curve, in pixels.
+const TOLERANCE: f64 = 0.02;
+
+/// Draws `tree` with `fineness` × `fineness` samples a pixel and without anti-aliasing.
+///
+/// # Errors
+/// If a side of the picture has more than [`MOST_SIDE`] samples.
+pub fn draw(
+    tree: &Tree,
+    view: &View,
+    frame: &Frame,
+    parts: &[Part],
+    fineness: u32,
+) -> Result<Verdict, TooFine> {
+    let Frame { width, height, .. } = *frame;
+    let too_fine = TooFine { width, height, fineness };
+    let (wide, high) = (width.saturating_mul(fineness), height.saturating_mul(fineness));
+    if wide.max(high) > MOST_SIDE {
+        return Err(too_fine);
+    }
+    let mut mask = Mask::new(wide, high).ok_or(too_fine)?;
+    let scale = Transform::from_scale(fineness as f32, fineness as f32);
+    shapes(tree, view, frame, parts, |corners| {
+        let mut path = PathBuilder::new();
+        for (i, p) in corners.iter().enumerate() {
+            let (x, y) = (p.x as f32, p.y as f32);
+            if i == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+        }
+        path.close();
+        if let Some(path) = path.finish() {
+            mask.fill_path(&path, FillRule::EvenOdd, false, scale);
+        }
+    });
+
+    let mut counts = vec![0_u32; width as usize * height as usize];
+    for (y, row) in mask.data().chunks_exact(wide as usize).enumerate() {
+        let first = y / fineness as usize * width as usize;
+        for (count, samples) in counts[first..].iter_mut().zip(row.chunks_exact(fineness as usize)) {
+            *count += samples.iter().map(|&s| u32::from(s >> 7)).sum::<u32>();
+        }
+    }
+    let whole = fineness * fineness;
+    let bitmap = Bitmap::from_fn(width, height, |x, y| 2 * counts[(y * width + x) as usize] >= whole);
+    let coverage = counts.iter().map(|&c| f64::from(c)).sum::<f64>() / f64::from(whole);
+    Ok(Verdict { bitmap, coverage })
+}
+
+/// Calls `fill` with the corners, in pixels, of every polygon of `parts` of `tree`.
+pub fn shapes(tree: &Tree, view: &View, frame: &Frame, parts: &[Part], mut fill: impl FnMut(&[DVec2])) {
+    let camera = Camera::new(view, frame);
+    for part in parts {
+        match part {
+            Part::Stems => {
+                for stem in tree.stems.iter().filter(|s| s.kind != StemKind::Root) {
+                    let knots = tree.knots_of(stem);
+                    let straight = knots[knots.len() - 1].point - knots[0].point;
+                    let pieces: Vec<_> = tree.pieces_of(stem).collect();
+                    for (i, (piece, r0, r1)) in pieces.iter().enumerate() {
+                        strip(&camera, piece, *r0, *r1, straight, &mut fill);
+                        if i == 0 {
+                            disc(&camera, piece, 0.0, *r0, &mut fill);
+                        }
+                        if i + 1 == pieces.len() {
+                            disc(&camera, piece, 1.0, *r1, &mut fill);
+                        }
+                    }
+                }
+            }
+            Part::Leaves => {
+                let outline: Vec<DVec3> = tree
+                    .leaf_shape
+                    .outline()
+                    .iter()
+                    .map(|p| DVec3::new(f64::from(p[0]), f64::from(p[1]), 0.0))
+                    .collect();
+                for leaf in &tree.leaves {
+                    blade(&camera, leaf, &outline, &mut fill);
+                }
+            }
+            Part::Blossoms => {
+                let faces = tree.blossom_shape.faces();
+                for face in faces.polygons {
+                    let corners: Vec<DVec3> = face
+                        .iter()
+                        .map(|&i| glam::Vec3::from(faces.vertices[usize::from(i)]).as_dvec3())
+                        .collect();
+                    for blossom in &tree.blossoms {
+                        blade(&camera, blossom, &corners, &mut fill);
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn blade(camera: &Camera, leaf: &Leaf, corners: &[DVec3], fill: &mut impl FnMut(&[DVec2])) {
+    let (at, across, along) = (leaf.position.as_dvec3(), leaf.across.as_dvec3(), leaf.along.as_dvec3());
+    let normal = leaf.normal().as_dvec3();
+    let place = |c: &DVec3| seen(camera, at + across * c.x + along * c.y + normal * c.z);
+    if let Some(corners) = corners.iter().map(place).collect::<Option<Vec<DVec2>>>() {
+        fill(&corners);
+    }
+}
+
+fn seen(camera: &Camera, point: DVec3) -> Option<DVec2> {
+    camera.magnification(point).map(|m| camera.project(point, m).into())
+}
+
+/// Centre and left rim of the stem at `t`, in pixels.
+fn rib(camera: &Camera, piece: &Cubic, t: f64, radius: f64, straight: DVec3) -> Option<(DVec2, DVec2)> {
+    let point = piece.at(t);
+    let centre = seen(camera, point)?;
+    let ahead = |v: DVec3| DVec2::new(v.dot(camera.right), v.dot(camera.down)).try_normalize();
+    let along = ahead(piece.derivative(t)).or_else(|| ahead(straight)).unwrap_or(DVec2::Y);
+    let wide = radius * camera.pixels_per_metre() * camera.magnification(point)?;
+    Some((centre, along.perp() * wide))
+}
+
+fn strip(camera: &Camera, piece: &Cubic, r0: f64, r1: f64, straight: DVec3, fill: &mut impl FnMut(&[DVec2])) {
+    let chords = piece.chords(TOLERANCE / camera.pixels_per_metre());
+    let at = |i: u32| {
+        let t = f64::from(i) / f64::from(chords);
+        rib(camera, piece, t, r0 + (r1 - r0) * t, straight)
+    };
+    for i in 0..chords {
+        let (Some((p, u)), Some((q, v))) = (at(i), at(i + 1)) else { continue };
+        // As two triangles, which cannot cross themselves.
+        fill(&[p + u, p - u, q - v]);
+        fill(&[p + u, q - v, q + v]);
+    }
+}
+
+/// The round end of a stem, seen at an angle.
+fn disc(camera: &Camera, piece: &Cubic, t: f64, radius: f64, fill: &mut impl FnMut(&[DVec2])) {
+    let Some(tangent) = piece.derivative(t).try_normalize() else { return };
+    let Some((centre, side)) = rib(camera, piece, t, radius, tangent) else { return };
+    let short = side.perp() * tangent.dot(camera.away).abs();
+    let corners: [DVec2; 64] = std::array::from_fn(|i| {
+        let (sin, cos) = (i as f64 * std::f64::consts::TAU / 64.0).sin_cos();
+        centre + side * cos + short * sin
+    });
+    fill(&corners);
+}

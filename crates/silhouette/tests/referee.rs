@@ -1,0 +1,85 @@
+//! The fast path against the referee, for the fifteen species, with leaves and without.
+//!
+//! At 256² the referee has 16 × 16 samples a pixel, at 512² 11 × 11.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use pleach_silhouette::{Bitmap, Frame, Part, Rasteriser, View, referee};
+use pleach_tree::Tree;
+
+const LEAFY: &[Part] = &[Part::Stems, Part::Leaves, Part::Blossoms];
+const BARE: &[Part] = &[Part::Stems];
+
+/// One comparison, as facts.
+struct Case {
+    name: String,
+    iou: f64,
+    least_iou: f64,
+    /// Ratio of one-bit ink to the referee's.
+    ink: f64,
+    /// Ratio of covered area to the referee's.
+    coverage: f64,
+}
+
+fn compare(name: &str, tree: &Tree, parts: &[Part], size: u32, fineness: u32) -> Case {
+    let frame = Frame::automatic(tree, &View::FRONT, true, size, size);
+    let mut rasteriser = Rasteriser::new();
+    let (mut ours, mut samples) = (Bitmap::default(), Vec::new());
+    rasteriser.draw_parts(tree, &View::FRONT, &frame, parts, &mut ours);
+    rasteriser.coverage(&mut samples);
+    let covered = samples.iter().map(|&s| f64::from(s)).sum::<f64>() / f64::from(rasteriser.samples());
+    let verdict = referee::draw(tree, &View::FRONT, &frame, parts, fineness).unwrap();
+    let both = ours.intersection(&verdict.bitmap) as f64;
+    let union = (ours.ink() + verdict.bitmap.ink()) as f64 - both;
+    let leafy = parts.len() > 1;
+    Case {
+        name: format!("{name} {} at {size}", if leafy { "leafy" } else { "bare" }),
+        iou: both / union,
+        least_iou: if leafy { 0.95 } else { 0.90 },
+        ink: ours.ink() as f64 / verdict.bitmap.ink() as f64,
+        coverage: covered / verdict.coverage,
+    }
+}
+
+fn judge(sizes: (u32, u32), names: &[&str]) {
+    let mut wrong = Vec::new();
+    for name in
+    {
+        let tree = pleach_generators::species(name).unwrap().grow(1).unwrap();
+        for parts in [LEAFY, BARE] {
+            let case = compare(name, &tree, parts, sizes.0, sizes.1);
+            let Case { name, iou, least_iou, ink, coverage } = case;
+            let line = format!("{name}: IoU {iou:.4}, ink {ink:.4}, coverage {coverage:.4}");
+            println!("{line}");
+            if iou < least_iou || (ink - 1.0).abs() > 0.03 || (coverage - 1.0).abs() > 0.03 {
+                wrong.push(line);
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+fn fifteen() -> Vec<&'static str> {
+    pleach_generators::names().into_iter().take(15).collect()
+}
+
+// Four tests, so that two cores share them.
+#[test]
+fn first_half_at_256() {
+    judge((256, 16), &fifteen()[..8]);
+}
+
+#[test]
+fn second_half_at_256() {
+    judge((256, 16), &fifteen()[8..]);
+}
+
+#[test]
+fn first_half_at_512() {
+    judge((512, 11), &fifteen()[..8]);
+}
+
+#[test]
+fn second_half_at_512() {
+    judge((512, 11), &fifteen()[8..]);
+}
