@@ -43,8 +43,7 @@ fn compare(name: &str, tree: &Tree, parts: &[Part], size: u32, fineness: u32) ->
 
 fn judge(sizes: (u32, u32), names: &[&str]) {
     let mut wrong = Vec::new();
-    for name in
-    {
+    for name in names {
         let tree = pleach_generators::species(name).unwrap().grow(1).unwrap();
         for parts in [LEAFY, BARE] {
             let case = compare(name, &tree, parts, sizes.0, sizes.1);
