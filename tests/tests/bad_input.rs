@@ -118,7 +118,8 @@ fn wrong_usage_is_two() {
     let dir = Dir::new();
     dir.run(["grow"]).fails(2, &["SPECIES"]);
     dir.run(["grow", "acer", "--seeds", "9..3"]).fails(2, &["A..B"]);
-    dir.run(["grow", "acer", "--seed", "-1"]).fails(2, &["seed"]);
+    dir.run(["grow", "acer", "--seed", "-1"]).fails(2, &["-1"]);
+    dir.run(["grow", "acer", "--seed", "1.5"]).fails(2, &["whole number"]);
     dir.run(["grwo"]).fails(2, &["grow"]);
     dir.run(["fit", "x.png", "--timeout", "soon"]).fails(2, &["90s, 10m or 2h"]);
     dir.run(["fit", "x.png", "--target-iou", "2"]).fails(2, &["from 0 to 1"]);

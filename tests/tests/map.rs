@@ -15,6 +15,7 @@ fn the_fifteen_are_laid_out() {
     let dir = Dir::new();
     let printed = dir.run(["map", "--grid", "3x2", "--out", "m"]).ok();
     assert!(printed.contains("explained") && printed.contains("100.0 %"), "{printed}");
+    assert!(printed.contains("height to width"), "{printed}");
     let dots = std::fs::read_to_string(dir.path("m/map.csv")).unwrap();
     assert_eq!(dots.lines().count(), 16);
     assert!(dots.starts_with("species,x,y,residual\nquaking_aspen,"), "{dots}");

@@ -4,6 +4,7 @@ use super::landmarks::MapArgs;
 use crate::{files, input, output};
 use pleach_blend::draw::{Drawing, each_tree, silhouettes};
 use pleach_blend::picture::{self, Extras, TraitField};
+use pleach_blend::traits::correlation;
 use pleach_blend::{BlendMap, Point, Trait};
 use pleach_silhouette::Detail;
 use pleach_silhouette::picture::{Picture, sheet_of_pictures};
@@ -88,7 +89,12 @@ impl Map {
             let sheet = grid_sheet(&map, columns, rows, self.seed)?;
             files::write_whole(&self.out.join("grid.png"), |file| Ok(sheet.write_png(file)?))?;
         }
-        if self.json { output::json(&report_json(&map)) } else { output::line(report(&map)) }?;
+        let directions = if self.no_thumbnails { Vec::new() } else { directions(&map, self.seed)? };
+        if self.json {
+            output::json(&report_json(&map, &directions))?;
+        } else {
+            output::line(report(&map, &directions))?;
+        }
         output::note(format!("wrote {}", self.out.display()));
         Ok(())
     }
@@ -159,7 +165,22 @@ fn write_loadings(map: &BlendMap, path: &Path) -> anyhow::Result<()> {
     })
 }
 
-fn report(map: &BlendMap) -> String {
+/// A trait and how it correlates with x and y over the species.
+type Direction = (Trait, [f64; 2]);
+
+fn directions(map: &BlendMap, seed: u64) -> anyhow::Result<Vec<Direction>> {
+    let measure = |tree: &pleach_tree::Tree| Trait::ALL.map(|t| t.of(tree));
+    let measured = each_tree(map.landmarks().species(), seed, |tree, _| measure(tree))?;
+    let axes: [Vec<f64>; 2] =
+        [map.dots().iter().map(|d| d.x).collect(), map.dots().iter().map(|d| d.y).collect()];
+    let along = |number: usize| {
+        let values: Vec<f64> = measured.iter().map(|values| values[number]).collect();
+        [0, 1].map(|axis: usize| correlation(&axes[axis], &values))
+    };
+    Ok(Trait::ALL.into_iter().enumerate().map(|(number, of)| (of, along(number))).collect())
+}
+
+fn report(map: &BlendMap, directions: &[Direction]) -> String {
     let explained = map.pca().explained();
     let mut rows =
         vec![["axis", "explained", "together", "the parameters that weigh most"].map(str::to_owned).to_vec()];
@@ -174,7 +195,20 @@ fn report(map: &BlendMap) -> String {
             heavy,
         ]);
     }
-    output::table(&rows, &[0, 1, 2])
+    let explained = output::table(&rows, &[0, 1, 2]);
+    if directions.is_empty() {
+        return explained;
+    }
+    let mut rows = vec![["trait", "with x", "with y"].map(str::to_owned).to_vec()];
+    rows.extend(
+        directions
+            .iter()
+            .map(|(of, [x, y])| vec![of.name().replace('_', " "), format!("{x:+.2}"), format!("{y:+.2}")]),
+    );
+    format!(
+        "{explained}\n\nhow the species' traits go with the axes, -1 to 1\n{}",
+        output::table(&rows, &[1, 2])
+    )
 }
 
 /// The six features that weigh most on an axis, with the direction in which they grow.
@@ -186,7 +220,9 @@ fn heaviest(map: &BlendMap, axis: usize) -> Vec<String> {
         .collect()
 }
 
-fn report_json(map: &BlendMap) -> serde_json::Value {
+fn report_json(map: &BlendMap, directions: &[Direction]) -> serde_json::Value {
+    let traits: serde_json::Map<_, _> =
+        directions.iter().map(|(of, along)| (of.name().to_owned(), json!(along))).collect();
     let species: Vec<_> = map
         .landmarks()
         .species()
@@ -199,5 +235,6 @@ fn report_json(map: &BlendMap) -> serde_json::Value {
         "species": species,
         "explained_variance": map.pca().explained(),
         "heaviest": [heaviest(map, 0), heaviest(map, 1)],
+        "traits": traits,
     })
 }

@@ -8,7 +8,7 @@ use pleach_blend::draw::{Drawing, each_tree, picture, silhouettes};
 use pleach_blend::{Blend, BlendMap, Features, Point, Settings, Trait, map};
 use pleach_silhouette::score::blurred_iou;
 use pleach_silhouette::{Bitmap, Detail, picture as sheets};
-use pleach_tree::{GrowError, Key, Kind, Species, TreeStats};
+use pleach_tree::{Key, Kind, Species, TreeStats};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -153,7 +153,7 @@ fn palm(maps: &Maps, rows: &mut Rows) -> anyhow::Result<()> {
                 let blend = maps.between(method, pair, at)?;
                 foreign += foreign_switches(&blend, maps.species());
                 taper += wrong_tapers(&blend, ends);
-                degenerate += u32::from(!ranges.hold(&blend, SEED)?);
+                degenerate += u32::from(!ranges.hold(&blend, SEED));
             }
             let names = (ends[0].name.as_str(), ends[1].name.as_str());
             let mut add =
@@ -241,8 +241,8 @@ impl Ranges {
         self.0.iter().zip(figures).all(|((low, high), v)| (low / GENEROUS..=high * GENEROUS).contains(&v))
     }
 
-    fn hold(&self, species: &Species, seed: u64) -> anyhow::Result<bool> {
-        Ok(self.contain(figures(&species.grow(seed)?)))
+    fn hold(&self, species: &Species, seed: u64) -> bool {
+        species.grow(seed).is_ok_and(|tree| self.contain(figures(&tree)))
     }
 }
 
@@ -278,7 +278,7 @@ fn leave_one_out(maps: &Maps, most: usize, rows: &mut Rows) -> anyhow::Result<()
         for (method, guess) in guesses {
             let far = map::distance(&code(&guess).values, &codes[i].values);
             rows.add("leave one out", (&species.name, ""), method, "parameter distance", far);
-            let unlike = unlike(species, &guess)?;
+            let unlike = unlike(species, &guess);
             rows.add("leave one out", (&species.name, ""), method, "silhouette distance", unlike);
         }
     }
@@ -286,15 +286,14 @@ fn leave_one_out(maps: &Maps, most: usize, rows: &mut Rows) -> anyhow::Result<()
 }
 
 /// One less the blurred overlap in the mean over four seeds.
-fn unlike(one: &Species, two: &Species) -> anyhow::Result<f64> {
+fn unlike(one: &Species, two: &Species) -> f64 {
     const SEEDS: u64 = 4;
     let pair = [one.clone(), two.clone()];
     let overlaps = (1..=SEEDS).map(|seed| {
-        let drawn = silhouettes(&pair, seed, DRAWING)?;
-        Ok(blurred_iou(&drawn[0], &drawn[1], BLUR))
+        // What does not grow overlaps nothing.
+        silhouettes(&pair, seed, DRAWING).map_or(0.0, |drawn| blurred_iou(&drawn[0], &drawn[1], BLUR))
     });
-    let overlaps: Vec<f64> = overlaps.collect::<anyhow::Result<_>>()?;
-    Ok(1.0 - overlaps.iter().sum::<f64>() / overlaps.len() as f64)
+    1.0 - overlaps.sum::<f64>() / SEEDS as f64
 }
 
 /// Every pair of species in steps: how alike neighbours are.
@@ -321,6 +320,7 @@ fn smoothness(maps: &Maps, steps: u32, most: usize, rows: &mut Rows) -> anyhow::
             add("steps alike", line.alike(|_| true) as f64);
             add("steps without a switch", line.overlaps.iter().filter(|s| !s.1).count() as f64);
             add("steps without a switch alike", line.alike(|switch| !switch) as f64);
+            add("trees that did not grow", line.stunted as f64);
             add("least overlap", line.least(|_| true));
             add("least overlap without a switch", line.least(|switch| !switch));
         }
@@ -333,7 +333,10 @@ const ALIKE: f64 = 0.85;
 
 /// Overlap of each two neighbours on the way, and whether something switches between them.
 struct Line {
+    /// 0 where one of the two did not grow.
     overlaps: Vec<(f64, bool)>,
+    /// Trees that did not grow.
+    stunted: usize,
 }
 
 impl Line {
@@ -341,14 +344,15 @@ impl Line {
         let at = |i: u32| maps.between(method, pair, f64::from(i) / f64::from(steps));
         let species = (0..=steps).map(at).collect::<anyhow::Result<Vec<_>>>()?;
         let mut rasteriser = pleach_silhouette::Rasteriser::new();
-        let drawn = species
-            .iter()
-            .map(|s| Ok(picture(&s.grow(SEED)?, &mut rasteriser, DRAWING)))
-            .collect::<Result<Vec<Bitmap>, GrowError>>()?;
+        let drawn: Vec<Option<Bitmap>> =
+            species.iter().map(|s| Some(picture(&s.grow(SEED).ok()?, &mut rasteriser, DRAWING))).collect();
+        let overlap = |pair: &[Option<Bitmap>]| match pair {
+            [Some(a), Some(b)] => blurred_iou(a, b, BLUR),
+            _ => 0.0,
+        };
+        let stunted = drawn.iter().filter(|d| d.is_none()).count();
         let pairs = species.windows(2).zip(drawn.windows(2));
-        Ok(Self {
-            overlaps: pairs.map(|(s, d)| (blurred_iou(&d[0], &d[1], BLUR), switches(&s[0], &s[1]))).collect(),
-        })
+        Ok(Self { overlaps: pairs.map(|(s, d)| (overlap(d), switches(&s[0], &s[1]))).collect(), stunted })
     }
 
     fn alike(&self, counts: impl Fn(bool) -> bool) -> usize {
@@ -445,9 +449,14 @@ fn write_sheet(
     pixels: u32,
     path: &Path,
 ) -> anyhow::Result<()> {
-    let (labels, species): (Vec<String>, Vec<Species>) = cells.into_iter().unzip();
-    let drawn = silhouettes(&species, SEED, Drawing { pixels, detail: Detail::Full })?;
-    let cells: Vec<(String, Bitmap)> = labels.into_iter().zip(drawn).collect();
+    let drawing = Drawing { pixels, detail: Detail::Full };
+    let cells: Vec<(String, Bitmap)> = cells
+        .into_par_iter()
+        .map(|(label, species)| match silhouettes(&[species], SEED, drawing) {
+            Ok(mut drawn) => (label, drawn.remove(0)),
+            Err(_) => (format!("{label}: grows no tree"), Bitmap::new(pixels, pixels)),
+        })
+        .collect();
     let sheet = sheets::sheet(&cells, columns);
     files::write_whole(path, |file| Ok(sheet.write_png(file)?))
 }

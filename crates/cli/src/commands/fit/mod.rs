@@ -32,7 +32,7 @@ history.csv (a row a generation) and summary.json; and a checkpoint while the fi
 
 /// Fit a generator's parameters to a goal image
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, args_override_self = true)]
 pub(crate) struct Fit {
     /// The goal: PNG, JPEG or WebP; black on white, white on black, or by transparency
     goal: PathBuf,
