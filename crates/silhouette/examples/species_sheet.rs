@@ -1,0 +1,53 @@
+//! The fifteen species, ours beside the reference generator's: the contact sheet of the README.
+//!
+//! ```text
+//! cargo run --release -p pleach-silhouette --example species_sheet -- tests/data/silhouettes docs/species.png
+//! ```
+
+use pleach_silhouette::goal::{Goal, GoalOptions};
+use pleach_silhouette::{Bitmap, Frame, Rasteriser, View, picture};
+use std::error::Error;
+use std::path::Path;
+
+/// Pixels of a cell.
+const SIDE: u32 = 150;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [reference, out] = arguments.as_slice() else {
+        return Err("expected the folder of the reference silhouettes and the picture to write".into());
+    };
+    let mut cells = Vec::new();
+    for names in pleach_generators::names()[..15].chunks(5) {
+        for foliage in [true, false] {
+            for ours in [true, false] {
+                for name in names {
+                    let label = match (ours, foliage) {
+                        (true, true) => (*name).replace('_', " "),
+                        (true, false) => "ours, bare".to_owned(),
+                        (false, _) => "reference".to_owned(),
+                    };
+                    let bitmap = if ours { drawn(name, foliage)? } else { read(reference, name, foliage)? };
+                    cells.push((label, bitmap));
+                }
+            }
+        }
+    }
+    let sheet = picture::sheet(&cells, 5);
+    sheet.write_png(&mut std::fs::File::create(out)?)?;
+    Ok(())
+}
+
+fn drawn(name: &str, foliage: bool) -> Result<Bitmap, Box<dyn Error>> {
+    let tree = pleach_generators::species(name)?.grow(1)?;
+    let frame = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
+    let mut bitmap = Bitmap::default();
+    Rasteriser::new().draw(&tree, &View::FRONT, &frame, foliage, &mut bitmap);
+    Ok(bitmap)
+}
+
+fn read(folder: &str, name: &str, foliage: bool) -> Result<Bitmap, Box<dyn Error>> {
+    let file = format!("{name}_1_front{}.png", if foliage { "" } else { "_bare" });
+    let options = GoalOptions { max_side: Some(SIDE), ..GoalOptions::default() };
+    Ok(Goal::load(Path::new(folder).join(file), &options)?.bitmap)
+}
