@@ -10,7 +10,9 @@ fn main() {
     let levels = if std::env::var("TOLERANCE").is_ok() { 1 } else { 5 };
     let only: Vec<String> = std::env::args().skip(1).collect();
     println!("species,foliage,iou_512,level,triangles,iou_256");
-    for name in pleach_generators::names().into_iter().filter(|n| only.is_empty() || only.iter().any(|o| o == n)) {
+    for name in
+        pleach_generators::names().into_iter().filter(|n| only.is_empty() || only.iter().any(|o| o == n))
+    {
         let species = pleach_generators::preset(name).unwrap();
         for foliage in [true, false] {
             let tree = if foliage { species.grow(1) } else { species.grow_bare(1) }.unwrap();
@@ -18,7 +20,8 @@ fn main() {
             let mut settings = MeshSettings::with_tolerance(tolerance);
             let frame = Frame::automatic(&tree, &View::FRONT, foliage, 512, 512);
             if tolerance == 1.0 {
-                settings = MeshSettings { tolerance: 0.1 * frame.metres_per_pixel, min_sides: 16, ..settings };
+                settings =
+                    MeshSettings { tolerance: 0.1 * frame.metres_per_pixel, min_sides: 16, ..settings };
             }
             let mut direct = Bitmap::new(512, 512);
             Rasteriser::new().draw(&tree, &View::FRONT, &frame, foliage, &mut direct);

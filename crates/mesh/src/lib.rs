@@ -8,6 +8,7 @@
 //! | [`block`] | corners and triangles |
 //! | [`lod`] | levels of detail |
 //! | [`write`] | GLB, OBJ, PLY, STL |
+//! | [`preview`], [`png_file`] | shaded pictures without a graphics card |
 //! | [`palette`] | colours of species and seasons |
 //! | [`wind`], [`rig`] | how stems sway |
 //!
@@ -22,6 +23,8 @@ pub mod lod;
 pub mod mesh;
 pub mod mesher;
 pub mod palette;
+pub mod png_file;
+pub mod preview;
 pub mod rig;
 pub mod settings;
 pub mod sink;
@@ -33,6 +36,7 @@ pub use block::{Block, Placement, Vertex, Wind};
 pub use mesh::Mesh;
 pub use mesher::Mesher;
 pub use palette::Palette;
+pub use preview::{Picture, Preview, PreviewSettings};
 pub use rig::Rig;
 pub use settings::{LeafStyle, MeshSettings};
 pub use sink::{Material, MeshError, Part, Sink, send};

@@ -125,6 +125,11 @@ impl<'a> Mesher<'a> {
         count
     }
 
+    /// Number of the first corner of stem number `stem` in the bark.
+    pub(crate) fn first_vertex(&self, stem: usize) -> u64 {
+        self.stems[stem].vertex
+    }
+
     fn placed(&self, material: Material) -> Option<(&'a [Leaf], &UnitMesh)> {
         match material {
             Material::Bark | Material::Card => None,

@@ -148,7 +148,7 @@ fn width(shape: LeafShape) -> f32 {
 fn reduced(shape: LeafShape) -> Vec<[f32; 2]> {
     let mut half = shape.half_outline().to_vec();
     // Lobes need a few more than plain blades.
-    let corners = if half.len() > 10 { 6 } else { 4 };
+    let corners = if shape.area() < 0.5 * width(shape) { 6 } else { 4 };
     // Stalks are too thin to be seen from where this is used.
     half[0][0] = if half.len() > corners { 0.0 } else { half[0][0] };
     let twice_area = |a: [f32; 2], b: [f32; 2], c: [f32; 2]| {

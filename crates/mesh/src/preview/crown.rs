@@ -1,0 +1,127 @@
+//! How much sky reaches a place in the crown: a coarse grid of leaf and bark area, marched through in
+//! a few directions.
+
+use glam::{IVec3, UVec3, Vec3, ivec3, uvec3, vec3};
+use rayon::prelude::*;
+
+/// Cells along the longest side.
+const CELLS: f32 = 44.0;
+/// Light that passes a cell: e to the minus this, per square metre of leaf and cubic metre of cell,
+/// and metre of way. Leaves at all angles hide half of their area (Monsi and Saeki 1953).
+const EXTINCTION: f32 = 0.5;
+/// Leaves scatter and pass light on, so a crown is brighter inside than black discs would make it.
+const SOFTNESS: f32 = 0.55;
+
+/// Light from the sky, cell by cell: 0 in the dark to 1 in the open.
+#[derive(Clone, Debug)]
+pub(crate) struct Crown {
+    origin: Vec3,
+    cell: f32,
+    size: UVec3,
+    sky: Vec<f32>,
+}
+
+impl Crown {
+    /// From points with the area in square metres that each stands for.
+    pub(crate) fn new(low: Vec3, high: Vec3, areas: &[(Vec3, f32)]) -> Self {
+        let extent = (high - low).max(Vec3::splat(1e-3));
+        let cell = extent.max_element() / CELLS;
+        let size = (extent / cell).ceil().as_uvec3() + uvec3(2, 2, 2);
+        let mut crown = Self { origin: low - cell, cell, size, sky: Vec::new() };
+        let mut density = vec![0.0_f32; (size.x * size.y * size.z) as usize];
+        for &(at, area) in areas {
+            if let Some(index) = crown.index(crown.cell_of(at)) {
+                density[index] += area;
+            }
+        }
+        let per_cell = EXTINCTION * SOFTNESS / (cell * cell);
+        density.iter_mut().for_each(|d| *d *= per_cell);
+        crown.sky = crown.light(&density);
+        crown
+    }
+
+    fn cell_of(&self, at: Vec3) -> IVec3 {
+        ((at - self.origin) / self.cell).floor().as_ivec3()
+    }
+
+    fn index(&self, cell: IVec3) -> Option<usize> {
+        let UVec3 { x, y, z } = self.size;
+        let inside = cell.cmpge(IVec3::ZERO).all() && cell.cmplt(self.size.as_ivec3()).all();
+        let _ = z;
+        inside.then(|| ((cell.z as u32 * y + cell.y as u32) * x + cell.x as u32) as usize)
+    }
+
+    /// Marches from every cell towards the sky and a little below the horizon.
+    fn light(&self, density: &[f32]) -> Vec<f32> {
+        // Directions that share the upper half sphere evenly, with their weights: overhead counts
+        // most, and the ground sends some light back.
+        let golden = 2.399_963;
+        let directions: Vec<(Vec3, f32)> = (0..18)
+            .map(|i| {
+                let z = -0.3 + 1.3 * (i as f32 + 0.5) / 18.0;
+                let (sin, cos) = (golden * i as f32).sin_cos();
+                let level = (1.0 - z * z).sqrt();
+                (vec3(cos * level, sin * level, z), if z > 0.0 { 0.4 + 0.6 * z } else { 0.25 })
+            })
+            .collect();
+        let total: f32 = directions.iter().map(|d| d.1).sum();
+        let UVec3 { x: nx, y: ny, .. } = self.size;
+        (0..density.len())
+            .into_par_iter()
+            .map(|i| {
+                let i = i as u32;
+                let cell = ivec3((i % nx) as i32, (i / nx % ny) as i32, (i / (nx * ny)) as i32);
+                let start = cell.as_vec3() + 0.5;
+                let through = |&(direction, weight): &(Vec3, f32)| {
+                    // Half of the cell itself, then one step a cell.
+                    let mut depth = self.index(cell).map_or(0.0, |i| density[i] * 0.5);
+                    let mut at = start + direction;
+                    while depth < 4.0 {
+                        let Some(index) = self.index(at.floor().as_ivec3()) else { break };
+                        depth += density[index];
+                        at += direction;
+                    }
+                    weight * (-depth).exp()
+                };
+                directions.iter().map(through).sum::<f32>() / total
+            })
+            .collect()
+    }
+
+    /// Light from the sky at `at`, smooth between cells.
+    pub(crate) fn sky_at(&self, at: Vec3) -> f32 {
+        let place = (at - self.origin) / self.cell - 0.5;
+        let base = place.floor();
+        let part = place - base;
+        let base = base.as_ivec3();
+        let mut sum = 0.0;
+        for corner in 0..8 {
+            let step = ivec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+            let weight = |axis: usize| if step[axis] == 1 { part[axis] } else { 1.0 - part[axis] };
+            let sky = self.index(base + step).map_or(1.0, |i| self.sky[i]);
+            sum += sky * weight(0) * weight(1) * weight(2);
+        }
+        sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_heart_of_a_crown_is_darker_than_its_rim() {
+        let mut areas = Vec::new();
+        for i in 0..20_000 {
+            let f = |k: u32| ((i as f32 * 0.618_034 * k as f32).fract() - 0.5) * 4.0;
+            let at = vec3(f(1), f(7), f(31));
+            if at.length() < 2.0 {
+                areas.push((at, 0.01));
+            }
+        }
+        let crown = Crown::new(Vec3::splat(-2.0), Vec3::splat(2.0), &areas);
+        let [heart, side, top] = [Vec3::ZERO, Vec3::X * 1.9, Vec3::Z * 1.9].map(|p| crown.sky_at(p));
+        assert!(heart < 0.5 * side && side < top && top <= 1.0, "{heart} {side} {top}");
+        assert!(crown.sky_at(Vec3::splat(9.0)) > 0.99);
+    }
+}

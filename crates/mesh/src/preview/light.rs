@@ -1,0 +1,77 @@
+//! The sun and its shadows.
+
+use super::raster::DepthBuffer;
+use glam::{Vec3, vec3};
+
+/// What the sun sees: a depth buffer along its rays.
+#[derive(Debug)]
+pub(crate) struct Sun {
+    /// Unit vector towards the sun.
+    pub(crate) towards: Vec3,
+    right: Vec3,
+    up: Vec3,
+    low: Vec3,
+    /// Texels a metre.
+    scale: f32,
+    buffer: DepthBuffer,
+}
+
+impl Sun {
+    /// The sun in direction `towards` over a mesh, with about `texels` texels across it.
+    pub(crate) fn new(towards: Vec3, points: &[Vec3], triangles: &[[u32; 3]], texels: u32) -> Self {
+        let right = Vec3::Z.cross(towards).try_normalize().unwrap_or(Vec3::X);
+        let up = towards.cross(right);
+        let seen = |p: &Vec3| vec3(p.dot(right), p.dot(up), p.dot(towards));
+        let (low, high) = points
+            .iter()
+            .map(seen)
+            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(l, h), p| (l.min(p), h.max(p)));
+        let extent = (high - low).max(Vec3::splat(1e-3));
+        let scale = texels as f32 / extent.x.max(extent.y);
+        let mut sun = Self {
+            towards,
+            right,
+            up,
+            low,
+            scale,
+            buffer: DepthBuffer { width: 0, height: 0, near: Vec::new(), triangle: Vec::new() },
+        };
+        let [width, height] = [extent.x, extent.y].map(|e| (e * scale).ceil() as u32 + 1);
+        let placed: Vec<Vec3> = points.iter().map(|&p| sun.place(p)).collect();
+        sun.buffer = DepthBuffer::draw(width, height, &placed, triangles);
+        sun
+    }
+
+    /// Texels, and metres towards the sun from one before the mesh.
+    fn place(&self, p: Vec3) -> Vec3 {
+        vec3(
+            (p.dot(self.right) - self.low.x) * self.scale,
+            (p.dot(self.up) - self.low.y) * self.scale,
+            p.dot(self.towards) - self.low.z + 1.0,
+        )
+    }
+
+    /// Part of the sunlight that reaches `p`, over `2·reach + 1` texels a side.
+    pub(crate) fn at(&self, p: Vec3, reach: i32, stride: f32) -> f32 {
+        let at = self.place(p);
+        let bias = 2.5 / self.scale;
+        let mut lit = 0.0;
+        for dy in -reach..=reach {
+            for dx in -reach..=reach {
+                let (x, y) = (at.x + dx as f32 * stride, at.y + dy as f32 * stride);
+                lit += self.lit(x, y, at.z + bias);
+            }
+        }
+        lit / ((2 * reach + 1) * (2 * reach + 1)) as f32
+    }
+
+    fn lit(&self, x: f32, y: f32, near: f32) -> f32 {
+        let inside = x >= 0.0 && y >= 0.0 && x < self.buffer.width as f32 && y < self.buffer.height as f32;
+        if !inside {
+            return 1.0;
+        }
+        let nearest = self.buffer.near[y as usize * self.buffer.width as usize + x as usize];
+        // Nothing is 0, which lies behind everything only where the mesh itself is.
+        if nearest > near && nearest > 0.0 { 0.0 } else { 1.0 }
+    }
+}

@@ -1,0 +1,112 @@
+//! Shaded pictures of trees, drawn by the processor.
+//!
+//! A depth buffer finds the nearest triangle of each sample, nine samples a pixel; each sample is then
+//! lit by a sun with shadows and by a sky that the crown hides in part. The same tree, palette and
+//! settings give the same picture, for any number of threads.
+
+mod bark;
+mod camera;
+mod crown;
+mod light;
+mod raster;
+mod scene;
+mod shade;
+
+use crate::palette::Palette;
+use pleach_tree::Tree;
+use pleach_tree::species::Colour;
+use scene::Scene;
+
+/// What is behind the tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Background {
+    /// A pale wall, a little darker below.
+    #[default]
+    Studio,
+    /// Nothing: the picture has an alpha channel.
+    Transparent,
+    /// One colour.
+    Plain(Colour),
+}
+
+/// What the tree stands on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ground {
+    /// A floor of which only the tree's shadow is seen.
+    #[default]
+    Shadow,
+    /// Short grass.
+    Grass,
+    /// Nothing.
+    None,
+}
+
+/// How a picture is taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PreviewSettings {
+    /// Width in pixels, 1 to 8192.
+    pub width: u32,
+    /// Height in pixels, 1 to 8192.
+    pub height: u32,
+    /// Radians around the tree; 0 looks along +y.
+    pub azimuth: f64,
+    /// Radians above the horizon, -π/2 to π/2.
+    pub elevation: f64,
+    /// What is behind the tree.
+    pub background: Background,
+    /// What the tree stands on.
+    pub ground: Ground,
+    /// Whether the tree stays inside the picture from any azimuth, for turntables.
+    pub all_around: bool,
+}
+
+impl Default for PreviewSettings {
+    /// 768 × 768 pixels from the front, five degrees up, in the studio.
+    fn default() -> Self {
+        Self {
+            width: 768,
+            height: 768,
+            azimuth: 0.0,
+            elevation: 0.09,
+            background: Background::Studio,
+            ground: Ground::Shadow,
+            all_around: false,
+        }
+    }
+}
+
+/// A picture: rows from the top, four bytes a pixel, red, green, blue and alpha (not multiplied).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// sRGB and alpha.
+    pub rgba: Vec<u8>,
+}
+
+/// A tree ready to be looked at from many sides.
+#[derive(Debug)]
+pub struct Preview {
+    scene: Scene,
+}
+
+impl Preview {
+    /// Meshes `tree` for pictures of about `size` pixels in height.
+    #[must_use]
+    pub fn new(tree: &Tree, palette: &Palette, size: u32) -> Self {
+        Self { scene: Scene::new(tree, palette, size) }
+    }
+
+    /// Takes a picture.
+    #[must_use]
+    pub fn picture(&self, settings: &PreviewSettings) -> Picture {
+        let settings = PreviewSettings {
+            width: settings.width.clamp(1, 8192),
+            height: settings.height.clamp(1, 8192),
+            ..*settings
+        };
+        shade::picture(&self.scene, &settings)
+    }
+}
