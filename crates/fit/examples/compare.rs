@@ -12,6 +12,7 @@
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
 use pleach_fit::{Budget, Control, FitProblem, FitSettings, GoalView, Objective, Optimizer, TreeSeed, fit};
+use pleach_silhouette::score::best_ellipse_iou;
 use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
 use pleach_tree::Species;
 use std::collections::BTreeMap;
@@ -87,6 +88,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let species = pleach_generators::preset(name).ok_or_else(|| format!("no species `{name}`"))?;
         let problem = problem(&species)?;
         let goal = &problem.goals[0].goal;
+        let ellipse = best_ellipse_iou(goal);
         let empty = 1.0 - goal.ink() as f64 / goal.area() as f64;
         for optimizer in optimizers.split(',') {
             let mut line = String::new();
@@ -133,7 +135,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let n = seeds as f64;
             let [accuracy, iou, cost] = sum.map(|s| s / n);
             println!(
-                "{name:16} {optimizer:10} empty {empty:.3} accuracy {accuracy:.4} iou {iou:.4} cost {cost:.4} {:7} evaluations {:6.1} s |{line}",
+                "{name:16} {optimizer:10} empty {empty:.3} ellipse {ellipse:.3} accuracy {accuracy:.4} iou {iou:.4} cost {cost:.4} {:7} evaluations {:6.1} s |{line}",
                 made / seeds,
                 seconds / n,
             );

@@ -195,8 +195,10 @@ mod tests {
     fn sample() -> Checkpoint<Hewitt> {
         let mut search = SearchState::new(Hewitt::new(HewittSettings::default(), 7, Start::Random));
         let genome = Genome { values: vec![0.1 + 0.2, -0.0, 1e-300], tree_seed: u64::MAX };
-        search.best =
-            Some(Scored { genome, score: Score { cost: f64::INFINITY, iou: 1.0 / 3.0, accuracy: 0.1 } });
+        search.best = Some(Scored {
+            genome,
+            score: Score { cost: f64::INFINITY, iou: 1.0 / 3.0, ..Score::of_cost(0.0) },
+        });
         let fingerprint = Fingerprint::default().with("goal", &1).with("settings", &2);
         Checkpoint { fingerprint, search, history: Vec::new(), elapsed_s: 0.3 }
     }

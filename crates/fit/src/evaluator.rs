@@ -78,7 +78,7 @@ pub struct Evaluator {
     foliage: bool,
     objective: Objective,
     limits: Limits,
-    pool: Mutex<Vec<Box<EvalWorkspace>>>,
+    pool: Mutex<Vec<EvalWorkspace>>,
 }
 
 #[derive(Debug)]
@@ -256,7 +256,7 @@ impl Evaluate for Evaluator {
             .with_max_len(1)
             .map(|genome| {
                 let taken = pool().pop();
-                let mut memory = taken.unwrap_or_else(|| Box::new(self.workspace()));
+                let mut memory = taken.unwrap_or_else(|| self.workspace());
                 let score = self.evaluate_within(genome, most, &mut memory);
                 pool().push(memory);
                 score

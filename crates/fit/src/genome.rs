@@ -26,16 +26,29 @@ pub struct Score {
     /// Share of equal pixels, in 0..=1; the mean over views. An empty picture may score high: see
     /// [`crate::Evaluator::empty_accuracy`].
     pub accuracy: f64,
+    /// How large the tree was.
+    pub size: Size,
+}
+
+/// How large a tree is: what its evaluation takes, in time and memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Size {
+    /// Stems.
+    pub stems: usize,
+    /// Leaves and blossoms.
+    pub leaves: usize,
+    /// Knots of all stems.
+    pub knots: usize,
 }
 
 impl Score {
     /// The score of what does not grow.
-    pub const FAILED: Self = Self { cost: f64::INFINITY, iou: 0.0, accuracy: 0.0 };
+    pub const FAILED: Self = Self { cost: f64::INFINITY, ..Self::of_cost(0.0) };
 
     /// A bare cost, for problems that are no pictures.
     #[must_use]
     pub const fn of_cost(cost: f64) -> Self {
-        Self { cost, iou: 0.0, accuracy: 0.0 }
+        Self { cost, iou: 0.0, accuracy: 0.0, size: Size { stems: 0, leaves: 0, knots: 0 } }
     }
 }
 

@@ -40,7 +40,7 @@ mod testing;
 pub use budget::{Budget, Clock, StopReason};
 pub use checkpoint::CheckpointError;
 pub use evaluator::{EvalWorkspace, Evaluator, FitProblem, GoalView, ProblemError};
-pub use genome::{Genome, Score, Scored};
+pub use genome::{Genome, Score, Scored, Size};
 pub use history::{COLUMNS, Column, Observer, Progress, Row};
 pub use method::{Method, Start};
 pub use objective::Objective;

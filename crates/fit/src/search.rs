@@ -1,6 +1,6 @@
 //! A [`Method`] as an argmin [`Solver`].
 
-use crate::genome::{Genome, Score, Scored};
+use crate::genome::{Genome, Score, Scored, Size};
 use crate::method::Method;
 use crate::space::SearchSpace;
 use argmin::core::{Error, KV, PopulationState, Problem, Solver, TerminationReason, TerminationStatus};
@@ -10,13 +10,14 @@ use std::sync::Arc;
 
 /// What individuals are scored against.
 pub trait Evaluate {
-    /// The scores of `genomes`, in their order, the same on any number of threads.
-    fn scores(&self, genomes: &[Genome]) -> Vec<Score>;
+    /// The scores of `genomes`, in their order, the same on any number of threads. A tree larger than
+    /// `most` may be given up as one that does not grow.
+    fn scores(&self, genomes: &[Genome], most: Size) -> Vec<Score>;
 }
 
 impl<T: Evaluate + ?Sized> Evaluate for &T {
-    fn scores(&self, genomes: &[Genome]) -> Vec<Score> {
-        (**self).scores(genomes)
+    fn scores(&self, genomes: &[Genome], most: Size) -> Vec<Score> {
+        (**self).scores(genomes, most)
     }
 }
 
@@ -38,6 +39,30 @@ pub struct SearchState<M> {
     pub generation_best: Option<Score>,
     members: Vec<Genome>,
     scores: Vec<Score>,
+    /// Largest trees of this generation.
+    most: Size,
+}
+
+/// How much larger than the best tree so far another may be, before it is given up.
+///
+/// Times differ a thousandfold between parameter lists, and trees that look like the goal are about
+/// as large as each other. Without this bound a search spends its time on the few that are absurd.
+const MOST_GROWTH: usize = 4;
+
+/// Trees up to this size are never given up: two or three milliseconds.
+const ALWAYS: Size = Size { stems: 1_500, leaves: 10_000, knots: 10_000 };
+
+/// The largest trees of the first generation, when nothing is known: some twenty milliseconds.
+const FIRST: Size = Size { stems: 10_000, leaves: 60_000, knots: 60_000 };
+
+fn largest_allowed(best: Option<&Scored>) -> Size {
+    let Some(best) = best.filter(|best| best.score.cost < f64::INFINITY) else { return FIRST };
+    let size = best.score.size;
+    Size {
+        stems: ALWAYS.stems.max(MOST_GROWTH.saturating_mul(size.stems)),
+        leaves: ALWAYS.leaves.max(MOST_GROWTH.saturating_mul(size.leaves)),
+        knots: ALWAYS.knots.max(MOST_GROWTH.saturating_mul(size.knots)),
+    }
 }
 
 impl<M> SearchState<M> {
@@ -52,6 +77,7 @@ impl<M> SearchState<M> {
             generation_best: None,
             members: Vec::new(),
             scores: Vec::new(),
+            most: FIRST,
         }
     }
 
@@ -103,16 +129,20 @@ impl<M> Search<M> {
 
 impl<M: Method> Search<M> {
     /// Evaluates the next batch with `score`; returns its best individual.
-    fn step(&mut self, score: impl FnOnce(&[Genome]) -> Result<Vec<Score>, Error>) -> Result<Scored, Error> {
+    fn step(
+        &mut self,
+        score: impl FnOnce(&[Genome], Size) -> Result<Vec<Score>, Error>,
+    ) -> Result<Scored, Error> {
         let state = &mut self.state;
         if state.members.is_empty() {
             state.method.ask(&self.space, &mut state.members);
+            state.most = largest_allowed(state.best.as_ref());
         }
         let first = state.scores.len();
         let room = usize::try_from(self.evaluation_limit - state.evaluations).unwrap_or(usize::MAX);
         let count = (state.members.len() - first).min(self.batch.max(1)).min(room);
         let batch = &state.members[first..first + count];
-        let scores = score(batch)?;
+        let scores = score(batch, state.most)?;
         state.evaluations += count as u64;
         let (at, &top) = scores
             .iter()
@@ -145,8 +175,8 @@ impl<O: Evaluate, M: Method> Solver<O, FitState> for Search<M> {
         problem: &mut Problem<O>,
         state: FitState,
     ) -> Result<(FitState, Option<KV>), Error> {
-        let top = self.step(|batch| {
-            problem.bulk_problem("cost_count", batch.len(), |objective| Ok(objective.scores(batch)))
+        let top = self.step(|batch, most| {
+            problem.bulk_problem("cost_count", batch.len(), |objective| Ok(objective.scores(batch, most)))
         })?;
         let log = kv!(
             "generation" => self.state.generation;

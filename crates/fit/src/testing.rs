@@ -1,6 +1,6 @@
 //! Small parameter spaces and costs for this crate's own tests.
 
-use crate::genome::{Genome, Score};
+use crate::genome::{Genome, Score, Size};
 use crate::search::Evaluate;
 use pleach_tree::param::{Kind, Layout, Param, ParamSpace, Unit};
 use std::borrow::Cow;
@@ -55,7 +55,7 @@ pub(crate) fn cube(dimensions: usize, low: f64, high: f64) -> ParamSpace {
 pub(crate) struct Function(pub(crate) fn(&[f64]) -> f64);
 
 impl Evaluate for Function {
-    fn scores(&self, genomes: &[Genome]) -> Vec<Score> {
+    fn scores(&self, genomes: &[Genome], _: Size) -> Vec<Score> {
         genomes.iter().map(|genome| Score::of_cost((self.0)(&genome.values))).collect()
     }
 }

@@ -6,14 +6,17 @@
 //!
 //! | method | idea | source |
 //! | --- | --- | --- |
+//! | [`Evolution`] | sparse steps in an elitist population, restarted: the default | |
 //! | [`Random`] | lists drawn independently: the floor to compare with | |
 //! | [`Hewitt`] | copies of a base with one parameter changed each; the two fittest merge to the next base | Hewitt 2017, §3.3.2 |
 
 mod evolution;
 mod hewitt;
+#[cfg(test)]
+mod known_minima;
 mod random;
 
-pub use evolution::{Evolution, EvolutionSettings};
+pub use evolution::{Evolution, EvolutionSettings, Move};
 pub use hewitt::{Hewitt, HewittSettings, Merge};
 pub use random::{Random, RandomSettings};
 

@@ -38,6 +38,13 @@ impl Gene {
         self.kind.is_flagged() && self.low < 0.0 && 0.0 < self.high
     }
 
+    /// Whether zero is in range and stands for the absence of a bend, a variation or the like. Counts
+    /// are no such thing: none of them is not the simple case but another tree.
+    #[must_use]
+    pub fn may_be_zero(&self) -> bool {
+        !self.kind.is_whole() && self.low <= 0.0 && 0.0 <= self.high
+    }
+
     /// Whether there is but one value.
     #[must_use]
     pub fn is_constant(&self) -> bool {

@@ -1,0 +1,50 @@
+//! A whole evaluation (grow, draw, score) at 256², on one thread and on two.
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use pleach_fit::settings::LIMITS;
+use pleach_fit::{Evaluate, Evaluator, FitProblem, Genome, GoalView, Objective, Size};
+use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use std::hint::black_box;
+use std::sync::Arc;
+
+fn problem(name: &str) -> FitProblem {
+    let species = pleach_generators::preset(name).expect("a known species");
+    let tree = species.grow(1).expect("a species grows");
+    let frame = Frame::automatic(&tree, &View::FRONT, true, 256, 256);
+    let mut goal = Bitmap::default();
+    Rasteriser::new().draw(&tree, &View::FRONT, &frame, true, &mut goal);
+    FitProblem {
+        generator: Arc::clone(&species.generator),
+        base: species.params.values().to_vec(),
+        goals: vec![GoalView { goal, view: View::FRONT, frame }],
+        foliage: true,
+    }
+}
+
+fn evaluations(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("evaluation");
+    group.sample_size(20);
+    for name in ["palm", "quaking_aspen", "black_oak", "weeping_willow"] {
+        let problem = problem(name);
+        let evaluator = Evaluator::new(&problem, Objective::Blend, LIMITS).expect("a good problem");
+        let genome = Genome { values: problem.base.clone(), tree_seed: 1 };
+        let mut memory = evaluator.workspace();
+        group.throughput(Throughput::Elements(1));
+        group.bench_function(name, |b| b.iter(|| evaluator.evaluate(black_box(&genome), &mut memory)));
+    }
+    let problem = problem("quaking_aspen");
+    let evaluator = Evaluator::new(&problem, Objective::Blend, LIMITS).expect("a good problem");
+    let population = vec![Genome { values: problem.base.clone(), tree_seed: 1 }; 32];
+    let most = Size { stems: usize::MAX, leaves: usize::MAX, knots: usize::MAX };
+    group.throughput(Throughput::Elements(32));
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        group.bench_function(format!("32 aspens, threads {threads}"), |b| {
+            b.iter(|| pool.install(|| evaluator.scores(black_box(&population), most)));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, evaluations);
+criterion_main!(benches);

@@ -1,0 +1,50 @@
+//! An evaluation allocates nothing once its memory is warm.
+//!
+//! Alone in its program: the counter sees every thread.
+
+mod common;
+
+use common::own_goal;
+use pleach_fit::settings::LIMITS;
+use pleach_fit::stream::Stream;
+use pleach_fit::{Evaluator, Freedom, Genome, Objective, SearchSpace, TreeSeed};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use std::alloc::System;
+use std::sync::Arc;
+
+#[global_allocator]
+static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+#[test]
+fn warm_evaluations_allocate_nothing() {
+    let problem = own_goal("quaking_aspen", 128);
+    let evaluator = Evaluator::new(&problem, Objective::Blend, LIMITS).unwrap();
+    let tree_seed = TreeSeed::Fixed(1);
+    let space =
+        SearchSpace::new(Arc::clone(&problem.generator), &problem.base, &Freedom::default(), tree_seed)
+            .unwrap();
+    // The goal's own tree, and lists around it: what a search sees in its last hours.
+    let genomes: Vec<Genome> = (0..12)
+        .map(|i| {
+            let mut draws = Stream::at(1, 9, 0, i);
+            let mut genome = space.individual(&problem.base, 1);
+            for gene in space.genes() {
+                let unit = gene.to_unit(genome.values[gene.slot]) + 0.02 * draws.signed();
+                genome.values[gene.slot] = gene.from_unit(unit);
+            }
+            genome
+        })
+        .collect();
+    let mut memory = evaluator.workspace();
+    let warm: Vec<_> = genomes.iter().map(|g| evaluator.evaluate(g, &mut memory)).collect();
+    assert!(warm.iter().any(|s| s.cost < 0.9), "the lists grow");
+
+    let mut again = warm.clone();
+    let region = Region::new(COUNTING);
+    for (score, genome) in again.iter_mut().zip(&genomes) {
+        *score = evaluator.evaluate(genome, &mut memory);
+    }
+    let change = region.change();
+    assert_eq!((change.allocations, change.reallocations), (0, 0), "{change:?}");
+    assert_eq!(again, warm, "reused memory leaves no trace in scores");
+}
