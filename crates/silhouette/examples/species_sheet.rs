@@ -10,7 +10,7 @@ use std::error::Error;
 use std::path::Path;
 
 /// Pixels of a cell.
-const SIDE: u32 = 150;
+const SIDE: u32 = 120;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -20,20 +20,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut cells = Vec::new();
     for names in pleach_generators::names()[..15].chunks(5) {
         for foliage in [true, false] {
-            for ours in [true, false] {
-                for name in names {
-                    let label = match (ours, foliage) {
-                        (true, true) => (*name).replace('_', " "),
-                        (true, false) => "ours, bare".to_owned(),
-                        (false, _) => "reference".to_owned(),
-                    };
-                    let bitmap = if ours { drawn(name, foliage)? } else { read(reference, name, foliage)? };
-                    cells.push((label, bitmap));
-                }
+            for name in names {
+                let label = if foliage { (*name).replace('_', " ") } else { String::new() };
+                cells.push((label, drawn(name, foliage)?));
+                cells.push(("reference".to_owned(), read(reference, name, foliage)?));
             }
         }
     }
-    let sheet = picture::sheet(&cells, 5);
+    let sheet = picture::sheet(&cells, 10);
     sheet.write_png(&mut std::fs::File::create(out)?)?;
     Ok(())
 }
