@@ -151,13 +151,13 @@ impl BlendMap {
         self.landmarks.decode(weights, &features, moved)
     }
 
-    /// The point at which `params` stand.
+    /// The point at which a species stands.
     ///
     /// On the plane of principal components this is their projection, so a landmark's parameters give
     /// its dot. On another layout it is the mean of the dots, those of similar parameters counting
     /// most (Shepard's weights, the fourth power of the inverse distance).
     ///
-    /// `generator` tells which numbers these parameters read; for a blend its landmark's.
+    /// Numbers that the species does not read say nothing about it.
     #[must_use]
     pub fn locate(&self, species: &Species) -> Point {
         let code = self.landmarks.coding().encode(species.generator.as_ref(), species.params.values()).values;

@@ -67,6 +67,24 @@ impl Trait {
     }
 }
 
+/// How far `values`, one a place, rise along the direction in which `along` does: Pearson's correlation,
+/// −1 to 1; 0 where either never changes.
+///
+/// # Panics
+/// If the two differ in length.
+#[must_use]
+pub fn correlation(along: &[f64], values: &[f64]) -> f64 {
+    assert_eq!(along.len(), values.len(), "one value a place");
+    let centred = |list: &[f64]| {
+        let middle = mean(list.iter().copied());
+        list.iter().map(|v| v - middle).collect::<Vec<f64>>()
+    };
+    let (a, b) = (centred(along), centred(values));
+    let product = |p: &[f64], q: &[f64]| p.iter().zip(q).map(|(x, y)| x * y).sum::<f64>();
+    let size = (product(&a, &a) * product(&b, &b)).sqrt();
+    if size > 0.0 { product(&a, &b) / size } else { 0.0 }
+}
+
 /// Ink over the area of the box around it; 0 for an empty picture.
 fn share_of_ink(bitmap: &Bitmap) -> f64 {
     bitmap.ink_box().map_or(0.0, |(x0, y0, x1, y1)| {
@@ -110,6 +128,13 @@ mod tests {
         assert!(fir > 60.0 && of(Trait::BranchAngle, "lombardy_poplar") < 50.0, "{fir}");
         let ink = of(Trait::Ink, "apple");
         assert!((0.3..=1.0).contains(&ink) && of(Trait::Ink, "palm") < ink, "{ink}");
+    }
+
+    #[test]
+    fn correlation_by_hand() {
+        // Deviations −1, 0, 1 and −2, 1, 1: 3 / √(2 · 6).
+        assert!((correlation(&[1.0, 2.0, 3.0], &[0.0, 3.0, 3.0]) - 3.0 / 12.0_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(correlation(&[1.0, 2.0], &[5.0, 5.0]), 0.0);
     }
 
     #[test]

@@ -94,11 +94,11 @@ impl BlendCommand {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let ends = [&self.from, &self.to].into_iter().flatten();
         let ends = ends.map(|name| Ok(input::species(name)?)).collect::<anyhow::Result<Vec<Species>>>()?;
-        if let [first, second] = ends.as_slice() {
-            if first.params == second.params {
-                let (first, second) = (first.name.clone(), second.name.clone());
-                return Err(BlendError::AllAlike { first, second }.into());
-            }
+        if let [first, second] = ends.as_slice()
+            && first.params == second.params
+        {
+            let (first, second) = (first.name.clone(), second.name.clone());
+            return Err(BlendError::AllAlike { first, second }.into());
         }
         let map = self.map.map(&ends)?;
         let named = |species: &Species| map.landmarks().named(&species.name);
@@ -155,10 +155,10 @@ impl BlendCommand {
     }
 
     fn write_one(&self, map: &BlendMap, blend: &Blend, point: Option<Point>) -> anyhow::Result<()> {
-        if let Some(path) = &self.out {
-            if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("toml")) {
-                bail!("{} is no .toml: a blend is written as a species file", path.display());
-            }
+        if let Some(path) = &self.out
+            && path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("toml"))
+        {
+            bail!("{} is no .toml: a blend is written as a species file", path.display());
         }
         let species = self.species(map, blend, self.out.as_deref());
         let text = species.to_toml(&comments(map, blend, point));
