@@ -1,0 +1,64 @@
+//! The rasteriser against tiny-skia on the same shapes, and the scores of a search.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use pleach_silhouette::score::ScoreCard;
+use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
+use pleach_silhouette::{Bitmap, Detail, Frame, Part, Rasteriser, View, referee};
+use std::hint::black_box;
+use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
+
+const PARTS: &[Part] = &[Part::Stems, Part::Leaves, Part::Blossoms];
+
+fn raster(c: &mut Criterion) {
+    let species = pleach_generators::species("quaking_aspen").expect("a built-in species");
+    let tree = species.grow(1).expect("it grows");
+    for size in [256, 512] {
+        let frame = Frame::automatic(&tree, &View::FRONT, true, size, size);
+        let mut out = Bitmap::default();
+        for (name, detail) in [("full", Detail::Full), ("half", Detail::Half), ("draft", Detail::Draft)] {
+            let mut rasteriser = Rasteriser::with_detail(detail);
+            c.bench_function(&format!("aspen/{size}/{name}"), |b| {
+                b.iter(|| rasteriser.draw(&tree, &View::FRONT, &frame, true, &mut out));
+            });
+        }
+        // The same polygons, once a pixel and without anti-aliasing, as tiny-skia fills them.
+        c.bench_function(&format!("aspen/{size}/tiny-skia without anti-aliasing"), |b| {
+            b.iter(|| {
+                let mut mask = Mask::new(size, size).expect("a small mask");
+                referee::shapes(&tree, &View::FRONT, &frame, PARTS, |corners| {
+                    let mut path = PathBuilder::new();
+                    for (i, p) in corners.iter().enumerate() {
+                        let (x, y) = (p.x as f32, p.y as f32);
+                        if i == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+                    }
+                    path.close();
+                    if let Some(path) = path.finish() {
+                        mask.fill_path(&path, FillRule::EvenOdd, false, Transform::identity());
+                    }
+                });
+                mask
+            });
+        });
+    }
+}
+
+fn score(c: &mut Criterion) {
+    let draw = |name: &str| {
+        let tree = pleach_generators::species(name).expect("built in").grow(1).expect("it grows");
+        let frame = Frame::automatic(&tree, &View::FRONT, true, 256, 256);
+        let mut out = Bitmap::default();
+        Rasteriser::new().draw(&tree, &View::FRONT, &frame, true, &mut out);
+        out
+    };
+    let (goal, picture) = (draw("quaking_aspen"), draw("black_oak"));
+    let (prepared, mut scratch) = (PreparedGoal::new(&goal), Scratch::default());
+    c.bench_function("score/search", |b| b.iter(|| prepared.overlaps(black_box(&picture), &mut scratch)));
+    c.bench_function("score/card", |b| b.iter(|| ScoreCard::of(black_box(&picture), &goal)));
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(20).measurement_time(std::time::Duration::from_secs(2)).warm_up_time(std::time::Duration::from_millis(300));
+    targets = raster, score
+}
+criterion_main!(benches);

@@ -1,0 +1,201 @@
+//! Small silhouettes as pictures, and what must hold for any tree.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use glam::{DVec3, Vec3, dvec3, vec3};
+use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_tree::leaf_shape::LeafShape;
+use pleach_tree::{Knot, Leaf, Stem, StemKind, Tree};
+use proptest::prelude::*;
+
+fn straight(from: DVec3, to: DVec3, r0: f64, r1: f64) -> [Knot; 2] {
+    let third = (to - from) / 3.0;
+    let knot =
+        |point: DVec3, radius| Knot { point, handle_in: point - third, handle_out: point + third, radius };
+    [knot(from, r0), knot(to, r1)]
+}
+
+fn tree(stems: &[[Knot; 2]], leaves: Vec<Leaf>) -> Tree {
+    let mut tree = Tree { leaves, leaf_shape: LeafShape::Rectangle, ..Tree::default() };
+    for (i, knots) in stems.iter().enumerate() {
+        tree.stems.push(Stem {
+            parent: None,
+            level: 0,
+            kind: StemKind::Trunk,
+            offset: 0.0,
+            length: 1.0,
+            first_knot: 2 * i as u32,
+            knot_count: 2,
+        });
+        tree.knots.extend_from_slice(knots);
+    }
+    tree
+}
+
+/// One metre a pixel, the trunk in the middle of the bottom edge.
+fn frame(width: u32, height: u32) -> Frame {
+    Frame {
+        width,
+        height,
+        metres_per_pixel: 1.0,
+        axis_column: f64::from(width) / 2.0,
+        ground_row: f64::from(height),
+    }
+}
+
+fn drawn(tree: &Tree, view: &View, frame: &Frame) -> Bitmap {
+    let mut bitmap = Bitmap::default();
+    Rasteriser::new().draw(tree, view, frame, true, &mut bitmap);
+    bitmap
+}
+
+#[track_caller]
+fn assert_silhouette(found: &Bitmap, expected: &str) {
+    let expected = Bitmap::from_ascii(expected);
+    let (found_text, expected_text) = (found.to_ascii(), expected.to_ascii());
+    if found_text != expected_text {
+        let differs = |(a, b): (char, char)| if a == b { a } else { '!' };
+        let map: String = found_text.chars().zip(expected_text.chars()).map(differs).collect();
+        panic!("expected\n{expected_text}\nfound\n{found_text}\ndiffering\n{map}");
+    }
+}
+
+#[test]
+fn a_pole_a_fork_and_a_leaf() {
+    let pole = straight(DVec3::ZERO, dvec3(0.0, 0.0, 5.0), 1.0, 1.0);
+    assert_silhouette(
+        &drawn(&tree(&[pole], vec![]), &View::FRONT, &frame(6, 6)),
+        "
+        ......
+        ..##..
+        ..##..
+        ..##..
+        ..##..
+        ..##..",
+    );
+    let fork = [
+        straight(DVec3::ZERO, dvec3(0.0, 0.0, 3.0), 0.5, 0.5),
+        straight(dvec3(0.0, 0.0, 3.0), dvec3(3.0, 0.0, 6.0), 0.7, 0.7),
+        straight(dvec3(0.0, 0.0, 3.0), dvec3(-3.0, 0.0, 6.0), 0.7, 0.7),
+    ];
+    let narrow = Frame { axis_column: 4.5, ..frame(9, 7) };
+    assert_silhouette(
+        &drawn(&tree(&fork, vec![]), &View::FRONT, &narrow),
+        "
+        .........
+        .##...##.
+        ..##.##..
+        ...###...
+        ....#....
+        ....#....
+        ....#....",
+    );
+    let leaf = Leaf {
+        position: vec3(-2.0, 0.0, 2.0),
+        along: vec3(0.0, 0.0, 3.0),
+        across: vec3(2.0, 0.0, 0.0),
+        stem: 0,
+    };
+    let leafy = tree(&[straight(DVec3::ZERO, dvec3(0.0, 0.0, 1.0), 0.5, 0.5)], vec![leaf]);
+    let narrow = Frame { axis_column: 4.5, ..frame(9, 6) };
+    let mut shifted = leafy.clone();
+    shifted.leaves[0].position.x = -2.5;
+    assert_silhouette(
+        &drawn(&shifted, &View::FRONT, &narrow),
+        "
+        .........
+        .##......
+        .##......
+        .##......
+        .........
+        ....#....",
+    );
+}
+
+#[test]
+fn from_above_a_trunk_is_a_disc() {
+    let pole = straight(DVec3::ZERO, dvec3(0.0, 0.0, 20.0), 3.2, 3.2);
+    let middle = Frame { ground_row: 4.0, ..frame(8, 8) };
+    assert_silhouette(
+        &drawn(&tree(&[pole], vec![]), &View::degrees(0.0, 90.0), &middle),
+        "
+        ........
+        ..####..
+        .######.
+        .######.
+        .######.
+        .######.
+        ..####..
+        ........",
+    );
+}
+
+fn any_vec(reach: f32) -> impl Strategy<Value = Vec3> {
+    (-reach..reach, -reach..reach, -reach..reach).prop_map(|(x, y, z)| vec3(x, y, z))
+}
+
+fn any_tree(reach: f32) -> impl Strategy<Value = Tree> {
+    let stem = (any_vec(reach), any_vec(reach), 0.0..5.0_f64, 0.0..5.0_f64)
+        .prop_map(|(a, b, r0, r1)| straight(a.as_dvec3(), b.as_dvec3(), r0, r1));
+    let leaf = (any_vec(reach), any_vec(4.0), any_vec(4.0)).prop_map(|(position, along, across)| Leaf {
+        position,
+        along,
+        across,
+        stem: 0,
+    });
+    (prop::collection::vec(stem, 1..8), prop::collection::vec(leaf, 0..20), 0..10_usize)
+        .prop_map(|(stems, leaves, shape)| Tree { leaf_shape: LeafShape::ALL[shape], ..tree(&stems, leaves) })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 128, ..ProptestConfig::default() })]
+
+    /// Huge, tiny, in and out of the picture, from anywhere: drawing ends, and twice the same.
+    #[test]
+    fn any_tree_can_be_drawn(tree in any_tree(1e4), azimuth in -10.0..10.0_f64, elevation in -90.0..90.0_f64, scale in -6.0..6.0_f64, distance in 1.0..1e5_f64) {
+        let view = View { projection: pleach_silhouette::Projection::Perspective { distance }, ..View::degrees(azimuth * 50.0, elevation) };
+        let frame = Frame { metres_per_pixel: 10.0_f64.powf(scale), ..frame(70, 50) };
+        for view in [view, View::FRONT] {
+            prop_assert!(drawn(&tree, &view, &frame) == drawn(&tree, &view, &frame));
+        }
+    }
+
+    /// Moving the frame by two pixels moves the picture by two pixels (one would swap the turns of ties).
+    #[test]
+    fn whole_pixels_shift_the_picture(tree in any_tree(20.0), dx in -4..5_i32, dy in -4..5_i32) {
+        let still = Frame { axis_column: 40.0, ground_row: 40.0, ..frame(80, 80) };
+        let moved = Frame { axis_column: 40.0 + 2.0 * f64::from(dx), ground_row: 40.0 + 2.0 * f64::from(dy), ..still };
+        let (a, b) = (drawn(&tree, &View::FRONT, &still), drawn(&tree, &View::FRONT, &moved));
+        let mut off = 0;
+        for y in 10..70_u32 {
+            for x in 10..70_u32 {
+                let there = b.get(x.wrapping_add_signed(2 * dx), y.wrapping_add_signed(2 * dy));
+                off += u32::from(a.get(x, y) != there);
+            }
+        }
+        // Single precision may round a sample across an edge.
+        prop_assert!(off <= 6, "{off} pixels differ");
+    }
+
+    /// Leaves add ink and take none away.
+    #[test]
+    fn leaves_only_add(tree in any_tree(30.0)) {
+        let bare = Tree { leaves: vec![], ..tree.clone() };
+        let (with, without) = (drawn(&tree, &View::FRONT, &frame(64, 64)), drawn(&bare, &View::FRONT, &frame(64, 64)));
+        // Thin leaves are sampled more finely, which moves a pixel here and there.
+        let lost = without.ink() - without.intersection(&with);
+        prop_assert!(lost * 50 <= without.ink() + 100, "{lost} of {}", without.ink());
+    }
+
+    /// Ink stays where the tree is.
+    #[test]
+    fn ink_stays_within_the_bounds(tree in any_tree(15.0)) {
+        let bounds = pleach_tree::stats::Bounds::of(&tree, true).unwrap();
+        let frame = Frame { axis_column: 32.0, ground_row: 32.0, ..frame(64, 64) };
+        if let Some((left, top, right, bottom)) = drawn(&tree, &View::FRONT, &frame).ink_box() {
+            let slack = 6.5; // the caps of stems reach a radius beyond their ends
+            prop_assert!(f64::from(left) - 32.0 >= bounds.min.x - slack && f64::from(right) - 31.0 <= bounds.max.x + slack);
+            prop_assert!(32.0 - f64::from(top) <= bounds.max.z + slack && 31.0 - f64::from(bottom) >= bounds.min.z - slack);
+        }
+    }
+}
