@@ -7,6 +7,7 @@
 //! | [`sink`] | where blocks go: files of four formats, or memory |
 //! | [`block`] | corners and triangles |
 //! | [`lod`] | levels of detail |
+//! | [`forest`] | where many trees stand |
 //! | [`write`] | GLB, OBJ, PLY, STL |
 //! | [`preview`], [`png_file`] | shaded pictures without a graphics card |
 //! | [`palette`] | colours of species and seasons |
@@ -14,11 +15,13 @@
 //!
 //! # Invariants
 //!
-//! A mesh is a function of the tree and the settings: nothing here draws random numbers, reads the
-//! clock or prints, and the number of threads changes nothing. A mesher knows trees, not generators.
+//! A mesh is a function of the tree and the settings: meshing draws no random numbers (planting a
+//! forest does, by address), nothing here reads the clock or prints, and the number of threads changes
+//! nothing. A mesher knows trees, not generators.
 
 pub mod block;
 mod foliage;
+pub mod forest;
 pub mod lod;
 pub mod mesh;
 pub mod mesher;

@@ -6,7 +6,7 @@ pub enum LeafStyle {
     /// The ten leaf outlines and three blossoms of the model.
     #[default]
     Outline,
-    /// At most eight triangles a leaf, along the outline and with its area; blossoms as they are.
+    /// At most nine triangles a leaf, along the outline and with its area; blossoms as they are.
     Reduced,
     /// Two triangles a leaf with the area of the outline, four a blossom.
     Simple,

@@ -1,5 +1,6 @@
 //! `pleach grow`: one tree, or many seeds of a species.
 
+use super::export::{self, MeshArgs};
 use crate::input::LimitArgs;
 use crate::{files, input, output, skeleton};
 use anyhow::{Context, bail};
@@ -14,6 +15,8 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "Examples:
   pleach grow quaking_aspen --seed 3              quaking_aspen-3.json and .png here, and statistics
   pleach grow my_tree.toml -o tree.png            the picture alone
+  pleach grow my_tree.toml -o tree.glb --lod 3    a mesh with three levels of detail
+  pleach grow acer --forest 40x40m -o wood.glb    a forest of a few trees, placed many times
   pleach grow acer --stats-only --json            statistics for scripts
   pleach grow acer --seeds 0..100 --stats-only    means and spreads over a hundred trees
   pleach grow acer --seeds 0..9 -o forest/        nine skeletons and pictures";
@@ -30,7 +33,8 @@ pub(crate) struct Grow {
     /// Grow a tree for every seed from A up to, and without, B
     #[arg(long, value_name = "A..B", value_parser = input::seeds, conflicts_with = "seed")]
     seeds: Option<Range<u64>>,
-    /// File (.json or .png) or folder to write to; the working directory by default
+    /// File (.json, .png, .glb, .obj, .ply or .stl) or folder to write to; the working directory by
+    /// default
     #[arg(short, long, value_name = "PATH", conflicts_with = "stats_only")]
     out: Option<PathBuf>,
     /// Print statistics and write no file
@@ -45,6 +49,8 @@ pub(crate) struct Grow {
     /// Height and width of pictures in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=8192))]
     size: u32,
+    #[command(flatten)]
+    mesh: MeshArgs,
     #[command(flatten)]
     limits: LimitArgs,
 }
@@ -62,6 +68,10 @@ struct Report<'a> {
 impl Grow {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let species = input::species(&self.species)?;
+        self.check_suffix()?;
+        if self.mesh.is_forest() {
+            return self.forest(&species, self.seed.or(species.tree_seed).unwrap_or(1));
+        }
         match &self.seeds {
             None => self.one(&species, self.seed.or(species.tree_seed).unwrap_or(1)),
             Some(seeds) => self.many(&species, seeds),
@@ -120,6 +130,35 @@ impl Grow {
         if self.json { reports.iter().try_for_each(output::json) } else { output::line(summarise(&reports)) }
     }
 
+    /// One file with many trees.
+    fn forest(&self, species: &Species, seed: u64) -> anyhow::Result<()> {
+        let Some(path) = self.out.as_deref().filter(|p| p.extension().is_some()) else {
+            bail!("a forest is one file: -o {}.glb", species.name);
+        };
+        let trees = self.mesh.write_forest(path, species, seed, |seed| {
+            species
+                .grow_with(&Growth { parallel: true, ..self.growth(seed) })
+                .with_context(|| format!("{} does not grow from seed {seed}", species.name))
+        })?;
+        output::note(format!("wrote {}: {trees} trees", path.display()));
+        Ok(())
+    }
+
+    /// A file that cannot be written is told of before anything grows.
+    fn check_suffix(&self) -> anyhow::Result<()> {
+        let Some(suffix) = self.out.as_deref().filter(|p| !p.is_dir()).map(extension) else { return Ok(()) };
+        match suffix.as_str() {
+            "" | "json" | "png" => Ok(()),
+            mesh if export::SUFFIXES.contains(&mesh) => self.mesh.check(mesh),
+            other => {
+                bail!(
+                    "cannot write `.{other}` files, known are .json, .png, .{}",
+                    export::SUFFIXES.join(", .")
+                )
+            }
+        }
+    }
+
     fn growth(&self, seed: u64) -> Growth {
         let foliage = if self.no_leaves { Foliage::None } else { Foliage::All };
         Growth { limits: self.limits.limits(), foliage, ..Growth::seed(seed) }
@@ -129,7 +168,7 @@ impl Grow {
         match extension(path).as_str() {
             "json" => files::write_whole(path, |file| skeleton::write(file, species, seed, tree)),
             "png" => self.picture(path, tree),
-            other => bail!("cannot write `.{other}` files, known are .json and .png"),
+            _ => self.mesh.write(path, species, seed, tree),
         }
     }
 

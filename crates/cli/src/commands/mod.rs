@@ -2,11 +2,13 @@
 
 mod blend;
 mod experiment;
+mod export;
 mod fit;
 mod grow;
 mod landmarks;
 mod map;
 mod params;
+mod render;
 mod score;
 mod silhouette;
 mod species;
@@ -29,6 +31,7 @@ pub(crate) struct Arguments {
 enum Command {
     Fit(Box<fit::Fit>),
     Grow(grow::Grow),
+    Render(render::Render),
     Silhouette(silhouette::Silhouette),
     Score(score::Score),
     Map(map::Map),
@@ -46,6 +49,7 @@ impl Arguments {
         match self.command {
             Command::Fit(command) => command.run(),
             Command::Grow(command) => command.run(),
+            Command::Render(command) => command.run(),
             Command::Score(command) => command.run(),
             Command::Experiment(command) => command.run(),
             Command::Silhouette(command) => command.run(),

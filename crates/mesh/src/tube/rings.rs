@@ -2,7 +2,8 @@
 
 use super::frame::{perpendicular, transport};
 use glam::DVec3;
-use pleach_tree::{Stem, Tree};
+use pleach_tree::turtle::rotate;
+use pleach_tree::{Stem, StemKind, Tree};
 
 /// No ring is narrower, in metres: beads of periodic taper meet in points, and single precision
 /// thirty metres from the origin ends at two micrometres.
@@ -11,6 +12,9 @@ const LEAST_RADIUS: f64 = 2e-4;
 const POINTED: f64 = 5e-4;
 /// Rings are at least this far apart, in metres.
 const LEAST_STEP: f64 = 1e-4;
+
+/// A turn that never comes back to where it was, in radians.
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 /// One cross section of a stem.
 #[derive(Clone, Copy, Debug)]
@@ -79,7 +83,10 @@ impl Rings {
         }
         self.pointed = knots[knots.len() - 1].radius < POINTED;
         self.untangle();
-        self.turn_frames();
+        // The clones of a fork leave from one ring; turned against each other, their caps are not one
+        // face twice.
+        let clone = stem.kind == StemKind::Clone;
+        self.turn_frames(if clone { f64::from(stem.first_knot % 1024) * GOLDEN_ANGLE } else { 0.0 });
     }
 
     /// Leaves out rings that would cut a neighbour, so that no face turns inside out.
@@ -115,9 +122,10 @@ impl Rings {
         rings.truncate(kept + 1);
     }
 
-    fn turn_frames(&mut self) {
+    /// Sets the sides of all rings, the first one's turned by `angle` radians.
+    fn turn_frames(&mut self, angle: f64) {
         let Some(first) = self.rings.first_mut() else { return };
-        first.side = perpendicular(first.tangent);
+        first.side = rotate(perpendicular(first.tangent), first.tangent, angle);
         for i in 1..self.rings.len() {
             let last = self.rings[i - 1];
             let ring = &mut self.rings[i];

@@ -1,5 +1,7 @@
 //! Silhouettes of meshes by an independent path: every triangle filled by tiny-skia.
 
+#![allow(clippy::unwrap_used, unreachable_pub, reason = "shared by tests and an example")]
+
 use pleach_mesh::{Mesh, block};
 use pleach_silhouette::{Bitmap, Camera, Frame, View};
 use tiny_skia::{FillRule, Mask, PathBuilder, Transform};

@@ -1,0 +1,289 @@
+//! Meshes for `pleach grow`: what was asked for, and the files.
+
+use crate::files;
+use anyhow::{Context, bail};
+use clap::ValueEnum;
+use pleach_mesh::forest;
+use pleach_mesh::lod::{self, Level};
+use pleach_mesh::write::glb::{Glb, Placed, Scene};
+use pleach_mesh::write::{obj, ply, stl};
+use pleach_mesh::{LeafStyle, MeshSettings, Mesher, Palette, Rig, send};
+use pleach_tree::species::Season;
+use pleach_tree::{Species, Tree};
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// Suffixes of mesh files.
+pub(crate) const SUFFIXES: [&str; 4] = ["glb", "obj", "ply", "stl"];
+
+/// How leaves are put into a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Leaves {
+    /// Their outlines
+    #[default]
+    Outline,
+    /// Two triangles each
+    Simple,
+    /// Two crossed cards each, for textures
+    Cards,
+    /// One leaf, placed many times (.glb with EXT_mesh_gpu_instancing)
+    Instances,
+}
+
+/// The time of the year.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SeasonArg {
+    Spring,
+    Summer,
+    Autumn,
+    Winter,
+}
+
+impl From<SeasonArg> for Season {
+    fn from(season: SeasonArg) -> Self {
+        match season {
+            SeasonArg::Spring => Self::Spring,
+            SeasonArg::Summer => Self::Summer,
+            SeasonArg::Autumn => Self::Autumn,
+            SeasonArg::Winter => Self::Winter,
+        }
+    }
+}
+
+/// Options of .glb, .obj, .ply and .stl files.
+#[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = "Meshes (.glb, .obj, .ply, .stl)")]
+pub(crate) struct MeshArgs {
+    /// Levels of detail in a .glb, the finest included
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(lod::MOST_LEVELS)))]
+    lod: u32,
+    /// How far bark may stray from its true surface, in millimetres
+    #[arg(long, value_name = "MM", default_value_t = 2.0, value_parser = tolerance)]
+    tolerance: f64,
+    /// How leaves are drawn
+    #[arg(long, value_enum, default_value_t)]
+    leaves: Leaves,
+    /// Season; by default the species file's own, or summer with all its blossom
+    #[arg(long, value_enum)]
+    season: Option<SeasonArg>,
+    /// Give each corner the data that shaders need for wind (.glb, .ply)
+    #[arg(long)]
+    wind: bool,
+    /// Add joints and a looping animation of the tree in wind (.glb)
+    #[arg(long, conflicts_with_all = ["lod", "forest"])]
+    sway: bool,
+    /// A forest on a field of so many metres, such as 40x40m, instead of one tree (.glb)
+    #[arg(long, value_name = "WxD", value_parser = field)]
+    forest: Option<(f64, f64)>,
+    /// Metres between the trees of a forest
+    #[arg(long, value_name = "METRES", default_value_t = 6.0, requires = "forest")]
+    spacing: f64,
+    /// Different trees in a forest
+    #[arg(long, value_name = "N", default_value_t = 4, requires = "forest", value_parser = clap::value_parser!(u32).range(1..=64))]
+    variants: u32,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|t| (0.01..=1000.0).contains(t))
+        .ok_or_else(|| "millimetres from 0.01 to 1000".to_owned())
+}
+
+/// `40x30m`, `40x30` or `40`.
+fn field(text: &str) -> Result<(f64, f64), String> {
+    let sides = text.trim_end_matches('m');
+    let (width, depth) = sides.split_once(['x', '×']).unwrap_or((sides, sides));
+    let side =
+        |text: &str| text.trim_end_matches('m').parse::<f64>().ok().filter(|s| *s > 0.0 && s.is_finite());
+    side(width)
+        .zip(side(depth))
+        .ok_or_else(|| format!("`{text}` is no field, expected metres such as 40x30m"))
+}
+
+impl MeshArgs {
+    /// Whether the file holds many trees, which are grown here.
+    pub(crate) const fn is_forest(&self) -> bool {
+        self.forest.is_some()
+    }
+
+    fn settings(&self) -> MeshSettings {
+        let leaves = match self.leaves {
+            Leaves::Outline | Leaves::Instances => LeafStyle::Outline,
+            Leaves::Simple => LeafStyle::Simple,
+            Leaves::Cards => LeafStyle::CrossedCards,
+        };
+        MeshSettings {
+            tolerance: self.tolerance / 1000.0,
+            leaves,
+            wind: self.wind,
+            ..MeshSettings::default()
+        }
+    }
+
+    /// What only a .glb can hold, if it was asked for.
+    fn glb_only(&self) -> Option<&'static str> {
+        let asked = [
+            (self.lod > 1, "levels of detail (--lod)"),
+            (self.leaves == Leaves::Instances, "instances (--leaves instances)"),
+            (self.sway, "an animation (--sway)"),
+            (self.forest.is_some(), "a forest (--forest)"),
+        ];
+        asked.into_iter().find(|(asked, _)| *asked).map(|(_, what)| what)
+    }
+
+    /// Whether `suffix` can hold what was asked for.
+    pub(crate) fn check(&self, suffix: &str) -> anyhow::Result<()> {
+        match self.glb_only() {
+            Some(what) if suffix != "glb" => bail!("{what} needs a .glb file, not .{suffix}"),
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes `tree` as the mesh file that the suffix of `path` names.
+    pub(crate) fn write(&self, path: &Path, species: &Species, seed: u64, tree: &Tree) -> anyhow::Result<()> {
+        let suffix = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        self.check(&suffix)?;
+        let palette = Palette::of(species, tree.leaf_shape, self.season.map(Season::from));
+        // A winter tree is a copy without leaves; any other is used as it is.
+        let dressed;
+        let tree =
+            if (palette.leaves || tree.leaves.is_empty()) && (palette.blossoms || tree.blossoms.is_empty()) {
+                tree
+            } else {
+                let mut bare = tree.clone();
+                palette.dress(&mut bare);
+                dressed = bare;
+                &dressed
+            };
+        match suffix.as_str() {
+            "glb" => self.write_glb(path, species, seed, tree, palette),
+            "obj" => self.write_obj(path, species, tree, palette),
+            "ply" => {
+                let meshers = [Mesher::new(tree, self.settings())];
+                files::write_whole(path, |file| Ok(send(&meshers, &mut ply::Ply::new(file, palette))?))
+            }
+            "stl" => {
+                let meshers = [Mesher::new(tree, MeshSettings { wind: false, ..self.settings() })];
+                files::write_whole(path, |file| Ok(send(&meshers, &mut stl::Stl::new(file))?))
+            }
+            other => bail!("`.{other}` is no mesh file, known are .{}", SUFFIXES.join(", .")),
+        }
+    }
+
+    fn write_glb(
+        &self,
+        path: &Path,
+        species: &Species,
+        seed: u64,
+        tree: &Tree,
+        palette: Palette,
+    ) -> anyhow::Result<()> {
+        let levels = lod::levels(tree, self.settings(), self.lod);
+        let rig = self.sway.then(|| Rig::of(tree));
+        let meshers = self.meshers(&levels, rig.as_ref());
+        let scene = Scene {
+            name: species.name.clone(),
+            palette,
+            extras: extras(species, json!(seed)),
+            placed: vec![Placed::at_origin(&species.name, levels.len())],
+            rig: rig.as_ref(),
+            card: None,
+        };
+        files::write_whole(path, |file| Ok(send(&meshers, &mut Glb::new(file, &scene))?))
+    }
+
+    fn meshers<'a>(&self, levels: &'a [Level<'a>], rig: Option<&'a Rig>) -> Vec<Mesher<'a>> {
+        let mesher = |level: &'a Level<'a>| {
+            let mut mesher = Mesher::new(&level.tree, level.settings);
+            if let Some(rig) = rig {
+                mesher = mesher.with_rig(rig);
+            }
+            if self.leaves == Leaves::Instances { mesher.with_instanced_leaves() } else { mesher }
+        };
+        levels.iter().map(mesher).collect()
+    }
+
+    /// Grows a few trees, from `seed` on, and writes a forest of them. Returns how many stand there.
+    pub(crate) fn write_forest(
+        &self,
+        path: &Path,
+        species: &Species,
+        seed: u64,
+        grow: impl Fn(u64) -> anyhow::Result<Tree>,
+    ) -> anyhow::Result<usize> {
+        let (width, depth) = self.forest.context("no forest was asked for")?;
+        let suffix = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        self.check(&suffix)?;
+        let sites = forest::plant(width, depth, self.spacing, self.variants, seed)?;
+        // Only variants that stand somewhere are grown.
+        let mut used: Vec<u32> = sites.iter().map(|s| s.variant).collect();
+        used.sort_unstable();
+        used.dedup();
+        let season = self.season.map(Season::from);
+        let mut trees = Vec::new();
+        let mut palette = None;
+        for &variant in &used {
+            let mut tree = grow(seed + u64::from(variant))?;
+            let colours = Palette::of(species, tree.leaf_shape, season);
+            colours.dress(&mut tree);
+            palette = palette.or(Some(colours));
+            trees.push(tree);
+        }
+        let levels: Vec<Vec<Level<'_>>> =
+            trees.iter().map(|tree| lod::levels(tree, self.settings(), self.lod)).collect();
+        let meshers: Vec<Mesher<'_>> = levels.iter().flat_map(|l| self.meshers(l, None)).collect();
+        let each = self.lod as usize;
+        let placed = sites.iter().enumerate().map(|(i, site)| {
+            let first = used.binary_search(&site.variant).unwrap_or(0) * each;
+            Placed {
+                name: format!("{} {}", species.name, i + 1),
+                meshes: (first..first + each).collect(),
+                position: site.position.as_vec2().extend(0.0),
+                turn: site.turn as f32,
+                scale: site.scale as f32,
+            }
+        });
+        let seeds: Vec<u64> = used.iter().map(|v| seed + u64::from(*v)).collect();
+        let scene = Scene {
+            name: format!("{} forest", species.name),
+            palette: palette.context("a forest needs a tree")?,
+            extras: extras(species, json!(seeds)),
+            placed: placed.collect(),
+            rig: None,
+            card: None,
+        };
+        files::write_whole(path, |file| Ok(send(&meshers, &mut Glb::new(file, &scene))?))?;
+        Ok(sites.len())
+    }
+
+    fn write_obj(&self, path: &Path, species: &Species, tree: &Tree, palette: Palette) -> anyhow::Result<()> {
+        let materials = path.with_extension("mtl");
+        let name = materials.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let meshers = [Mesher::new(tree, MeshSettings { wind: false, ..self.settings() })];
+        files::write_whole(path, |file| Ok(send(&meshers, &mut obj::Obj::new(file, &species.name, &name))?))?;
+        files::write_text(&materials, &obj::materials(&palette))
+    }
+}
+
+/// Species, parameters and seed, for whoever finds the file without its history.
+fn extras(species: &Species, seed: Value) -> Value {
+    let space = species.generator.space();
+    let parameters: Map<String, Value> = space
+        .params()
+        .iter()
+        .enumerate()
+        .map(|(i, param)| {
+            let values = species.params.of(space, i);
+            let value = if let [one] = values { json!(one) } else { json!(values) };
+            (param.name.to_string(), value)
+        })
+        .collect();
+    json!({
+        "species": species.name,
+        "generator": species.generator.family(),
+        "seed": seed,
+        "units": "metres",
+        "parameters": parameters,
+    })
+}

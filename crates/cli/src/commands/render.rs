@@ -1,0 +1,162 @@
+//! `pleach render`: a shaded picture of a tree, or one that turns.
+
+use super::export::SeasonArg;
+use crate::input::LimitArgs;
+use crate::{files, input, output};
+use anyhow::{Context, bail};
+use clap::ValueEnum;
+use pleach_mesh::preview::{Background, Ground};
+use pleach_mesh::{Palette, Preview, PreviewSettings, png_file};
+use pleach_silhouette::View;
+use pleach_tree::species::{Colour, Season};
+use pleach_tree::{Foliage, Growth, Species, Tree};
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "Examples:
+  pleach render quaking_aspen                                  quaking_aspen-1.png here
+  pleach render acer --season autumn --size 1024 -o acer.png   in autumn, large
+  pleach render palm --background transparent -o palm.png      for a page of any colour
+  pleach render acer --turntable 36 -o acer.png                an animated PNG
+  pleach render acer --turntable 36 -o frames/                 36 files
+  pleach render all -o gallery/                                every species, leafy
+  pleach render all --no-leaves -o winter/                     and bare";
+
+/// Draw a shaded picture of a tree
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Render {
+    /// A species, by name or file; `all` for every species that comes with pleach
+    species: String,
+    /// Seed of the tree; the species file's own, or 1, by default
+    #[arg(long, value_name = "N", value_parser = input::seed)]
+    seed: Option<u64>,
+    /// PNG file, or folder to write to; the working directory by default
+    #[arg(short, long, value_name = "PATH")]
+    out: Option<PathBuf>,
+    /// Width and height in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 768, value_parser = clap::value_parser!(u32).range(16..=4096))]
+    size: u32,
+    /// Azimuth, or azimuth,elevation, in degrees
+    #[arg(long, value_name = "AZ,EL", default_value = "0,5", value_parser = input::view, allow_hyphen_values = true)]
+    view: View,
+    /// Season; by default the species file's own, or summer with all its blossom
+    #[arg(long, value_enum)]
+    season: Option<SeasonArg>,
+    /// Draw stems only
+    #[arg(long)]
+    no_leaves: bool,
+    /// What is behind the tree: studio, transparent, or a colour such as #dde6ee
+    #[arg(long, value_name = "WHAT", default_value = "studio", value_parser = background)]
+    background: Background,
+    /// What the tree stands on
+    #[arg(long, value_enum, default_value_t)]
+    ground: GroundArg,
+    /// So many pictures around the tree: one animated PNG, or files in a folder
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=360))]
+    turntable: Option<u32>,
+    #[command(flatten)]
+    limits: LimitArgs,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum GroundArg {
+    /// The tree's shadow
+    #[default]
+    Shadow,
+    /// Grass
+    Grass,
+    /// Nothing
+    None,
+}
+
+fn background(text: &str) -> Result<Background, String> {
+    match text {
+        "studio" => Ok(Background::Studio),
+        "transparent" => Ok(Background::Transparent),
+        colour => Colour::parse(colour)
+            .map(Background::Plain)
+            .ok_or_else(|| "expected studio, transparent, or a colour such as #dde6ee".to_owned()),
+    }
+}
+
+impl Render {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        if self.species != "all" {
+            return self.one(&input::species(&self.species)?);
+        }
+        if self.out.as_deref().is_some_and(is_file) {
+            bail!("pictures of all species need a folder, not a file: -o gallery/");
+        }
+        pleach_generators::names().into_iter().try_for_each(|name| self.one(&input::species(name)?))
+    }
+
+    fn one(&self, species: &Species) -> anyhow::Result<()> {
+        let seed = self.seed.or(species.tree_seed).unwrap_or(1);
+        let file = self.out.as_deref().filter(|path| is_file(path));
+        if let Some(file) = file {
+            let suffix = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+            if suffix != "png" {
+                bail!("cannot write `.{suffix}` pictures, known is .png");
+            }
+        }
+        let tree = self.grow(species, seed)?;
+        let mut palette = Palette::of(species, tree.leaf_shape, self.season.map(Season::from));
+        palette.leaves &= !self.no_leaves;
+        palette.blossoms &= !self.no_leaves;
+        let mut tree = tree;
+        palette.dress(&mut tree);
+        let preview = Preview::new(&tree, &palette, self.size);
+        let name = |what: &str| format!("{}-{seed}{what}.png", species.name);
+        let place = |name: String| match (&self.out, file) {
+            (_, Some(file)) => Ok(file.to_owned()),
+            (Some(folder), None) => files::inside(folder, name),
+            (None, None) => Ok(PathBuf::from(name)),
+        };
+        let Some(frames) = self.turntable else {
+            let picture = preview.picture(&self.settings(0.0));
+            return write(&place(name(""))?, &[picture], 0);
+        };
+        let turn = |i: u32| self.settings(TAU * f64::from(i) / f64::from(frames));
+        if file.is_some() || self.out.is_none() {
+            let pictures: Vec<_> = (0..frames).map(|i| preview.picture(&turn(i))).collect();
+            // A turn takes four seconds.
+            return write(&place(name(""))?, &pictures, (4000 / frames).max(10) as u16);
+        }
+        (0..frames)
+            .try_for_each(|i| write(&place(name(&format!("-{i:03}")))?, &[preview.picture(&turn(i))], 0))
+    }
+
+    fn grow(&self, species: &Species, seed: u64) -> anyhow::Result<Tree> {
+        let foliage = if self.no_leaves { Foliage::None } else { Foliage::All };
+        let growth = Growth { parallel: true, foliage, limits: self.limits.limits(), ..Growth::seed(seed) };
+        species.grow_with(&growth).with_context(|| format!("{} does not grow from seed {seed}", species.name))
+    }
+
+    fn settings(&self, turn: f64) -> PreviewSettings {
+        PreviewSettings {
+            width: self.size,
+            height: self.size,
+            azimuth: self.view.azimuth + turn,
+            elevation: self.view.elevation,
+            background: self.background,
+            ground: match self.ground {
+                GroundArg::Shadow => Ground::Shadow,
+                GroundArg::Grass => Ground::Grass,
+                GroundArg::None => Ground::None,
+            },
+            all_around: self.turntable.is_some(),
+        }
+    }
+}
+
+/// Whether `path` names a file: it has a suffix, and is no folder.
+fn is_file(path: &Path) -> bool {
+    path.extension().is_some() && !path.is_dir()
+}
+
+fn write(path: &Path, pictures: &[pleach_mesh::Picture], milliseconds: u16) -> anyhow::Result<()> {
+    files::write_whole(path, |file| Ok(png_file::write(file, pictures, milliseconds)?))?;
+    output::note(format!("wrote {}", path.display()));
+    Ok(())
+}

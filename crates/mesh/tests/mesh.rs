@@ -1,0 +1,123 @@
+//! What every mesh of every species promises.
+
+use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, block, lod};
+use pleach_tree::Tree;
+use std::collections::{HashMap, HashSet};
+
+const SPECIES: [&str; 8] =
+    ["quaking_aspen", "bamboo", "palm", "acer", "hill_cherry", "small_pine", "fan_palm", "european_larch"];
+
+fn grow(name: &str, seed: u64) -> Tree {
+    pleach_generators::preset(name).unwrap().grow(seed).unwrap()
+}
+
+#[test]
+fn bark_is_closed_and_no_face_is_degenerate_or_twice_there() {
+    for name in SPECIES {
+        let tree = pleach_generators::preset(name).unwrap().grow_bare(2).unwrap();
+        let mesh = Mesh::of(&tree, MeshSettings::default());
+        let bark = mesh.part(Material::Bark).unwrap();
+        let bits = |i: u32| block::position(&bark.vertices[i as usize]).to_array().map(f32::to_bits);
+        let mut edges: HashMap<_, i32> = HashMap::new();
+        let mut faces = HashSet::new();
+        for t in &bark.triangles {
+            let mut corners = t.map(bits);
+            for (p, q) in [(0, 1), (1, 2), (2, 0)] {
+                *edges.entry((corners[p], corners[q])).or_default() += 1;
+                *edges.entry((corners[q], corners[p])).or_default() -= 1;
+            }
+            let [a, b, c] = t.map(|i| block::position(&bark.vertices[i as usize]).as_dvec3());
+            assert!((b - a).cross(c - a).length() > 0.0, "{name}: a face without area at {a}");
+            corners.sort_unstable();
+            assert!(faces.insert(corners), "{name}: a face is there twice, at {a}");
+        }
+        assert!(edges.values().all(|n| *n == 0), "{name}: every edge has two faces");
+    }
+}
+
+#[test]
+fn corners_are_finite_with_unit_normals_and_textures_in_range() {
+    for name in SPECIES {
+        let mesh = Mesh::of(&grow(name, 1), MeshSettings::default());
+        for (part, block) in &mesh.parts {
+            for v in &block.vertices {
+                assert!(v.iter().all(|x| x.is_finite()), "{name}: {v:?}");
+                assert!((block::normal(v).length() - 1.0).abs() < 1e-3, "{name} {:?}: {v:?}", part.material);
+                let top = if part.material == Material::Bark { 1e3 } else { 1.0 + 1e-5 };
+                assert!(
+                    (-1e-5..=1.0 + 1e-5).contains(&v[6]) && (-1e-5..=top).contains(&v[7]),
+                    "{name}: {v:?}"
+                );
+            }
+            let used: HashSet<u32> = block.triangles.iter().flatten().copied().collect();
+            assert_eq!(used.len(), block.vertices.len(), "{name}: every corner is used");
+        }
+    }
+}
+
+#[test]
+fn every_leaf_is_there_with_its_area() {
+    for name in SPECIES {
+        let tree = grow(name, 1);
+        for (style, triangles) in [(LeafStyle::Outline, None), (LeafStyle::CrossedCards, Some(4))] {
+            let mesh = Mesh::of(&tree, MeshSettings { leaves: style, ..MeshSettings::default() });
+            let Some(leaves) = mesh.part(Material::Leaf) else {
+                assert!(tree.leaves.is_empty(), "{name}");
+                continue;
+            };
+            let each = triangles.unwrap_or(tree.leaf_shape.outline().len() - 2);
+            assert_eq!(leaves.triangles.len(), each * tree.leaves.len(), "{name} {style:?}");
+            if style == LeafStyle::Outline {
+                let corner = |i: u32| block::position(&leaves.vertices[i as usize]);
+                let area = |t: &[u32; 3]| {
+                    let [a, b, c] = t.map(corner);
+                    f64::from((b - a).cross(c - a).length()) / 2.0
+                };
+                let found: f64 = leaves.triangles.iter().map(area).sum();
+                let expected = pleach_tree::TreeStats::of(&tree).leaf_area_m2;
+                assert!((found / expected - 1.0).abs() < 1e-3, "{name}: {found} is not {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn leaves_face_the_way_of_their_normals() {
+    let mesh = Mesh::of(&grow("quaking_aspen", 1), MeshSettings::default());
+    let leaves = mesh.part(Material::Leaf).unwrap();
+    for t in &leaves.triangles {
+        let [a, b, c] = t.map(|i| block::position(&leaves.vertices[i as usize]));
+        assert!((b - a).cross(c - a).dot(block::normal(&leaves.vertices[t[0] as usize])) > 0.0);
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let tree = grow("apple", 3);
+    let settings = MeshSettings { wind: true, ..MeshSettings::default() };
+    let [one, three] = [1, 3].map(|n| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
+        pool.install(|| Mesh::of(&tree, settings))
+    });
+    assert!(one == three);
+}
+
+#[test]
+fn a_tree_without_leaves_and_one_without_anything() {
+    let bare = pleach_generators::preset("acer").unwrap().grow_bare(1).unwrap();
+    let mesh = Mesh::of(&bare, MeshSettings::default());
+    assert_eq!(mesh.parts.len(), 1);
+    assert!(Mesh::of(&Tree::default(), MeshSettings::default()).parts.is_empty());
+    for level in lod::levels(&bare, MeshSettings::default(), 6) {
+        assert_eq!(Mesh::of(&level.tree, level.settings).parts.len(), 1);
+    }
+}
+
+#[test]
+fn settings_out_of_range_are_moved_into_it() {
+    let tree = pleach_generators::preset("palm").unwrap().grow_bare(1).unwrap();
+    let settings =
+        MeshSettings { tolerance: f64::NAN, min_sides: 0, max_sides: 0, ..MeshSettings::default() };
+    let mesh = Mesh::of(&tree, settings);
+    assert!(mesh.triangles() > tree.stems.len() && mesh.triangles() < 100 * tree.knots.len());
+}

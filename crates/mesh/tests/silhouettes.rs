@@ -1,0 +1,62 @@
+//! Silhouettes of meshes, filled triangle by triangle by tiny-skia, against those that are drawn from
+//! the tree without a mesh, and levels of detail against each other.
+
+mod support;
+
+use pleach_mesh::{Mesh, MeshSettings, lod};
+use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use support::{iou, silhouette};
+
+/// Species whose meshes take a moment; `experiments/export` has all of them.
+const SPECIES: [&str; 6] = ["quaking_aspen", "acer", "palm", "small_pine", "apple", "lombardy_poplar"];
+
+#[test]
+fn meshes_have_the_silhouette_of_their_tree() {
+    for name in SPECIES {
+        for (view, foliage, least) in [(View::FRONT, true, 0.97), (View::degrees(70.0, 20.0), true, 0.97)] {
+            let tree = pleach_generators::preset(name).unwrap().grow(1).unwrap();
+            let frame = Frame::automatic(&tree, &view, foliage, 512, 512);
+            let mut direct = Bitmap::new(512, 512);
+            Rasteriser::new().draw(&tree, &view, &frame, foliage, &mut direct);
+            let mesh = Mesh::of(&tree, MeshSettings::default());
+            let found = iou(&direct, &silhouette(&mesh, &view, &frame));
+            assert!(found >= least, "{name} {view:?}: {found}");
+        }
+    }
+}
+
+/// Twigs of bare trees are thinner than a pixel, and whether one is ink hangs on a tenth of a pixel.
+/// What must agree is how much ink there is.
+#[test]
+fn bare_meshes_have_the_ink_of_their_tree() {
+    for name in ["quaking_aspen", "silver_birch", "acer", "hill_cherry", "palm"] {
+        let tree = pleach_generators::preset(name).unwrap().grow_bare(1).unwrap();
+        let frame = Frame::automatic(&tree, &View::FRONT, false, 512, 512);
+        let mut direct = Bitmap::new(512, 512);
+        Rasteriser::new().draw(&tree, &View::FRONT, &frame, false, &mut direct);
+        let mesh = silhouette(&Mesh::of(&tree, MeshSettings::default()), &View::FRONT, &frame);
+        let ink = mesh.ink() as f64 / direct.ink() as f64;
+        assert!((0.92..=1.09).contains(&ink), "{name}: {ink} times the ink");
+        assert!(iou(&direct, &mesh) > 0.88, "{name}: {}", iou(&direct, &mesh));
+    }
+}
+
+#[test]
+fn levels_of_detail_keep_the_silhouette_and_lose_triangles() {
+    for name in SPECIES.into_iter().chain(["hill_cherry", "bamboo"]) {
+        let tree = pleach_generators::preset(name).unwrap().grow(1).unwrap();
+        let frame = Frame::automatic(&tree, &View::FRONT, true, 256, 256);
+        let levels = lod::levels(&tree, MeshSettings::default(), lod::MOST_LEVELS);
+        let mut last = usize::MAX;
+        let mut finest = None;
+        for (n, level) in levels.iter().enumerate() {
+            let mesh = Mesh::of(&level.tree, level.settings);
+            assert!(mesh.triangles() < last, "{name}: level {n} has {} triangles", mesh.triangles());
+            last = mesh.triangles();
+            let seen = silhouette(&mesh, &View::FRONT, &frame);
+            let like = iou(finest.get_or_insert_with(|| seen.clone()), &seen);
+            let least = [1.0, 0.95, 0.90].get(n).copied().unwrap_or(0.5);
+            assert!(like >= least, "{name}: level {n} has an IoU of {like}");
+        }
+    }
+}
