@@ -1,5 +1,7 @@
 //! What every mesh of every species promises.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, block, lod};
 use pleach_tree::Tree;
 use std::collections::{HashMap, HashSet};

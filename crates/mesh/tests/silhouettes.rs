@@ -1,6 +1,8 @@
 //! Silhouettes of meshes, filled triangle by triangle by tiny-skia, against those that are drawn from
 //! the tree without a mesh, and levels of detail against each other.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use pleach_mesh::{Mesh, MeshSettings, lod};

@@ -146,7 +146,15 @@ impl Grow {
 
     /// A file that cannot be written is told of before anything grows.
     fn check_suffix(&self) -> anyhow::Result<()> {
-        let Some(suffix) = self.out.as_deref().filter(|p| !p.is_dir()).map(extension) else { return Ok(()) };
+        let Some(path) = self.out.as_deref() else { return Ok(()) };
+        let suffix = extension(path);
+        if path.is_dir() {
+            let file = !path.to_string_lossy().ends_with(['/', '\\']);
+            if file && export::SUFFIXES.contains(&suffix.as_str()) {
+                bail!("{} is a folder, expected a file", path.display());
+            }
+            return Ok(());
+        }
         match suffix.as_str() {
             "" | "json" | "png" => Ok(()),
             mesh if export::SUFFIXES.contains(&mesh) => self.mesh.check(mesh),

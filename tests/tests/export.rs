@@ -1,0 +1,136 @@
+//! Meshes from `pleach grow`, as a user makes them.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use pleach_tests::Dir;
+use std::path::Path;
+
+/// The JSON part of a GLB file.
+fn glb(path: &Path) -> serde_json::Value {
+    let bytes = std::fs::read(path).unwrap();
+    assert_eq!(&bytes[..4], b"glTF");
+    assert_eq!(u32::from_le_bytes(bytes[8..12].try_into().unwrap()) as usize, bytes.len());
+    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+    serde_json::from_slice(&bytes[20..20 + length]).unwrap()
+}
+
+fn names(list: &serde_json::Value) -> Vec<String> {
+    list.as_array().unwrap().iter().map(|item| item["name"].as_str().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn a_glb_has_levels_materials_and_the_recipe() {
+    let dir = Dir::new();
+    let _ = dir.run(["grow", "acer", "--seed", "3", "-o", "tree.glb", "--lod", "3"]).ok();
+    let file = glb(&dir.path("tree.glb"));
+    assert_eq!(names(&file["materials"]), ["bark", "leaves"]);
+    assert_eq!(file["meshes"].as_array().unwrap().len(), 3);
+    let extras = &file["scenes"][0]["extras"];
+    assert_eq!((&extras["species"], &extras["seed"]), (&"acer".into(), &3.into()));
+    assert_eq!(extras["parameters"]["branches"].as_array().unwrap().len(), 4);
+}
+
+#[test]
+fn the_same_command_writes_the_same_bytes() {
+    let dir = Dir::new();
+    for suffix in ["glb", "obj", "ply", "stl"] {
+        let [one, two] = ["1", "2"].map(|threads| {
+            let name = format!("{threads}.{suffix}");
+            let _ = dir.run(["--threads", threads, "grow", "acer", "-o", &name]).ok();
+            std::fs::read(dir.path(&name)).unwrap()
+        });
+        // An OBJ file names its material file.
+        let same = if suffix == "obj" { one[40..] == two[40..] } else { one == two };
+        assert!(same, "{suffix}");
+    }
+}
+
+#[test]
+fn an_obj_comes_with_its_materials() {
+    let dir = Dir::new();
+    let _ = dir.run(["grow", "palm", "-o", "my palm.obj"]).ok();
+    let text = std::fs::read_to_string(dir.path("my palm.obj")).unwrap();
+    assert!(text.contains("mtllib my palm.mtl"), "{}", &text[..80]);
+    assert!(std::fs::read_to_string(dir.path("my palm.mtl")).unwrap().contains("newmtl bark"));
+}
+
+#[test]
+fn a_forest_is_a_few_meshes_in_many_places() {
+    let dir = Dir::new();
+    let forest = ["grow", "acer", "--forest", "40x30m", "--spacing", "8", "--variants", "2", "-o", "f.glb"];
+    let _ = dir.run(forest).ok();
+    let file = glb(&dir.path("f.glb"));
+    assert_eq!(file["meshes"].as_array().unwrap().len(), 2);
+    let trees = file["scenes"][0]["nodes"].as_array().unwrap().len();
+    assert!((8..30).contains(&trees), "{trees} trees");
+    assert_eq!(file["scenes"][0]["extras"]["seed"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn sway_wind_and_instances_are_in_the_file() {
+    let dir = Dir::new();
+    let _ = dir.run(["grow", "acer", "--sway", "-o", "sway.glb"]).ok();
+    assert_eq!(names(&glb(&dir.path("sway.glb"))["animations"]), ["sway"]);
+    let _ = dir.run(["grow", "acer", "--wind", "-o", "wind.glb"]).ok();
+    assert!(glb(&dir.path("wind.glb")).to_string().contains("_WIND_PIVOT"));
+    let _ = dir.run(["grow", "acer", "--leaves", "instances", "-o", "leaves.glb"]).ok();
+    assert_eq!(glb(&dir.path("leaves.glb"))["extensionsRequired"][0], "EXT_mesh_gpu_instancing");
+}
+
+#[test]
+fn a_tree_without_leaves_has_one_material() {
+    let dir = Dir::new();
+    let _ = dir.run(["grow", "acer", "--no-leaves", "-o", "bare.glb"]).ok();
+    let _ = dir.run(["grow", "acer", "--season", "winter", "-o", "winter.glb", "--lod", "2"]).ok();
+    for name in ["bare.glb", "winter.glb"] {
+        assert_eq!(names(&glb(&dir.path(name))["materials"]), ["bark"], "{name}");
+    }
+}
+
+#[test]
+fn colours_come_from_the_species_file() {
+    let dir = Dir::new();
+    let species = std::fs::read_to_string(pleach_tests::root().join("species/weber-penn/palm.toml")).unwrap();
+    let _ = dir.file("red.toml", format!("{species}\n[appearance]\nleaf = \"#ff0000\"\n"));
+    let _ = dir.run(["grow", "red.toml", "-o", "red.glb"]).ok();
+    let leaves = &glb(&dir.path("red.glb"))["materials"][1];
+    assert_eq!(leaves["pbrMetallicRoughness"]["baseColorFactor"], serde_json::json!([1.0, 0.0, 0.0, 1.0]));
+    let _ = dir.file("wrong.toml", format!("{species}\n[appearance]\nleaf = \"green\"\n"));
+    dir.run(["grow", "wrong.toml", "-o", "x.glb"]).fails(1, &["wrong.toml:", "appearance.leaf", "#rrggbb"]);
+}
+
+#[test]
+fn what_cannot_be_written_says_what_can() {
+    let dir = Dir::new();
+    dir.run(["grow", "acer", "-o", "tree.fbx"]).fails(1, &["`.fbx`", ".glb", ".obj", ".ply", ".stl", ".png"]);
+    for level in ["0", "99"] {
+        dir.run(["grow", "acer", "-o", "tree.glb", "--lod", level]).fails(2, &["--lod", "1..=6"]);
+    }
+    dir.run(["grow", "acer", "-o", "tree.obj", "--lod", "2"]).fails(1, &["levels of detail", ".glb"]);
+    dir.run(["grow", "acer", "-o", "tree.ply", "--forest", "9x9"]).fails(1, &["forest", ".glb"]);
+    dir.run(["grow", "acer", "-o", "tree.glb", "--forest", "big"]).fails(2, &["40x30m"]);
+    dir.run(["grow", "acer", "-o", "f.glb", "--forest", "9e9x9e9"]).fails(1, &["more than", "spacing"]);
+    dir.run(["grow", "acer", "-o", "f.glb", "--forest", "9x9", "--spacing", "0"]).fails(1, &["positive"]);
+    dir.run(["grow", "acer", "-o", "tree.glb", "--tolerance", "0"]).fails(2, &["millimetres"]);
+    std::fs::create_dir(dir.path("folder.glb")).unwrap();
+    dir.run(["grow", "acer", "-o", "folder.glb"]).fails(1, &["folder.glb", "is a folder"]);
+    assert_eq!(std::fs::read_dir(dir.path("folder.glb")).unwrap().count(), 0);
+    dir.run(["grow", "acer", "-o", "no/such/tree.glb"]).fails(1, &["no/such/tree.glb"]);
+}
+
+/// A limit on the size of files stands for a full disk.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_the_good_file_and_nothing_else() {
+    let dir = Dir::new();
+    let good = dir.file("tree.glb", "a good file");
+    let script = "trap '' XFSZ; ulimit -f 200; \"$0\" grow acer -o tree.glb";
+    let mut shell = std::process::Command::new("sh");
+    shell.current_dir(good.parent().unwrap()).arg("-c").arg(script).arg(pleach_tests::program());
+    let output = shell.output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("cannot write tree.glb") && !message.contains("panicked"), "{message}");
+    assert_eq!(std::fs::read(&good).unwrap(), b"a good file");
+    assert_eq!(std::fs::read_dir(good.parent().unwrap()).unwrap().count(), 1, "no half file is left");
+}
