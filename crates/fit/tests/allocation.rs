@@ -2,6 +2,8 @@
 //!
 //! Alone in its program: the counter sees every thread.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use common::own_goal;

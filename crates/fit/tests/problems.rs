@@ -1,5 +1,7 @@
 //! Problems that make no sense are errors, and parameters that make no tree are costs.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use common::own_goal;

@@ -1,5 +1,7 @@
 //! The same command gives the same bits: on any number of threads, interrupted anywhere.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use common::own_goal;
@@ -12,7 +14,7 @@ use std::time::Duration;
 
 fn settings(name: &str, evaluations: u64) -> FitSettings {
     FitSettings {
-        optimizer: name.parse().unwrap(),
+        optimizer: name.parse().expect("a known name"),
         budget: Budget::evaluations(evaluations),
         tree_seed: TreeSeed::Any,
         ..FitSettings::default()
@@ -21,7 +23,7 @@ fn settings(name: &str, evaluations: u64) -> FitSettings {
 
 fn run(problem: &FitProblem, settings: &FitSettings, checkpoint: Option<CheckpointSettings>) -> Outcome {
     let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
-    fit(problem, settings, Control { checkpoint, ..Control::new(&clock, &stop) }).unwrap()
+    fit(problem, settings, Control { checkpoint, ..Control::new(&clock, &stop) }).expect("a good problem")
 }
 
 #[test]

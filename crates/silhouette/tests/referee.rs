@@ -49,7 +49,6 @@ fn judge(sizes: (u32, u32), names: &[&str]) {
             let case = compare(name, &tree, parts, sizes.0, sizes.1);
             let Case { name, iou, least_iou, ink, coverage } = case;
             let line = format!("{name}: IoU {iou:.4}, ink {ink:.4}, coverage {coverage:.4}");
-            println!("{line}");
             if iou < least_iou || (ink - 1.0).abs() > 0.03 || (coverage - 1.0).abs() > 0.03 {
                 wrong.push(line);
             }
