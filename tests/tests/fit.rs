@@ -37,8 +37,21 @@ fn the_run_folder_holds_what_it_should() {
     let summary: serde_json::Value = serde_json::from_slice(&read(&folder.join("summary.json"))).unwrap();
     assert_eq!(summary, printed);
     let keys = [
-        "pixel_accuracy", "empty_accuracy", "iou", "best_ellipse_iou", "dice", "boundary_f", "chamfer", "blurred_iou",
-        "species", "generator", "tree_seed", "evaluations", "seconds", "evaluations_per_second", "optimizer",
+        "pixel_accuracy",
+        "empty_accuracy",
+        "iou",
+        "best_ellipse_iou",
+        "dice",
+        "boundary_f",
+        "chamfer",
+        "blurred_iou",
+        "species",
+        "generator",
+        "tree_seed",
+        "evaluations",
+        "seconds",
+        "evaluations_per_second",
+        "optimizer",
     ];
     for key in keys {
         assert!(summary.get(key).is_some(), "`{key}` is missing in {summary}");
@@ -48,8 +61,10 @@ fn the_run_folder_holds_what_it_should() {
         assert!(summary["blurred_iou"][key].is_number());
     }
     let names = |folder: &Path| {
-        let mut names: Vec<String> =
-            std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        let mut names: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|e| e.unwrap().file_name().into_string().unwrap())
+            .collect();
         names.sort();
         names
     };
@@ -72,7 +87,8 @@ fn every_optimizer_is_the_same_on_any_number_of_threads() {
     for optimizer in pleach_fit::Optimizer::NAMES {
         let run = |threads: &str| {
             let out = format!("{optimizer}-{threads}");
-            let more = ["--evaluations", "250", "--optimizer", optimizer, "--threads", threads, "--seed", "5"];
+            let more =
+                ["--evaluations", "250", "--optimizer", optimizer, "--threads", threads, "--seed", "5"];
             let _ = dir.run(small(&goal, &out, &more)).ok();
             results(&dir.path(&out))
         };
@@ -94,7 +110,13 @@ fn another_seed_is_another_search() {
 fn fixed_parameters_keep_their_values() {
     let dir = Dir::new();
     let goal = goal("acer.png");
-    let _ = dir.run(small(&goal, "run", &["--evaluations", "200", "--free", "crown", "--free", "length[1]", "--fix", "levels"])).ok();
+    let _ = dir
+        .run(small(
+            &goal,
+            "run",
+            &["--evaluations", "200", "--free", "crown", "--free", "length[1]", "--fix", "levels"],
+        ))
+        .ok();
     let fitted = dir.run(["species", "run/best.toml", "--json"]).json();
     let start = dir.run(["species", "acer", "--json"]).json();
     let (fitted, start) = (&fitted["parameters"], &start["parameters"]);
@@ -162,7 +184,8 @@ fn an_interrupted_run_resumes_to_the_same_bits() {
 
     // An unfinished fit is neither overwritten nor gone on with by accident, nor with other options.
     dir.run(small(&goal, "parts", LONG)).fails(1, &["unfinished", "--resume", "--overwrite"]);
-    dir.run(small(&goal, "parts", &["--resume", "--evaluations", "8000", "--seed", "4", "--size", "96"])).fails(1, &["seed"]);
+    dir.run(small(&goal, "parts", &["--resume", "--evaluations", "8000", "--seed", "4", "--size", "96"]))
+        .fails(1, &["seed"]);
 
     let resume = [LONG, &["--resume"]].concat();
     let stopped = spawn(&dir, &small(&goal, "parts", &resume));
@@ -204,7 +227,8 @@ fn a_time_budget_ends_a_fit_and_a_target_ends_it_sooner() {
     let goal = goal("acer.png");
     let timed = dir.run(small(&goal, "timed", &["--timeout", "1s", "--json"])).json();
     assert_eq!(timed["stopped_by"], "timeout");
-    let reached = dir.run(small(&goal, "target", &["--target-iou", "0.05", "--evaluations", "5000", "--json"])).json();
+    let reached =
+        dir.run(small(&goal, "target", &["--target-iou", "0.05", "--evaluations", "5000", "--json"])).json();
     assert_eq!(reached["stopped_by"], "target-iou");
     assert!(reached["evaluations"].as_u64().unwrap() < 5000);
 }
@@ -216,6 +240,7 @@ fn optimizers_and_their_settings_are_told() {
     let settings = dir.run(["fit", &goal, "--optimizer", "hewitt", "--set", "help"]).ok();
     assert!(settings.contains("population=") && settings.contains("flip_chance="), "{settings}");
     dir.run(small(&goal, "x", &["--optimizer", "newton"])).fails(1, &["newton", "hewitt", "evolution"]);
-    dir.run(small(&goal, "x", &["--optimizer", "hewitt", "--set", "pop=3"])).fails(1, &["`pop`", "population"]);
+    dir.run(small(&goal, "x", &["--optimizer", "hewitt", "--set", "pop=3"]))
+        .fails(1, &["`pop`", "population"]);
     dir.run(small(&goal, "x", &["--objective", "beauty"])).fails(1, &["beauty", "iou"]);
 }

@@ -1,2 +1,67 @@
-//! Benchmarks.
-fn main() {}
+//! Meshing, writing and drawing: a small tree, the aspen, and a large one.
+
+use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
+use pleach_mesh::write::glb::{Glb, Placed, Scene};
+use pleach_mesh::write::{obj, stl};
+use pleach_mesh::{Mesh, MeshSettings, Mesher, Palette, Preview, PreviewSettings, lod, send};
+use std::hint::black_box;
+use std::io::Cursor;
+
+const SPECIES: [&str; 3] = ["acer", "quaking_aspen", "weeping_willow"];
+
+fn meshes(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("mesh");
+    group.sample_size(10);
+    for name in SPECIES {
+        let Some(species) = pleach_generators::preset(name) else { continue };
+        let Ok(tree) = species.grow(1) else { continue };
+        let scene = Scene {
+            name: name.to_owned(),
+            palette: Palette::of(&species, tree.leaf_shape, None),
+            extras: serde_json::Value::Null,
+            placed: vec![Placed::at_origin(name, 1)],
+            rig: None,
+            card: None,
+        };
+        let mesher = || Mesher::new(&tree, MeshSettings::default());
+        group.bench_function(format!("measure/{name}"), |b| b.iter(|| black_box(mesher().count())));
+        group.bench_function(format!("memory/{name}"), |b| {
+            b.iter(|| black_box(Mesh::of(&tree, MeshSettings::default()).triangles()));
+        });
+        group.bench_function(format!("glb/{name}"), |b| {
+            b.iter_batched_ref(
+                || Cursor::new(Vec::with_capacity(256 << 20)),
+                |out| send(&[mesher()], &mut Glb::new(out, &scene)),
+                BatchSize::PerIteration,
+            );
+        });
+        group.bench_function(format!("stl/{name}"), |b| {
+            b.iter(|| send(&[mesher()], &mut stl::Stl::new(std::io::sink())));
+        });
+        group.bench_function(format!("obj/{name}"), |b| {
+            b.iter(|| send(&[mesher()], &mut obj::Obj::new(std::io::sink(), name, "a.mtl")));
+        });
+        group.bench_function(format!("levels/{name}"), |b| {
+            b.iter(|| black_box(lod::levels(&tree, MeshSettings::default(), 4).len()));
+        });
+    }
+    group.finish();
+}
+
+fn pictures(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("preview");
+    group.sample_size(10);
+    for name in ["acer", "quaking_aspen"] {
+        let Some(species) = pleach_generators::preset(name) else { continue };
+        let Ok(tree) = species.grow(1) else { continue };
+        let palette = Palette::of(&species, tree.leaf_shape, None);
+        let settings = PreviewSettings { width: 512, height: 512, ..PreviewSettings::default() };
+        group.bench_function(name, |b| {
+            b.iter(|| black_box(Preview::new(&tree, &palette, 512).picture(&settings)));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, meshes, pictures);
+criterion_main!(benches);

@@ -8,7 +8,7 @@
 //! | [`block`] | corners and triangles |
 //! | [`lod`] | levels of detail |
 //! | [`forest`] | where many trees stand |
-//! | [`write`] | GLB, OBJ, PLY, STL |
+//! | [`mod@write`] | GLB, OBJ, PLY, STL |
 //! | [`preview`], [`png_file`] | shaded pictures without a graphics card |
 //! | [`palette`] | colours of species and seasons |
 //! | [`wind`], [`rig`] | how stems sway |

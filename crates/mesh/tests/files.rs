@@ -1,7 +1,6 @@
 //! Every file format, read back by somebody else's reader or byte by byte.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 #![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
 use pleach_mesh::lod::{self, Level};
