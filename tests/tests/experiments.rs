@@ -28,11 +28,6 @@ fn complexity() {
 }
 
 #[test]
-fn blend() {
-    check("blend", &["--repetitions", "1"]);
-}
-
-#[test]
 fn changed_results_are_found() {
     let dir = Dir::new();
     let folder = pleach_tests::root().join("experiments/complexity");
