@@ -5,10 +5,10 @@ use super::{Slice, Table, progress};
 use crate::{files, input, output};
 use anyhow::Context;
 use pleach_blend::draw::{Drawing, each_tree, picture, silhouettes};
-use pleach_blend::{Blend, BlendMap, Features, Point, Settings, Trait, map};
+use pleach_blend::{Blend, BlendMap, Features, Point, Settings, map};
 use pleach_silhouette::score::blurred_iou;
-use pleach_silhouette::{Bitmap, Detail, picture as sheets};
-use pleach_tree::{Key, Kind, Species, TreeStats};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View, picture as sheets};
+use pleach_tree::{Growth, Key, Kind, Limits, Species, Tree};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -242,13 +242,25 @@ impl Ranges {
     }
 
     fn hold(&self, species: &Species, seed: u64) -> bool {
-        species.grow(seed).is_ok_and(|tree| self.contain(figures(&tree)))
+        grow(species, seed).is_some_and(|tree| self.contain(figures(&tree)))
     }
 }
 
-fn figures(tree: &pleach_tree::Tree) -> [f64; 3] {
-    let stats = TreeStats::of(tree);
-    [stats.height_m, Trait::Ink.of(tree), stats.stems.iter().sum::<usize>() as f64]
+fn figures(tree: &Tree) -> [f64; 3] {
+    let frame = Frame::automatic(tree, &View::FRONT, true, DRAWING.pixels, DRAWING.pixels);
+    let bitmap = picture(tree, &mut Rasteriser::new(), DRAWING);
+    let (left, top, right, bottom) = bitmap.ink_box().unwrap_or_default();
+    let height = (frame.ground_row - f64::from(top)) * frame.metres_per_pixel;
+    let area = f64::from(right - left + 1) * f64::from(bottom - top + 1);
+    [height, bitmap.ink() as f64 / area, tree.stems.len() as f64]
+}
+
+/// Grows a tree of at most twice the stems and leaves of the largest species; a larger one counts as
+/// not grown.
+fn grow(species: &Species, seed: u64) -> Option<Tree> {
+    let usual = Limits::default();
+    let limits = Limits { stems: usual.stems / 5, leaves: usual.leaves / 5, knots: usual.knots / 5 };
+    species.grow_with(&Growth { limits, ..Growth::seed(seed) }).ok()
 }
 
 /// Each species from the others at its own coordinates.
@@ -343,9 +355,9 @@ impl Line {
     fn of(maps: &Maps, method: Method, pair: (usize, usize), steps: u32) -> anyhow::Result<Self> {
         let at = |i: u32| maps.between(method, pair, f64::from(i) / f64::from(steps));
         let species = (0..=steps).map(at).collect::<anyhow::Result<Vec<_>>>()?;
-        let mut rasteriser = pleach_silhouette::Rasteriser::new();
+        let mut rasteriser = Rasteriser::new();
         let drawn: Vec<Option<Bitmap>> =
-            species.iter().map(|s| Some(picture(&s.grow(SEED).ok()?, &mut rasteriser, DRAWING))).collect();
+            species.iter().map(|s| Some(picture(&grow(s, SEED)?, &mut rasteriser, DRAWING))).collect();
         let overlap = |pair: &[Option<Bitmap>]| match pair {
             [Some(a), Some(b)] => blurred_iou(a, b, BLUR),
             _ => 0.0,
@@ -389,9 +401,9 @@ fn validity(maps: &Maps, points: u32, rows: &mut Rows) -> anyhow::Result<()> {
             bar.inc(1);
             let blend = map.at(*point)?;
             let valid = map.landmarks().space().check(blend.params.values().to_vec()).is_ok();
-            match map.species_at(&blend, "blend").grow(i as u64) {
-                Ok(tree) => Ok((valid, ranges.contain(figures(&tree)))),
-                Err(_) => Ok((false, false)),
+            match grow(&map.species_at(&blend, "blend"), i as u64) {
+                Some(tree) => Ok((valid, ranges.contain(figures(&tree)))),
+                None => Ok((false, false)),
             }
         })
         .collect::<anyhow::Result<_>>()?;
