@@ -7,9 +7,10 @@ use pleach_tree::leaf_shape::LeafShape;
 ///
 /// `scale` is the size of a unit along u and v, in the units of `tolerance`. At least three corners
 /// stay, four where there were more.
-pub(crate) fn simplify(outline: &[[f32; 2]], scale: [f32; 2], tolerance: f32) -> Vec<[f32; 2]> {
-    let mut kept = outline.to_vec();
-    let least = outline.len().min(4);
+fn simplify(shape: LeafShape, scale: [f32; 2], tolerance: f32, kept: &mut Vec<[f32; 2]>) {
+    fill(shape, kept);
+    let least = kept.len().min(4);
+    let full = area(kept);
     while kept.len() > least {
         let n = kept.len();
         let (corner, off) = (0..n)
@@ -21,19 +22,26 @@ pub(crate) fn simplify(outline: &[[f32; 2]], scale: [f32; 2], tolerance: f32) ->
         }
         kept.remove(corner);
     }
-    let (full, left) = (area(outline), area(&kept));
+    let left = area(kept);
     if left.abs() > 0.05 * full.abs() {
         let factor = (full / left).abs().sqrt();
         let n = kept.len() as f32;
         let centre = kept.iter().fold([0.0, 0.0], |c, p| [c[0] + p[0] / n, c[1] + p[1] / n]);
-        for p in &mut kept {
+        for p in kept {
             *p = [centre[0] + (p[0] - centre[0]) * factor, centre[1] + (p[1] - centre[1]) * factor];
         }
-        kept
     } else {
         // Nothing like the shape is left of it: keep it whole.
-        outline.to_vec()
+        fill(shape, kept);
     }
+}
+
+/// The whole outline of `shape`, into memory that is at hand.
+fn fill(shape: LeafShape, corners: &mut Vec<[f32; 2]>) {
+    let half = shape.half_outline();
+    corners.clear();
+    corners.extend_from_slice(half);
+    corners.extend(half.iter().rev().filter(|p| p[0] > 0.0).map(|p| [-p[0], p[1]]));
 }
 
 /// Distance of `b` from the line through `a` and `c`, or from `a` if they coincide.
@@ -73,10 +81,9 @@ impl OutlineCache {
         if self.key != Some(key) {
             self.key = Some(key);
             let scale = steps.map(|s| (s / 10.0).exp());
-            let outline = shape.outline();
-            let width = 2.0 * outline.iter().map(|p| p[0]).fold(0.0, f32::max);
+            let width = 2.0 * shape.half_outline().iter().map(|p| p[0]).fold(0.0, f32::max);
             let least = (width * scale[0]).min(scale[1]);
-            self.corners = simplify(&outline, scale, TOLERANCE.min(RELATIVE_TOLERANCE * least));
+            simplify(shape, scale, TOLERANCE.min(RELATIVE_TOLERANCE * least), &mut self.corners);
         }
         &self.corners
     }
@@ -92,14 +99,17 @@ mod tests {
             let full = shape.outline();
             let mut last = full.len();
             for size in [100.0, 10.0, 3.0, 1.0, 0.1] {
-                let outline = simplify(&full, [size, size], TOLERANCE);
+                let mut outline = Vec::new();
+                simplify(shape, [size, size], TOLERANCE, &mut outline);
                 assert!(outline.len() <= last, "{shape:?} at {size}: {} corners", outline.len());
                 assert!((area(&outline) / shape.area() - 1.0).abs() < 1e-3, "{shape:?} at {size}");
                 last = outline.len();
             }
             // Three lobes of a palmate leaf cannot be had with fewer than six corners.
             assert!(last <= 7, "{shape:?}: {last}");
-            assert_eq!(simplify(&full, [1e5, 1e5], TOLERANCE).len(), full.len(), "{shape:?}");
+            let mut outline = Vec::new();
+            simplify(shape, [1e5, 1e5], TOLERANCE, &mut outline);
+            assert_eq!(outline.len(), full.len(), "{shape:?}");
         }
     }
 }
