@@ -154,7 +154,7 @@ fn wait_for_progress(checkpoint: &Path) {
     }
 }
 
-const LONG: &[&str] = &["--evaluations", "8000", "--seed", "3", "--size", "96"];
+const LONG: &[&str] = &["--evaluations", "2500", "--seed", "3", "--size", "96"];
 
 fn long_run(dir: &Dir, goal: &str) -> PathBuf {
     let _ = dir.run(small(goal, "whole", LONG)).ok();
@@ -184,7 +184,7 @@ fn an_interrupted_run_resumes_to_the_same_bits() {
 
     // An unfinished fit is neither overwritten nor gone on with by accident, nor with other options.
     dir.run(small(&goal, "parts", LONG)).fails(1, &["unfinished", "--resume", "--overwrite"]);
-    dir.run(small(&goal, "parts", &["--resume", "--evaluations", "8000", "--seed", "4", "--size", "96"]))
+    dir.run(small(&goal, "parts", &["--resume", "--evaluations", "2500", "--seed", "4", "--size", "96"]))
         .fails(1, &["seed"]);
 
     let resume = [LONG, &["--resume"]].concat();
