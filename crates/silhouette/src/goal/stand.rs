@@ -19,6 +19,8 @@ const SNAP: f64 = 0.02;
 const FOOT: f64 = 0.05;
 /// Part of the foot's rows that a column of the trunk has ink in.
 const SUPPORT: f64 = 0.7;
+/// Widest gap within a clump of stems, as a part of the wider stem beside it.
+const GAP: f64 = 0.25;
 
 /// Ground row in pixels from the top: the bottom edge of the lowest ink, or of the picture if that
 /// is within 2 % of its height.
@@ -42,8 +44,8 @@ pub(super) fn axis(ink: &Bitmap, ink_box: (u32, u32, u32, u32), ground: u32) -> 
 /// The middle of the trunk.
 ///
 /// Twigs of weeping trees and of firs reach the ground too, farther out, thinner, and not in every
-/// row. So the columns that have ink in most rows of the foot form runs, and of these the one wins
-/// that is widest for its distance from the middle of all ink.
+/// row. So the columns that have ink in most rows of the foot form runs, those of a clump (bamboo)
+/// are joined, and of these the one wins that is widest for its distance from the middle of all ink.
 fn trunk(ink: &Bitmap, (left, top, right, _): (u32, u32, u32, u32), ground: u32) -> f64 {
     let bottom = ground.min(ink.height()).max(top + 1);
     let rows = ((f64::from(bottom - top) * FOOT).ceil() as u32).clamp(1, bottom - top);
@@ -64,20 +66,34 @@ fn trunk(ink: &Bitmap, (left, top, right, _): (u32, u32, u32, u32), ground: u32)
     let reach = 0.2 * f64::from(right - left + 1).max(8.0);
     let least = (f64::from(rows) * SUPPORT).ceil() as u32;
     let mut best: Option<(f64, f64)> = None;
+    for (from, to) in clumps(&support, least) {
+        let at = (from + to) / 2.0;
+        let off = (at - centre) / reach;
+        let merit = (to - from) / (1.0 + off * off);
+        if best.is_none_or(|(most, _)| merit > most) {
+            best = Some((merit, at));
+        }
+    }
+    best.map_or_else(|| weighted_middle(&support).unwrap_or(centre), |(_, at)| at)
+}
+
+/// Left and right edges of the runs of columns with at least this support, joined across narrow gaps.
+fn clumps(support: &[u32], least: u32) -> Vec<(f64, f64)> {
+    let mut found: Vec<(f64, f64)> = Vec::new();
     let mut start = 0;
+    let mut last_width = 0.0;
     for run in support.chunk_by(|a, b| (*a >= least) == (*b >= least)) {
         if run[0] >= least {
-            let width = run.len() as f64;
-            let at = start as f64 + width / 2.0;
-            let off = (at - centre) / reach;
-            let merit = width / (1.0 + off * off);
-            if best.is_none_or(|(most, _)| merit > most) {
-                best = Some((merit, at));
+            let (from, width) = (start as f64, run.len() as f64);
+            match found.last_mut() {
+                Some(last) if from - last.1 <= GAP * width.max(last_width) => last.1 = from + width,
+                _ => found.push((from, from + width)),
             }
+            last_width = width;
         }
         start += run.len();
     }
-    best.map_or_else(|| weighted_middle(&support).unwrap_or(centre), |(_, at)| at)
+    found
 }
 
 /// Mean column by support; none without any.
@@ -105,6 +121,15 @@ mod tests {
             dx.hypot(dy) < 50.0 || ((60..66).contains(&x) && (80..180).contains(&y))
         });
         assert_eq!(stands(&ink), (180.0, 63.0));
+    }
+
+    #[test]
+    fn a_clump_of_stems_stands_in_its_middle() {
+        let ink = Bitmap::from_fn(100, 100, |x, y| {
+            y > 10 && ((30..39).contains(&x) || (41..48).contains(&x))
+                || ((20..80).contains(&x) && (5..40).contains(&y))
+        });
+        assert_eq!(stands(&ink).1, 39.0);
     }
 
     #[test]
