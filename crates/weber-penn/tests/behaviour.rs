@@ -217,7 +217,8 @@ fn children_start_inside_the_rim_of_their_parent() {
                     let t = f64::from(i) / 32.0;
                     let d = piece.at(t).distance(start.point);
                     if d < nearest {
-                        (nearest, radius_there) = (d, r0 + (r1 - r0) * t);
+                        // A palm's last bead closes between its last two knots, and not in a line.
+                        (nearest, radius_there) = (d, if r1 > 0.0 { r0 + (r1 - r0) * t } else { r0 });
                     }
                 }
             }
