@@ -21,23 +21,13 @@ pub fn root() -> PathBuf {
         .expect("the repository is where it was built")
 }
 
-/// The program, built in the profile of these tests.
-///
-/// Cargo builds a package's binaries before its own tests only, so this asks for it; where it is up
-/// to date, that takes a moment.
+/// The program, in the profile of these tests: cargo has built it, since they belong to its package.
 #[must_use]
 pub fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(|| {
         let here = std::env::current_exe().expect("a test has a path");
         let profile = here.ancestors().nth(2).expect("a test lies in target/PROFILE/deps");
-        let mut cargo = Command::new(env!("CARGO"));
-        cargo.current_dir(root()).args(["build", "--quiet", "--package", "pleach"]);
-        if profile.ends_with("release") {
-            cargo.arg("--release");
-        }
-        let status = cargo.status().expect("cargo runs");
-        assert!(status.success(), "the program builds");
         profile.join(format!("pleach{}", std::env::consts::EXE_SUFFIX))
     })
 }
