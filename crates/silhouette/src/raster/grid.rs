@@ -101,6 +101,26 @@ impl Grid {
         }
     }
 
+    /// Whether every sample of the box from `left`, `top` to `right`, `bottom` is set, so that nothing
+    /// inside it needs drawing. Boxes wider than a word or across an edge of the grid count as not.
+    #[inline]
+    pub(crate) fn is_covered(&self, left: f32, right: f32, top: f32, bottom: f32) -> bool {
+        let (wide, high) = self.extent();
+        // Also false where a number is none.
+        if !(left >= 0.0 && right <= wide && top >= 0.0 && bottom <= high && right - left < NARROW) {
+            return false;
+        }
+        let (origin, end) = (left as usize, (right as usize + 1).min(wide as usize));
+        let (first, last) = (top as usize, (bottom as usize + 1).min(high as usize));
+        let (word, shift) = (origin / 64, origin % 64);
+        let mask = u64::MAX >> (64 - (end - origin));
+        let (low, high) = (mask << shift, if shift == 0 { 0 } else { mask >> (64 - shift) });
+        let stride = self.words_per_row;
+        self.words[first * stride..last * stride]
+            .chunks_exact(stride)
+            .all(|line| line[word] & low == low && (high == 0 || line[word + 1] & high == high))
+    }
+
     /// Rows `first..last`, at most `ROWS`, of a polygon at most a word wide and inside the grid from
     /// left to right. `origin` is the column of samples that it starts in.
     ///
@@ -365,6 +385,26 @@ mod tests {
         grid.coverage(&mut coverage);
         let drawn = coverage.iter().map(|&c| f32::from(c)).sum::<f32>() / 32.0;
         assert!((drawn / area - 1.0).abs() < 0.1, "{drawn} of {area}");
+    }
+
+    #[test]
+    fn in_a_covered_box_nothing_is_left_to_draw() {
+        let mut grid = Grid::default();
+        grid.reset(40, 40, 4);
+        grid.fill(&[[70.0, 31.0], [251.5, 40.0], [203.0, 131.0], [61.0, 120.0]]);
+        let mut covered = 0;
+        for i in 0..4000_u16 {
+            let [x, y] = [f32::from(i % 79) * 4.13 - 3.0, f32::from(i % 83) * 2.01 - 3.0];
+            let (w, h) = (f32::from(i % 61) + 0.3, f32::from(i % 13) + 0.7);
+            if grid.is_covered(x, x + w, y, y + h) {
+                covered += 1;
+                let mut after = grid.clone();
+                after.fill(&[[x, y], [x + w, y], [x + w, y + h], [x, y + h]]);
+                assert!(after.words == grid.words, "box {x} {y}, {w} by {h}");
+            }
+        }
+        assert!((400..2000).contains(&covered), "{covered}");
+        assert!(!grid.is_covered(f32::NAN, 100.0, 60.0, 61.0) && !grid.is_covered(-1.0, 1.0, 60.0, 61.0));
     }
 
     #[test]

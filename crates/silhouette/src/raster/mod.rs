@@ -128,8 +128,21 @@ impl Rasteriser {
         let outline = self.outline.get(tree.leaf_shape, size);
         let placer = Placer::new(camera, scale);
         let mut corners = [[0.0; 2]; 48];
+        let (half_width, lowest, highest) = outline.iter().fold((0.0, 0.0, 0.0), |(w, l, h), p| {
+            (f32::max(w, p[0].abs()), f32::min(l, p[1]), f32::max(h, p[1]))
+        });
         for leaf in &tree.leaves {
             let Some([at, across, along]) = placer.place(leaf) else { continue };
+            // Most leaves of a dense crown lie before or behind others.
+            let reach = |axis: usize| {
+                let (low, high) = (along[axis] * lowest, along[axis] * highest);
+                let side = across[axis].abs() * half_width;
+                (at[axis] + low.min(high) - side, at[axis] + low.max(high) + side)
+            };
+            let ((left, right), (top, bottom)) = (reach(0), reach(1));
+            if self.grid.is_covered(left, right, top, bottom) {
+                continue;
+            }
             let corners = &mut corners[..outline.len()];
             for (corner, p) in corners.iter_mut().zip(outline) {
                 *corner =
