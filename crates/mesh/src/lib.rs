@@ -20,6 +20,7 @@
 //! nothing. A mesher knows trees, not generators.
 
 pub mod block;
+mod few_colours;
 mod foliage;
 pub mod forest;
 pub mod lod;

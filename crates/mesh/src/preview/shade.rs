@@ -108,7 +108,7 @@ impl View<'_> {
         let triangle = self.buffer.triangle[index];
         let ray = self.camera.ray(x as f32 + 0.5, y as f32 + 0.5);
         if triangle == NONE {
-            return self.ground(ray);
+            return self.ground(ray) * self.margin(x, y);
         }
         let corners = self.scene.triangles[triangle as usize];
         let [a, b, c] = corners.map(|i| self.scene.points[i as usize]);
@@ -194,6 +194,18 @@ impl View<'_> {
     fn sky_light(&self, normal: Vec3, open: f32) -> Vec3 {
         let up = 0.5 + 0.5 * normal.z;
         (SKY * (0.35 + 0.65 * up) + BOUNCE * (1.0 - up)) * (0.06 + 0.94 * open)
+    }
+
+    /// How much of the ground is shown at a sample: a picture that will stand on a page ends softly,
+    /// where a studio's wall goes on behind the frame.
+    fn margin(&self, x: u32, y: u32) -> f32 {
+        if self.settings.background == Background::Studio {
+            return 1.0;
+        }
+        let (width, height) = (self.buffer.width as f32, self.buffer.height as f32);
+        let (left, above) = (x as f32 + 0.5, y as f32 + 0.5);
+        let edge = left.min(width - left).min(height - above);
+        smooth(0.0, 0.16 * width.min(height), edge)
     }
 
     /// The ground where a ray meets it: grass, or its shadow alone.
