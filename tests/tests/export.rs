@@ -78,11 +78,26 @@ fn sway_wind_and_instances_are_in_the_file() {
 }
 
 #[test]
+fn cards_bring_pictures_of_leaves() {
+    let dir = Dir::new();
+    let _ = dir.run(["grow", "acer", "--leaves", "cards", "-o", "cards.glb"]).ok();
+    let file = glb(&dir.path("cards.glb"));
+    assert_eq!(names(&file["images"]), ["leaves"]);
+    assert_eq!(file["materials"][1]["alphaMode"], "MASK");
+    let _ = dir.run(["grow", "acer", "--leaves", "cards", "-o", "cards.obj"]).ok();
+    assert!(std::fs::read_to_string(dir.path("cards.mtl")).unwrap().contains("map_Kd cards-leaves.png"));
+    assert!(image::open(dir.path("cards-leaves.png")).unwrap().color().has_alpha());
+}
+
+#[test]
 fn a_tree_without_leaves_has_one_material() {
     let dir = Dir::new();
     let _ = dir.run(["grow", "acer", "--no-leaves", "-o", "bare.glb"]).ok();
     let _ = dir.run(["grow", "acer", "--season", "winter", "-o", "winter.glb", "--lod", "2"]).ok();
-    for name in ["bare.glb", "winter.glb"] {
+    let _ = dir.run(["grow", "acer", "--leaves", "none", "-o", "none.glb"]).ok();
+    let _ = dir.file("leafless.toml", "levels = 2\nleaf_blos_num = 0");
+    let _ = dir.run(["grow", "leafless.toml", "--leaves", "cards", "-o", "leafless.glb"]).ok();
+    for name in ["bare.glb", "winter.glb", "none.glb", "leafless.glb"] {
         assert_eq!(names(&glb(&dir.path(name))["materials"]), ["bark"], "{name}");
     }
 }

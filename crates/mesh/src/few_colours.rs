@@ -30,8 +30,8 @@ impl Cell {
 impl FewColours {
     pub(crate) fn of(picture: &Picture) -> Self {
         let mut cells = cells(picture);
-        let occupied = cells.len();
-        let mut boxes = vec![0..occupied];
+        let mut boxes = Vec::with_capacity(MOST);
+        boxes.push(0..cells.len());
         while boxes.len() < MOST {
             // The box that errs most is cut; the first of equals, everywhere.
             let worst = boxes

@@ -11,6 +11,7 @@
 //! | [`mod@write`] | GLB, OBJ, PLY, STL |
 //! | [`preview`], [`png_file`] | shaded pictures without a graphics card |
 //! | [`palette`] | colours of species and seasons |
+//! | [`leaf_picture`] | pictures of leaves and blossoms for cards |
 //! | [`wind`], [`rig`] | how stems sway |
 //!
 //! # Invariants
@@ -23,6 +24,7 @@ pub mod block;
 mod few_colours;
 mod foliage;
 pub mod forest;
+pub mod leaf_picture;
 pub mod lod;
 pub mod mesh;
 pub mod mesher;

@@ -37,6 +37,16 @@ pub fn write(out: &mut impl Write, pictures: &[Picture], milliseconds: u16) -> i
     Ok(writer.finish()?)
 }
 
+/// `picture` as the bytes of a PNG file.
+///
+/// # Errors
+/// If the picture is no rectangle of pixels.
+pub fn bytes(picture: &Picture) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    write(&mut bytes, std::slice::from_ref(picture), 0)?;
+    Ok(bytes)
+}
+
 /// Writes `picture` as a PNG of at most 256 colours, about a third of the size; opacity is left out.
 ///
 /// # Errors

@@ -6,7 +6,9 @@
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{obj, ply, stl};
-use pleach_mesh::{LeafStyle, Mesh, MeshError, MeshSettings, Mesher, Palette, Rig, Sink, send};
+use pleach_mesh::{
+    LeafStyle, Mesh, MeshError, MeshSettings, Mesher, Palette, Rig, Sink, leaf_picture, png_file, send,
+};
 use pleach_tree::{Species, Tree};
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -25,7 +27,7 @@ fn scene<'a>(species: &Species, tree: &Tree, levels: usize) -> Scene<'a> {
         extras: serde_json::json!({"species": species.name, "seed": 1}),
         placed: vec![Placed::at_origin(&species.name, levels)],
         rig: None,
-        card: None,
+        pictures: Vec::new(),
     }
 }
 
@@ -58,6 +60,15 @@ fn instanced(name: &str) -> Vec<u8> {
     let (species, tree) = grow(name);
     let mesher = Mesher::new(&tree, MeshSettings::default()).with_instanced_leaves();
     glb(&[mesher], &scene(&species, &tree, 1))
+}
+
+fn cards_glb(name: &str) -> Vec<u8> {
+    let (species, tree) = grow(name);
+    let settings = MeshSettings { leaves: LeafStyle::CrossedCards, ..MeshSettings::default() };
+    let plain = scene(&species, &tree, 1);
+    let pictures = leaf_picture::of(&tree, &plain.palette);
+    let pictures = pictures.iter().map(|(of, picture)| (*of, png_file::bytes(picture).unwrap())).collect();
+    glb(&[Mesher::new(&tree, settings)], &Scene { pictures, ..plain })
 }
 
 fn forest() -> Vec<u8> {
@@ -151,6 +162,38 @@ fn instances_place_every_leaf() {
 }
 
 #[test]
+fn cards_show_a_leaf_cut_out_of_a_picture() {
+    let bytes = cards_glb("apple");
+    let file = gltf::Gltf::from_slice(&bytes).unwrap();
+    let blob = file.blob.as_deref().unwrap();
+    let materials: Vec<_> = file.materials().map(|m| (m.name().unwrap_or_default(), m)).collect();
+    assert_eq!(materials.iter().map(|m| m.0).collect::<Vec<_>>(), ["bark", "leaves", "blossom"]);
+    for (name, material) in &materials[1..] {
+        assert_eq!(material.alpha_mode(), gltf::material::AlphaMode::Mask, "{name}");
+        let texture = material.pbr_metallic_roughness().base_color_texture().unwrap().texture();
+        let gltf::image::Source::View { view, .. } = texture.source().source() else { panic!("{name}") };
+        let png = &blob[view.offset()..view.offset() + view.length()];
+        let mut reader = png::Decoder::new(Cursor::new(png)).read_info().unwrap();
+        let mut rgba = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut rgba).unwrap();
+        let opaque = rgba.chunks_exact(4).filter(|p| p[3] > 102).count();
+        assert!(opaque * 5 > rgba.len() / 4 && opaque * 10 < rgba.len() / 4 * 9, "{name}: {opaque}");
+    }
+    // Two cards a leaf and one a blossom, whose corners are the picture's.
+    let (_, tree) = grow("apple");
+    for (primitive, corners) in file
+        .meshes()
+        .flat_map(|m| m.primitives())
+        .skip(1)
+        .zip([tree.leaves.len() * 8, tree.blossoms.len() * 4])
+    {
+        let uv = primitive.reader(|_| Some(blob)).read_tex_coords(0).unwrap().into_f32();
+        assert_eq!(uv.len(), corners);
+        assert!(uv.flatten().all(|c| c.abs() < 1e-5 || (c - 1.0).abs() < 1e-5));
+    }
+}
+
+#[test]
 fn the_sway_moves_every_joint_and_comes_back() {
     let bytes = rigged("acer");
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
@@ -218,7 +261,8 @@ fn the_khronos_validator_finds_no_error_and_no_warning() {
         ("instances".into(), instanced("hill_cherry")),
         ("sway".into(), rigged("acer")),
         ("forest".into(), forest()),
-        ("cards".into(), plain("palm", cards)),
+        ("cards".into(), cards_glb("apple")),
+        ("cards without pictures".into(), plain("palm", cards)),
     ];
     for name in ["quaking_aspen", "bamboo", "palm", "acer", "lombardy_poplar", "apple", "hill_cherry"] {
         files.push((name.into(), plain(name, MeshSettings::default())));
@@ -290,7 +334,7 @@ fn obj_counts_corners_from_one_and_names_its_materials() {
     assert!(text.contains("mtllib palm.mtl") && text.contains("o a_palm") && text.contains("usemtl leaves"));
     let highest = text.lines().filter(|l| l.starts_with("f ")).flat_map(|l| l.split([' ', '/']).skip(1));
     assert_eq!(highest.map(|n| n.parse::<u64>().unwrap()).max(), Some(count.vertices));
-    let materials = obj::materials(&Palette::of(&species, tree.leaf_shape, None));
+    let materials = obj::materials(&Palette::of(&species, tree.leaf_shape, None), &[]);
     assert_eq!(materials.matches("newmtl").count(), 3);
 }
 

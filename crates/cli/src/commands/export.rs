@@ -7,10 +7,11 @@ use pleach_mesh::forest;
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{obj, ply, stl};
-use pleach_mesh::{LeafStyle, MeshSettings, Mesher, Palette, Rig, send};
+use pleach_mesh::{LeafStyle, Material, MeshSettings, Mesher, Palette, Rig, leaf_picture, png_file, send};
 use pleach_tree::species::Season;
 use pleach_tree::{Species, Tree};
 use serde_json::{Map, Value, json};
+use std::io::Write;
 use std::path::Path;
 
 /// Suffixes of mesh files.
@@ -24,10 +25,12 @@ enum Leaves {
     Outline,
     /// Two triangles each
     Simple,
-    /// Two crossed cards each, for textures
+    /// Two crossed cards each, which show a picture of the leaf
     Cards,
     /// One leaf, placed many times (.glb with EXT_mesh_gpu_instancing)
     Instances,
+    /// No leaves and no blossom
+    None,
 }
 
 /// The time of the year.
@@ -112,6 +115,7 @@ impl MeshArgs {
             Leaves::Outline | Leaves::Instances => LeafStyle::Outline,
             Leaves::Simple => LeafStyle::Simple,
             Leaves::Cards => LeafStyle::CrossedCards,
+            Leaves::None => LeafStyle::None,
         };
         MeshSettings {
             tolerance: self.tolerance / 1000.0,
@@ -171,6 +175,15 @@ impl MeshArgs {
         }
     }
 
+    /// PNG files that leaves and blossom show in this style.
+    fn pictures(&self, tree: &Tree, palette: &Palette) -> anyhow::Result<Vec<(Material, Vec<u8>)>> {
+        if self.leaves != Leaves::Cards {
+            return Ok(Vec::new());
+        }
+        let png = |(material, picture)| Ok((material, png_file::bytes(&picture)?));
+        leaf_picture::of(tree, palette).into_iter().map(png).collect()
+    }
+
     fn write_glb(
         &self,
         path: &Path,
@@ -188,7 +201,7 @@ impl MeshArgs {
             extras: extras(species, json!(seed)),
             placed: vec![Placed::at_origin(&species.name, levels.len())],
             rig: rig.as_ref(),
-            card: None,
+            pictures: self.pictures(tree, &palette)?,
         };
         files::write_whole(path, |file| Ok(send(&meshers, &mut Glb::new(file, &scene))?))
     }
@@ -245,13 +258,14 @@ impl MeshArgs {
             }
         });
         let seeds: Vec<u64> = used.iter().map(|v| seed + u64::from(*v)).collect();
+        let palette = palette.context("a forest needs a tree")?;
         let scene = Scene {
             name: format!("{} forest", species.name),
-            palette: palette.context("a forest needs a tree")?,
+            palette,
             extras: extras(species, json!(seeds)),
             placed: placed.collect(),
             rig: None,
-            card: None,
+            pictures: self.pictures(&trees[0], &palette)?,
         };
         files::write_whole(path, |file| Ok(send(&meshers, &mut Glb::new(file, &scene))?))?;
         Ok(sites.len())
@@ -262,7 +276,18 @@ impl MeshArgs {
         let name = materials.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let meshers = [Mesher::new(tree, MeshSettings { wind: false, ..self.settings() })];
         files::write_whole(path, |file| Ok(send(&meshers, &mut obj::Obj::new(file, &species.name, &name))?))?;
-        files::write_text(&materials, &obj::materials(&palette))
+        let mut pictures = Vec::new();
+        for (material, png) in self.pictures(tree, &palette)? {
+            let placed = if material == Material::Blossom { &tree.blossoms } else { &tree.leaves };
+            if placed.is_empty() {
+                continue;
+            }
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            let name = format!("{stem}-{}.png", material.name());
+            files::write_whole(&path.with_file_name(&name), |file| Ok(file.write_all(&png)?))?;
+            pictures.push((material, name));
+        }
+        files::write_text(&materials, &obj::materials(&palette, &pictures))
     }
 }
 

@@ -35,16 +35,21 @@ impl<W: Write> Obj<W> {
     }
 }
 
-/// The material file that goes with an OBJ file.
+/// The material file that goes with an OBJ file; `pictures` are the names of PNG files in the same
+/// folder that materials show instead of their colour.
 #[must_use]
-pub fn materials(palette: &Palette) -> String {
+pub fn materials(palette: &Palette, pictures: &[(Material, String)]) -> String {
     let mut text = String::from("# materials of a tree\n");
     for material in Material::ALL {
-        let [r, g, b] = linear(palette.colour(material));
+        let picture = pictures.iter().find(|(of, _)| *of == material).map(|(_, name)| name);
+        let [r, g, b] = if picture.is_some() { [1.0; 3] } else { linear(palette.colour(material)) };
         text.push_str(&format!(
             "\nnewmtl {}\nKd {r:.4} {g:.4} {b:.4}\nKs 0 0 0\nNs 0\nd 1\nillum 1\n",
             material.name()
         ));
+        if let Some(name) = picture {
+            text.push_str(&format!("map_Kd {name}\nmap_d {name}\n"));
+        }
     }
     text
 }
