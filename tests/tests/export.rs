@@ -77,6 +77,42 @@ fn sway_wind_and_instances_are_in_the_file() {
     assert_eq!(glb(&dir.path("leaves.glb"))["extensionsRequired"][0], "EXT_mesh_gpu_instancing");
 }
 
+/// Every edge of the triangles of an STL file lies between two of them.
+#[test]
+fn a_welded_tree_is_watertight() {
+    let dir = Dir::new();
+    let _ = dir.run(["grow", "acer", "--leaves", "none", "--weld", "20", "-o", "print.stl"]).ok();
+    let bytes = std::fs::read(dir.path("print.stl")).unwrap();
+    let mut edges = std::collections::BTreeMap::<_, i32>::new();
+    for triangle in bytes[84..].chunks_exact(50) {
+        let corner = |k: usize| <[u8; 12]>::try_from(&triangle[12 + 12 * k..24 + 12 * k]).unwrap();
+        for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(a, b)| (corner(a), corner(b))) {
+            // There and back: a closed surface goes along each edge once each way.
+            *edges.entry((a.min(b), a.max(b))).or_default() += if a < b { 1 } else { -1 };
+        }
+    }
+    assert!(edges.len() > 10_000 && edges.values().all(|n| *n == 0));
+    dir.run(["grow", "acer", "--weld", "0.1", "-o", "x.stl"]).fails(2, &["--weld", "1 to 1000"]);
+    dir.run(["grow", "acer", "--weld", "20", "--lod", "2", "-o", "x.glb"]).fails(2, &["--weld", "--lod"]);
+}
+
+#[test]
+fn billboards_are_the_last_level() {
+    let dir = Dir::new();
+    let _ = dir.run(["grow", "acer", "--lod", "2", "--billboard", "4", "-o", "b.glb"]).ok();
+    let file = glb(&dir.path("b.glb"));
+    assert_eq!(names(&file["materials"]), ["bark", "leaves", "card"]);
+    let root = &file["nodes"][file["scenes"][0]["nodes"][0].as_u64().unwrap() as usize];
+    assert_eq!(root["extensions"]["MSFT_lod"]["ids"].as_array().unwrap().len(), 2);
+    let wood = ["grow", "acer", "--forest", "20x20", "--variants", "2", "--billboard", "2", "-o", "f.glb"];
+    let _ = dir.run(wood).ok();
+    let file = glb(&dir.path("f.glb"));
+    assert_eq!(file["meshes"].as_array().unwrap().len(), 4);
+    assert_eq!(file["images"].as_array().unwrap().len(), 1, "all trees share a picture");
+    dir.run(["grow", "acer", "-o", "b.glb", "--billboard", "9"]).fails(2, &["--billboard", "1..=8"]);
+    dir.run(["grow", "acer", "-o", "b.obj", "--billboard", "2"]).fails(1, &["billboards", ".glb"]);
+}
+
 #[test]
 fn cards_bring_pictures_of_leaves() {
     let dir = Dir::new();

@@ -7,11 +7,13 @@
 //! | [`sink`] | where blocks go: files of four formats, or memory |
 //! | [`block`] | corners and triangles |
 //! | [`lod`] | levels of detail |
+//! | [`billboard`] | the last level: cards with pictures of the tree |
 //! | [`forest`] | where many trees stand |
 //! | [`mod@write`] | GLB, OBJ, PLY, STL |
 //! | [`preview`], [`png_file`] | shaded pictures without a graphics card |
 //! | [`palette`] | colours of species and seasons |
 //! | [`leaf_picture`] | pictures of leaves and blossoms for cards |
+//! | [`weld`] | all stems as one watertight surface |
 //! | [`wind`], [`rig`] | how stems sway |
 //!
 //! # Invariants
@@ -20,6 +22,7 @@
 //! forest does, by address), nothing here reads the clock or prints, and the number of threads changes
 //! nothing. A mesher knows trees, not generators.
 
+pub mod billboard;
 pub mod block;
 mod few_colours;
 mod foliage;
@@ -35,9 +38,11 @@ pub mod rig;
 pub mod settings;
 pub mod sink;
 mod tube;
+pub mod weld;
 pub mod wind;
 pub mod write;
 
+pub use billboard::Billboards;
 pub use block::{Block, Placement, Vertex, Wind};
 pub use mesh::Mesh;
 pub use mesher::Mesher;

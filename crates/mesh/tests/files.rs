@@ -7,7 +7,8 @@ use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{obj, ply, stl};
 use pleach_mesh::{
-    LeafStyle, Mesh, MeshError, MeshSettings, Mesher, Palette, Rig, Sink, leaf_picture, png_file, send,
+    Billboards, LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Rig, Sink, leaf_picture,
+    png_file, send,
 };
 use pleach_tree::{Species, Tree};
 use std::io::{Cursor, Write};
@@ -69,6 +70,16 @@ fn cards_glb(name: &str) -> Vec<u8> {
     let pictures = leaf_picture::of(&tree, &plain.palette);
     let pictures = pictures.iter().map(|(of, picture)| (*of, png_file::bytes(picture).unwrap())).collect();
     glb(&[Mesher::new(&tree, settings)], &Scene { pictures, ..plain })
+}
+
+fn billboards_glb(name: &str, sides: u32) -> Vec<u8> {
+    let (species, tree) = grow(name);
+    let plain = scene(&species, &tree, 2);
+    let billboards = Billboards::paint(&[&tree], &plain.palette, sides);
+    let settings = MeshSettings::default();
+    let meshers = [Mesher::new(&tree, settings), Mesher::of_cards(&tree, &billboards.cards[0])];
+    let pictures = vec![(Material::Card, png_file::bytes(&billboards.picture).unwrap())];
+    glb(&meshers, &Scene { pictures, ..plain })
 }
 
 fn forest() -> Vec<u8> {
@@ -194,6 +205,17 @@ fn cards_show_a_leaf_cut_out_of_a_picture() {
 }
 
 #[test]
+fn the_last_level_is_a_picture_on_cards() {
+    let json = json_of(&billboards_glb("acer", 3));
+    let meshes = json["meshes"].as_array().unwrap();
+    assert_eq!(meshes.len(), 2);
+    let card = &meshes[1]["primitives"][0];
+    assert_eq!(json["materials"][card["material"].as_u64().unwrap() as usize]["name"], "card");
+    let corners = &json["accessors"][card["attributes"]["POSITION"].as_u64().unwrap() as usize]["count"];
+    assert_eq!(corners, 12);
+}
+
+#[test]
 fn the_sway_moves_every_joint_and_comes_back() {
     let bytes = rigged("acer");
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
@@ -262,6 +284,7 @@ fn the_khronos_validator_finds_no_error_and_no_warning() {
         ("sway".into(), rigged("acer")),
         ("forest".into(), forest()),
         ("cards".into(), cards_glb("apple")),
+        ("billboards".into(), billboards_glb("hill_cherry", 4)),
         ("cards without pictures".into(), plain("palm", cards)),
     ];
     for name in ["quaking_aspen", "bamboo", "palm", "acer", "lombardy_poplar", "apple", "hill_cherry"] {

@@ -7,12 +7,15 @@
 mod bark;
 mod camera;
 mod crown;
+mod flat;
 mod light;
 mod raster;
 mod scene;
 mod shade;
 
 use crate::palette::Palette;
+pub(crate) use flat::Frame;
+use glam::Vec3;
 use pleach_tree::Tree;
 use pleach_tree::species::Colour;
 use scene::Scene;
@@ -97,6 +100,24 @@ impl Preview {
     #[must_use]
     pub fn new(tree: &Tree, palette: &Palette, size: u32) -> Self {
         Self { scene: Scene::new(tree, palette, size) }
+    }
+
+    /// The smallest and largest coordinates of what is drawn, in metres.
+    pub(crate) fn bounds(&self) -> (Vec3, Vec3) {
+        let points = self.scene.points.iter().copied();
+        let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let (low, high) = points.fold(start, |(low, high), p| (low.min(p), high.max(p)));
+        if low.is_finite() { (low, high) } else { (Vec3::ZERO, Vec3::ZERO) }
+    }
+
+    /// How far the tree reaches from the vertical axis along `right` or against it, in metres.
+    pub(crate) fn reach(&self, right: Vec3) -> f32 {
+        self.scene.points.iter().map(|p| p.dot(right).abs()).fold(0.0, f32::max)
+    }
+
+    /// Takes a picture from afar, in even light.
+    pub(crate) fn flat(&self, frame: &Frame) -> Picture {
+        flat::picture(&self.scene, frame)
     }
 
     /// Takes a picture.
