@@ -1,6 +1,7 @@
 //! Meshes from `pleach grow`, as a user makes them.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
 use pleach_tests::Dir;
 use std::path::Path;
@@ -33,7 +34,7 @@ fn a_glb_has_levels_materials_and_the_recipe() {
 #[test]
 fn the_same_command_writes_the_same_bytes() {
     let dir = Dir::new();
-    for suffix in ["glb", "obj", "ply", "stl"] {
+    for suffix in ["glb", "obj", "ply", "stl", "usda"] {
         let [one, two] = ["1", "2"].map(|threads| {
             let name = format!("{threads}.{suffix}");
             let _ = dir.run(["--threads", threads, "grow", "acer", "-o", &name]).ok();
@@ -114,6 +115,23 @@ fn billboards_are_the_last_level() {
 }
 
 #[test]
+fn a_usda_places_leaves_and_names_its_pictures() {
+    let dir = Dir::new();
+    let _ = dir.run(["grow", "palm", "--seed", "2", "--leaves", "cards", "-o", "a palm.usda"]).ok();
+    let text = std::fs::read_to_string(dir.path("a palm.usda")).unwrap();
+    assert!(text.starts_with("#usda 1.0\n"));
+    for words in
+        ["string seed = \"2\"", "upAxis = \"Z\"", "@./a palm-leaves.png@", "def PointInstancer \"leaves\""]
+    {
+        assert!(text.contains(words), "{words}");
+    }
+    let leaves = dir.run(["grow", "palm", "--seed", "2", "--stats-only", "--json"]).json()["leaves"].clone();
+    let places = text.lines().find(|l| l.contains("protoIndices")).unwrap().matches('0').count();
+    assert_eq!(leaves, places);
+    assert!(dir.path("a palm-leaves.png").exists());
+}
+
+#[test]
 fn cards_bring_pictures_of_leaves() {
     let dir = Dir::new();
     let _ = dir.run(["grow", "acer", "--leaves", "cards", "-o", "cards.glb"]).ok();
@@ -150,10 +168,60 @@ fn colours_come_from_the_species_file() {
     dir.run(["grow", "wrong.toml", "-o", "x.glb"]).fails(1, &["wrong.toml:", "appearance.leaf", "#rrggbb"]);
 }
 
+/// What Blender imports: skipped, and told so, where there is no Blender.
+#[test]
+fn blender_opens_what_was_written() {
+    let blender = |args: &[&str]| std::process::Command::new("blender").args(args).output();
+    if !blender(&["--version"]).is_ok_and(|run| run.status.success()) {
+        eprintln!("skipped: needs `blender` on the path (Debian: apt-get install blender)");
+        return;
+    }
+    let dir = Dir::new();
+    let _ = dir.run(["grow", "acer", "--seed", "1", "-o", "acer.glb"]).ok();
+    let script = pleach_tests::root().join("experiments/export/blender.py");
+    let [script, table, file] =
+        [script, dir.path("b.csv"), dir.path("acer.glb")].map(|p| p.display().to_string());
+    let head = ["--background", "--factory-startup", "--python-exit-code", "1", "--python", &script];
+    let run = blender(&[&head[..], &["--", "--csv", &table, &file]].concat()).unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let committed = pleach_tests::root().join("experiments/export/blender.csv");
+    let row = |path: &Path| {
+        let text = std::fs::read_to_string(path).unwrap();
+        let row = text.lines().find(|l| l.starts_with("acer,")).unwrap().to_owned();
+        // The last column is a time.
+        row.rsplit_once(',').unwrap().0.to_owned()
+    };
+    assert_eq!(row(&dir.path("b.csv")), row(&committed));
+}
+
+/// Sizes of `experiments/export` again, for two small species.
+#[test]
+fn files_are_as_large_as_measured() {
+    let results = pleach_tests::root().join("experiments/export/results.csv");
+    let results = std::fs::read_to_string(results).unwrap();
+    let dir = Dir::new();
+    for name in ["acer", "palm"] {
+        let _ = dir.run(["grow", name, "--seed", "1", "-o", "tree.glb"]).ok();
+        let file = glb(&dir.path("tree.glb"));
+        let (mut corners, mut triangles) = (0, 0);
+        for primitive in file["meshes"][0]["primitives"].as_array().unwrap() {
+            let count = |accessor: &serde_json::Value| {
+                file["accessors"][accessor.as_u64().unwrap() as usize]["count"].as_u64().unwrap()
+            };
+            corners += count(&primitive["attributes"]["POSITION"]);
+            triangles += count(&primitive["indices"]) / 3;
+        }
+        let bytes = std::fs::metadata(dir.path("tree.glb")).unwrap().len();
+        let row = format!("{name},1,{corners},{triangles},{bytes},");
+        assert!(results.lines().any(|l| l.starts_with(&row)), "{row} is not in the results");
+    }
+}
+
 #[test]
 fn what_cannot_be_written_says_what_can() {
     let dir = Dir::new();
-    dir.run(["grow", "acer", "-o", "tree.fbx"]).fails(1, &["`.fbx`", ".glb", ".obj", ".ply", ".stl", ".png"]);
+    dir.run(["grow", "acer", "-o", "tree.fbx"])
+        .fails(1, &["`.fbx`", ".glb", ".obj", ".ply", ".stl", ".usda", ".png"]);
     for level in ["0", "99"] {
         dir.run(["grow", "acer", "-o", "tree.glb", "--lod", level]).fails(2, &["--lod", "1..=6"]);
     }

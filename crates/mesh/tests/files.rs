@@ -5,7 +5,7 @@
 
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
-use pleach_mesh::write::{obj, ply, stl};
+use pleach_mesh::write::{obj, ply, stl, usda};
 use pleach_mesh::{
     Billboards, LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Rig, Sink, leaf_picture,
     png_file, send,
@@ -359,6 +359,33 @@ fn obj_counts_corners_from_one_and_names_its_materials() {
     assert_eq!(highest.map(|n| n.parse::<u64>().unwrap()).max(), Some(count.vertices));
     let materials = obj::materials(&Palette::of(&species, tree.leaf_shape, None), &[]);
     assert_eq!(materials.matches("newmtl").count(), 3);
+}
+
+/// Every array has as many items as the numbers of corners, triangles and leaves ask for.
+#[test]
+fn usda_arrays_have_their_lengths() {
+    let (species, tree) = grow("hill_cherry");
+    let mesher = Mesher::new(&tree, MeshSettings::default()).with_instanced_leaves();
+    let parts = mesher.parts(0);
+    let notes = usda::Notes { name: "1 hill cherry".into(), ..usda::Notes::default() };
+    let palette = Palette::of(&species, tree.leaf_shape, None);
+    let mut bytes = Vec::new();
+    send(&[mesher], &mut usda::Usda::new(&mut bytes, &notes, palette)).unwrap();
+    let text = String::from_utf8(bytes).unwrap();
+    assert!(text.contains("defaultPrim = \"_1_hill_cherry\""));
+    let depth = text.chars().fold(0, |d, c| d + i32::from("{([".contains(c)) - i32::from("})]".contains(c)));
+    assert_eq!(depth, 0, "brackets close");
+    let lengths = |name: &str| -> Vec<u64> {
+        let rows = text.lines().filter(|l| l.trim_start().starts_with(name));
+        rows.map(|l| l.matches(", ").count() as u64 + 1).collect()
+    };
+    let corners: Vec<u64> = parts.iter().map(|p| 3 * p.count.vertices).collect();
+    assert_eq!(lengths("point3f[] points"), corners);
+    assert_eq!(lengths("normal3f[] normals"), corners);
+    let triangles: Vec<u64> = parts.iter().map(|p| p.count.triangles).collect();
+    assert_eq!(lengths("int[] faceVertexCounts"), triangles);
+    assert_eq!(lengths("int[] faceVertexIndices"), triangles.iter().map(|t| 3 * t).collect::<Vec<_>>());
+    assert_eq!(lengths("quath[] orientations"), [4 * parts[1].instances]);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use anyhow::{Context, bail};
 use clap::ValueEnum;
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
-use pleach_mesh::write::{obj, ply, stl};
+use pleach_mesh::write::{obj, ply, stl, usda};
 use pleach_mesh::{
     Billboards, Block, LeafStyle, Material, MeshSettings, Mesher, Palette, Rig, leaf_picture, png_file, send,
     weld,
@@ -18,7 +18,7 @@ use std::io::Write;
 use std::path::Path;
 
 /// Suffixes of mesh files.
-pub(crate) const SUFFIXES: [&str; 4] = ["glb", "obj", "ply", "stl"];
+pub(crate) const SUFFIXES: [&str; 5] = ["glb", "obj", "ply", "stl", "usda"];
 
 /// How leaves are put into a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -30,7 +30,7 @@ enum Leaves {
     Simple,
     /// Two crossed cards each, which show a picture of the leaf
     Cards,
-    /// One leaf, placed many times (.glb with EXT_mesh_gpu_instancing)
+    /// One leaf, placed many times (.glb with EXT_mesh_gpu_instancing, and always in .usda)
     Instances,
     /// No leaves and no blossom
     None,
@@ -56,9 +56,9 @@ impl From<SeasonArg> for Season {
     }
 }
 
-/// Options of .glb, .obj, .ply and .stl files.
+/// Options of .glb, .obj, .ply, .stl and .usda files.
 #[derive(Clone, Debug, clap::Args)]
-#[command(next_help_heading = "Meshes (.glb, .obj, .ply, .stl)")]
+#[command(next_help_heading = "Meshes (.glb, .obj, .ply, .stl, .usda)")]
 pub(crate) struct MeshArgs {
     /// Levels of detail in a .glb, the finest included
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(lod::MOST_LEVELS)))]
@@ -143,10 +143,10 @@ impl MeshArgs {
     }
 
     /// What only a .glb can hold, if it was asked for.
-    fn glb_only(&self) -> Option<&'static str> {
+    fn glb_only(&self, suffix: &str) -> Option<&'static str> {
         let asked = [
             (self.lod > 1, "levels of detail (--lod)"),
-            (self.leaves == Leaves::Instances, "instances (--leaves instances)"),
+            (self.leaves == Leaves::Instances && suffix != "usda", "instances (--leaves instances)"),
             (self.billboard.is_some(), "billboards (--billboard)"),
             (self.sway, "an animation (--sway)"),
             (self.forest.is_some(), "a forest (--forest)"),
@@ -156,7 +156,7 @@ impl MeshArgs {
 
     /// Whether `suffix` can hold what was asked for.
     pub(crate) fn check(&self, suffix: &str) -> anyhow::Result<()> {
-        match self.glb_only() {
+        match self.glb_only(suffix) {
             Some(what) if suffix != "glb" => bail!("{what} needs a .glb file, not .{suffix}"),
             _ => Ok(()),
         }
@@ -192,6 +192,7 @@ impl MeshArgs {
                 let meshers = [self.plain(tree, settings, bark.as_ref())];
                 files::write_whole(path, |file| Ok(send(&meshers, &mut stl::Stl::new(file))?))
             }
+            "usda" => self.write_usda(path, species, seed, tree, palette),
             other => bail!("`.{other}` is no mesh file, known are .{}", SUFFIXES.join(", .")),
         }
     }
@@ -333,8 +334,43 @@ impl MeshArgs {
         let settings = MeshSettings { wind: false, ..self.settings() };
         let meshers = [self.plain(tree, settings, bark.as_ref())];
         files::write_whole(path, |file| Ok(send(&meshers, &mut obj::Obj::new(file, &species.name, &name))?))?;
+        let pictures = self.pictures_beside(path, tree, &palette)?;
+        files::write_text(&materials, &obj::materials(&palette, &pictures))
+    }
+
+    fn write_usda(
+        &self,
+        path: &Path,
+        species: &Species,
+        seed: u64,
+        tree: &Tree,
+        palette: Palette,
+    ) -> anyhow::Result<()> {
+        let bark = self.welded(tree)?;
+        let settings = MeshSettings { wind: false, ..self.settings() };
+        let meshers = [self.plain(tree, settings, bark.as_ref()).with_instanced_leaves()];
+        let about = [
+            ("generator", species.generator.family().to_string()),
+            ("seed", seed.to_string()),
+            ("species", species.name.clone()),
+        ];
+        let notes = usda::Notes {
+            name: species.name.clone(),
+            about: about.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+            pictures: self.pictures_beside(path, tree, &palette)?,
+        };
+        files::write_whole(path, |file| Ok(send(&meshers, &mut usda::Usda::new(file, &notes, palette))?))
+    }
+
+    /// Writes the pictures of leaves and blossom beside `path`, and says their names.
+    fn pictures_beside(
+        &self,
+        path: &Path,
+        tree: &Tree,
+        palette: &Palette,
+    ) -> anyhow::Result<Vec<(Material, String)>> {
         let mut pictures = Vec::new();
-        for (material, png) in self.pictures(tree, &palette, None)? {
+        for (material, png) in self.pictures(tree, palette, None)? {
             let placed = if material == Material::Blossom { &tree.blossoms } else { &tree.leaves };
             if placed.is_empty() {
                 continue;
@@ -344,7 +380,7 @@ impl MeshArgs {
             files::write_whole(&path.with_file_name(&name), |file| Ok(file.write_all(&png)?))?;
             pictures.push((material, name));
         }
-        files::write_text(&materials, &obj::materials(&palette, &pictures))
+        Ok(pictures)
     }
 }
 

@@ -11,7 +11,7 @@ const BAND: f64 = 2.0;
 /// Most grid points along a side: a place is three such numbers in 64 bits.
 pub(super) const MOST_ALONG: i32 = 1 << 20;
 /// Most grid points near the surface.
-const MOST_POINTS: usize = 40_000_000;
+const MOST_POINTS: usize = 16_000_000;
 
 /// Grid points near the surface in order of their places, and how far each is from it.
 #[derive(Debug)]
