@@ -4,12 +4,12 @@
 //! | --- | --- |
 //! | [`settings`] | how fine a mesh should be |
 //! | [`mesher`] | from a [`pleach_tree::Tree`] to blocks of triangles, sizes known beforehand |
-//! | [`sink`] | where blocks go: files of four formats, or memory |
+//! | [`sink`] | where blocks go: files of five formats, or memory |
 //! | [`block`] | corners and triangles |
 //! | [`lod`] | levels of detail |
 //! | [`billboard`] | the last level: cards with pictures of the tree |
 //! | [`forest`] | where many trees stand |
-//! | [`mod@write`] | GLB, OBJ, PLY, STL |
+//! | [`mod@write`] | GLB, OBJ, PLY, STL, USDA |
 //! | [`preview`], [`png_file`] | shaded pictures without a graphics card |
 //! | [`palette`] | colours of species and seasons |
 //! | [`leaf_picture`] | pictures of leaves and blossoms for cards |

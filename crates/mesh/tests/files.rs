@@ -300,6 +300,32 @@ fn the_khronos_validator_finds_no_error_and_no_warning() {
 }
 
 #[test]
+fn the_usd_library_finds_nothing_wrong() {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/support/usd.py");
+    let python = |arguments: &[&str]| Command::new("python3").args(arguments).output();
+    if !python(&["-c", "from pxr import UsdValidation"]).is_ok_and(|run| run.status.success()) {
+        eprintln!("skipped: needs python3 and `pip install usd-core`");
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    for (name, leaves) in [("acer", LeafStyle::Outline), ("apple", LeafStyle::CrossedCards)] {
+        let (species, tree) = grow(name);
+        let palette = Palette::of(&species, tree.leaf_shape, None);
+        let mesher = Mesher::new(&tree, MeshSettings { leaves, ..MeshSettings::default() });
+        let mesher = if name == "acer" { mesher } else { mesher.with_instanced_leaves() };
+        let count = mesher.count();
+        let notes = usda::Notes { name: name.into(), ..usda::Notes::default() };
+        let path = dir.path().join(format!("{name}.usda"));
+        send(&[mesher], &mut usda::Usda::new(std::fs::File::create(&path).unwrap(), &notes, palette))
+            .unwrap();
+        let run = python(&[script.to_str().unwrap(), path.to_str().unwrap()]).unwrap();
+        let said = String::from_utf8_lossy(&run.stdout);
+        assert!(run.status.success(), "{said}{}", String::from_utf8_lossy(&run.stderr));
+        assert_eq!(said.trim(), format!("{} {}", count.vertices, count.triangles));
+    }
+}
+
+#[test]
 fn stl_holds_every_triangle_with_its_normal() {
     let (_, tree) = grow("acer");
     let mesher = Mesher::new(&tree, MeshSettings::default());
