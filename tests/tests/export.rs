@@ -157,6 +157,23 @@ fn a_tree_without_leaves_has_one_material() {
 }
 
 #[test]
+fn species_without_leaves_fit_every_format_and_style() {
+    let dir = Dir::new();
+    let _ = dir.file("leafless.toml", "levels = 2\nleaf_blos_num = 0");
+    for suffix in ["obj", "ply", "stl", "usda"] {
+        let name = format!("tree.{suffix}");
+        let _ = dir.run(["grow", "leafless.toml", "-o", &name]).ok();
+        assert!(std::fs::metadata(dir.path(&name)).unwrap().len() > 1000, "{suffix}");
+    }
+    for style in ["outline", "simple", "cards", "instances", "none"] {
+        let levels = ["grow", "leafless.toml", "--leaves", style, "--lod", "6", "--billboard", "1"];
+        let _ = dir.run([&levels[..], &["--season", "winter", "-o", "t.glb"]].concat()).ok();
+        assert_eq!(names(&glb(&dir.path("t.glb"))["materials"]), ["bark", "card"], "{style}");
+    }
+    let _ = dir.run(["render", "leafless.toml", "--size", "32", "-o", "tree.png"]).ok();
+}
+
+#[test]
 fn colours_come_from_the_species_file() {
     let dir = Dir::new();
     let species = std::fs::read_to_string(pleach_tests::root().join("species/weber-penn/palm.toml")).unwrap();
@@ -225,6 +242,12 @@ fn what_cannot_be_written_says_what_can() {
     for level in ["0", "99"] {
         dir.run(["grow", "acer", "-o", "tree.glb", "--lod", level]).fails(2, &["--lod", "1..=6"]);
     }
+    dir.run(["grow", "acer", "-o", "tree.glb", "--billboard", "0"]).fails(2, &["--billboard", "1..=8"]);
+    dir.run(["grow", "acer", "-o", "tree.glb", "--leaves", "some"]).fails(2, &["outline", "cards", "none"]);
+    dir.run(["grow", "acer", "-o", "tree.usda", "--lod", "2"]).fails(1, &["levels of detail", ".glb"]);
+    dir.run(["grow", "acer", "-o", "tree.usda", "--sway"]).fails(1, &["animation", ".glb"]);
+    dir.run(["grow", "weeping_willow", "--weld", "1", "-o", "tree.stl"]).fails(1, &["too fine", "larger"]);
+    assert!(!dir.path("tree.stl").exists());
     dir.run(["grow", "acer", "-o", "tree.obj", "--lod", "2"]).fails(1, &["levels of detail", ".glb"]);
     dir.run(["grow", "acer", "-o", "tree.ply", "--forest", "9x9"]).fails(1, &["forest", ".glb"]);
     dir.run(["grow", "acer", "-o", "tree.glb", "--forest", "big"]).fails(2, &["40x30m"]);
@@ -235,6 +258,36 @@ fn what_cannot_be_written_says_what_can() {
     dir.run(["grow", "acer", "-o", "folder.glb"]).fails(1, &["folder.glb", "is a folder"]);
     assert_eq!(std::fs::read_dir(dir.path("folder.glb")).unwrap().count(), 0);
     dir.run(["grow", "acer", "-o", "no/such/tree.glb"]).fails(1, &["no/such/tree.glb"]);
+}
+
+/// A limit on the size of files stands for a full disk.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_is_told_of_by_every_format() {
+    for suffix in ["glb", "obj", "ply", "stl", "usda"] {
+        let dir = Dir::new();
+        let name = format!("tree.{suffix}");
+        let script = "trap '' XFSZ; ulimit -f 200; exec \"$0\" grow acer -o \"$1\"";
+        let mut shell = std::process::Command::new("sh");
+        shell.current_dir(dir.path(".")).args(["-c", script]).arg(pleach_tests::program()).arg(&name);
+        let output = shell.output().unwrap();
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{suffix}: {message}");
+        assert!(message.contains(&format!("cannot write {name}")), "{suffix}: {message}");
+        assert!(!message.contains("panicked"), "{message}");
+        assert_eq!(std::fs::read_dir(dir.path(".")).unwrap().count(), 0, "{suffix}: no half file is left");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_device_is_told_of() {
+    let dir = Dir::new();
+    let full = || std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = dir.command(["grow", "acer", "--stats-only"]).stdout(full()).output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("error:") && !message.contains("panicked"), "{message}");
 }
 
 /// A limit on the size of files stands for a full disk.

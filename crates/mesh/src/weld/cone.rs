@@ -36,6 +36,13 @@ impl Cone {
         if self.foot { round.max(-ahead) } else { round }
     }
 
+    /// About how many cubic metres lie nearer to the surface than `margin` metres.
+    pub(super) fn volume_around(&self, margin: f64) -> f64 {
+        let radius = (self.radii[0] + self.radii[1]) / 2.0;
+        let ring = (radius + margin).powi(2) - (radius - margin).max(0.0).powi(2);
+        std::f64::consts::PI * ring * self.from.distance(self.to)
+    }
+
     /// Smallest and largest coordinates of what is nearer than `margin` metres.
     pub(super) fn bounds(&self, margin: f64) -> (DVec3, DVec3) {
         let reach = DVec3::splat(self.radii[0].max(self.radii[1]) + margin);

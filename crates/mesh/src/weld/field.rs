@@ -10,8 +10,8 @@ use rayon::prelude::*;
 const BAND: f64 = 2.0;
 /// Most grid points along a side: a place is three such numbers in 64 bits.
 pub(super) const MOST_ALONG: i32 = 1 << 20;
-/// Most grid points near the surface.
-const MOST_POINTS: usize = 16_000_000;
+/// Most grid points near the surface, those of pieces that overlap counted twice.
+const MOST_POINTS: usize = 12_000_000;
 
 /// Grid points near the surface in order of their places, and how far each is from it.
 #[derive(Debug)]
@@ -43,15 +43,18 @@ impl Field {
         if along.is_nan() || along >= f64::from(MOST_ALONG) {
             return Err(WeldError::TooFine { cell });
         }
+        // Told before the work, not after: a grid too fine would take minutes to overflow.
+        if cones.iter().map(|cone| cone.volume_around(BAND * cell)).sum::<f64>() / cell.powi(3)
+            > MOST_POINTS as f64
+        {
+            return Err(WeldError::TooFine { cell });
+        }
         let mut field = Self { origin, cell, places: Vec::new(), distances: Vec::new() };
         for cones in cones.chunks(16_384) {
             let mut near: Vec<Vec<u64>> = cones.par_iter().map(|cone| field.near(cone)).collect();
             near.iter_mut().for_each(|near| field.places.append(near));
             field.places.par_sort_unstable();
             field.places.dedup();
-            if field.places.len() > MOST_POINTS {
-                return Err(WeldError::TooFine { cell });
-            }
         }
         field.distances = vec![f32::INFINITY; field.places.len()];
         // Points deep inside one stem may be near the surface of another, so each stem is asked about

@@ -62,7 +62,7 @@ pub fn surface(tree: &Tree, cell: f64) -> Result<Block, WeldError> {
 }
 
 /// More pieces of stems are not welded.
-const MOST_PIECES: usize = 4_000_000;
+const MOST_PIECES: usize = 2_000_000;
 
 /// The stems in short pieces.
 fn cones(tree: &Tree, cell: f64) -> Result<Vec<Cone>, WeldError> {
