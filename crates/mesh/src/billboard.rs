@@ -53,7 +53,7 @@ impl Billboards {
         for (row, views) in (0..).zip(painted) {
             let place = |column: u32, mut card: Card, view: &Picture, whole: &mut Picture| {
                 let (x, y) = (column * widest, row * HEIGHT);
-                paste(whole, view, x, y);
+                whole.paste(view, x, y);
                 let part = |at: u32, of: u32| at as f32 / of as f32;
                 card.uv =
                     [part(x, width), part(y, height), part(x + view.width, width), part(y + HEIGHT, height)];
@@ -90,14 +90,6 @@ fn paint(tree: &Tree, palette: &Palette, sides: u32) -> Vec<(Card, Picture)> {
             (Card { corners, uv: [0.0, 0.0, 1.0, 1.0] }, preview.flat(&frame))
         })
         .collect()
-}
-
-fn paste(whole: &mut Picture, view: &Picture, x: u32, y: u32) {
-    let row = view.width as usize * 4;
-    for (i, pixels) in view.rgba.chunks_exact(row).enumerate() {
-        let start = ((y as usize + i) * whole.width as usize + x as usize) * 4;
-        whole.rgba[start..start + row].copy_from_slice(pixels);
-    }
 }
 
 /// Gives transparent pixels the mean colour of the others: filters mix it into the edges.

@@ -49,7 +49,7 @@ pub(super) fn sheet(
     let page = image::load_from_memory(&png)?.into_rgba8();
     let mut sheet = Picture { width: page.width(), height: page.height(), rgba: page.into_raw() };
     for (x, y, picture) in &pictures {
-        paste(&mut sheet, picture, *x, *y);
+        sheet.paste(picture, *x, *y);
     }
     Ok(sheet)
 }
@@ -65,12 +65,4 @@ fn caption(page: &mut Scene, name: &str, height: f64, at: (f64, f64), size: f64)
     title[..1].make_ascii_uppercase();
     line(title, 0.075, em, INK);
     line(height, 0.145, em * 0.8, GREY);
-}
-
-fn paste(sheet: &mut Picture, picture: &Picture, x: u32, y: u32) {
-    let (from, to) = (picture.width as usize * 4, sheet.width as usize * 4);
-    for (row, pixels) in picture.rgba.chunks_exact(from).enumerate() {
-        let start = (y as usize + row) * to + x as usize * 4;
-        sheet.rgba[start..start + from].copy_from_slice(pixels);
-    }
 }

@@ -89,6 +89,21 @@ pub struct Picture {
     pub rgba: Vec<u8>,
 }
 
+impl Picture {
+    /// Copies `other` with its upper left corner at (`x`, `y`); what reaches over the edge is left out.
+    pub fn paste(&mut self, other: &Self, x: u32, y: u32) {
+        let width = other.width.min(self.width.saturating_sub(x)) as usize * 4;
+        let rows = other.height.min(self.height.saturating_sub(y)) as usize;
+        if width == 0 {
+            return;
+        }
+        for (row, pixels) in other.rgba.chunks_exact(other.width as usize * 4).enumerate().take(rows) {
+            let start = ((y as usize + row) * self.width as usize + x as usize) * 4;
+            self.rgba[start..start + width].copy_from_slice(&pixels[..width]);
+        }
+    }
+}
+
 /// A tree ready to be looked at from many sides.
 #[derive(Debug)]
 pub struct Preview {
