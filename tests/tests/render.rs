@@ -57,6 +57,20 @@ fn seasons_change_the_picture() {
 }
 
 #[test]
+fn the_gallery_is_one_sheet_of_fifteen_species_twice() {
+    let dir = Dir::new();
+    let _ = dir.run(["render", "--gallery", "--size", "24", "-o", "sheet.png"]).ok();
+    let sheet = open(&dir.path("sheet.png")).into_rgb8();
+    // Three species a row, two pictures each, a sixth of a picture around them.
+    assert_eq!(sheet.width(), 3 * (2 * 24 + 4) + 4);
+    for (row, column) in (0..5).flat_map(|r| (0..6).map(move |c| (r, c))) {
+        let (x, y) = (4 + column / 2 * 52 + column % 2 * 24, 2 + row * 30);
+        let ink = (0..24 * 24).filter(|i| sheet.get_pixel(x + i % 24, y + i / 24)[1] < 230).count();
+        assert!(ink > 12, "picture {column} of row {row}: {ink} dark pixels");
+    }
+}
+
+#[test]
 fn what_cannot_be_drawn_says_what_can() {
     let dir = Dir::new();
     dir.run(["render", "acer", "-o", "a.jpg"]).fails(1, &["`.jpg`", ".png"]);
@@ -66,4 +80,7 @@ fn what_cannot_be_drawn_says_what_can() {
     dir.run(["render", "acer", "--size", "1000000"]).fails(2, &["4096"]);
     dir.run(["render", "acorn"]).fails(1, &["acorn"]);
     dir.run(["render", "all", "-o", "one.png"]).fails(1, &["folder"]);
+    dir.run(["render"]).fails(2, &["SPECIES"]);
+    dir.run(["render", "acer", "--gallery"]).fails(2, &["--gallery"]);
+    dir.run(["render", "--gallery", "-o", "sheet.jpg"]).fails(1, &["`.jpg`", ".png"]);
 }

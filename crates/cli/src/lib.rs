@@ -14,6 +14,7 @@
 pub use pleach_blend as blend;
 pub use pleach_fit as fit;
 pub use pleach_generators as generators;
+pub use pleach_mesh as mesh;
 pub use pleach_silhouette as silhouette;
 pub use pleach_tree as tree;
 pub use pleach_weber_penn as weber_penn;

@@ -21,7 +21,7 @@ fn meshes(criterion: &mut Criterion) {
             extras: serde_json::Value::Null,
             placed: vec![Placed::at_origin(name, 1)],
             rig: None,
-            card: None,
+            pictures: Vec::new(),
         };
         let mesher = || Mesher::new(&tree, MeshSettings::default());
         group.bench_function(format!("measure/{name}"), |b| b.iter(|| black_box(mesher().count())));

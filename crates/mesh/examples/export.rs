@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         extras: serde_json::json!({"species": species.name, "seed": seed}),
         placed: vec![Placed::at_origin(&species.name, 1)],
         rig: rig.as_ref(),
-        card: None,
+        pictures: Vec::new(),
     };
     let file = BufWriter::new(std::fs::File::create(path)?);
     send(&[mesher], &mut Glb::new(file, &scene))?;

@@ -4,13 +4,16 @@
 //! | --- | --- |
 //! | [`settings`] | how fine a mesh should be |
 //! | [`mesher`] | from a [`pleach_tree::Tree`] to blocks of triangles, sizes known beforehand |
-//! | [`sink`] | where blocks go: files of four formats, or memory |
+//! | [`sink`] | where blocks go: files of five formats, or memory |
 //! | [`block`] | corners and triangles |
 //! | [`lod`] | levels of detail |
+//! | [`billboard`] | the last level: cards with pictures of the tree |
 //! | [`forest`] | where many trees stand |
-//! | [`mod@write`] | GLB, OBJ, PLY, STL |
+//! | [`mod@write`] | GLB, OBJ, PLY, STL, USDA |
 //! | [`preview`], [`png_file`] | shaded pictures without a graphics card |
 //! | [`palette`] | colours of species and seasons |
+//! | [`leaf_picture`] | pictures of leaves and blossoms for cards |
+//! | [`weld`] | all stems as one watertight surface |
 //! | [`wind`], [`rig`] | how stems sway |
 //!
 //! # Invariants
@@ -19,9 +22,12 @@
 //! forest does, by address), nothing here reads the clock or prints, and the number of threads changes
 //! nothing. A mesher knows trees, not generators.
 
+pub mod billboard;
 pub mod block;
+mod few_colours;
 mod foliage;
 pub mod forest;
+pub mod leaf_picture;
 pub mod lod;
 pub mod mesh;
 pub mod mesher;
@@ -32,9 +38,11 @@ pub mod rig;
 pub mod settings;
 pub mod sink;
 mod tube;
+pub mod weld;
 pub mod wind;
 pub mod write;
 
+pub use billboard::Billboards;
 pub use block::{Block, Placement, Vertex, Wind};
 pub use mesh::Mesh;
 pub use mesher::Mesher;

@@ -1,5 +1,6 @@
 //! From a tree to blocks of triangles: sizes first, then any run of stems or leaves.
 
+use crate::billboard::{self, Card};
 use crate::block::Block;
 use crate::foliage::UnitMesh;
 use crate::rig::Rig;
@@ -28,6 +29,8 @@ pub struct Mesher<'a> {
     bark: Count,
     blocks: Vec<Range<usize>>,
     instanced: bool,
+    cards: Option<&'a [Card]>,
+    welded: Option<&'a Block>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -78,6 +81,37 @@ impl<'a> Mesher<'a> {
             bark,
             blocks,
             instanced: false,
+            cards: None,
+            welded: None,
+        }
+    }
+
+    /// Sends `bark`, from [`crate::weld::surface`] of the same tree, instead of a tube a stem. It has
+    /// neither wind data nor joints.
+    #[must_use]
+    pub fn with_welded_bark(mut self, bark: &'a Block) -> Self {
+        self.bark = Count { vertices: bark.vertices.len() as u64, triangles: bark.triangles.len() as u64 };
+        self.welded = Some(bark);
+        self
+    }
+
+    /// Sends `cards` that show pictures of `tree` instead of the tree itself.
+    #[must_use]
+    pub fn of_cards(tree: &'a Tree, cards: &'a [Card]) -> Self {
+        let settings = MeshSettings::default();
+        Self {
+            tree,
+            settings,
+            rig: None,
+            tubes: Tubes::new(settings),
+            leaf: UnitMesh::default(),
+            blossom: UnitMesh::default(),
+            stems: Vec::new(),
+            bark: Count::default(),
+            blocks: Vec::new(),
+            instanced: false,
+            cards: Some(cards),
+            welded: None,
         }
     }
 
@@ -98,20 +132,27 @@ impl<'a> Mesher<'a> {
     /// Its parts that are not empty, as mesh number `mesh`.
     #[must_use]
     pub fn parts(&self, mesh: usize) -> Vec<Part> {
+        if let Some(cards) = self.cards {
+            let count = billboard::count(cards);
+            let plain =
+                Part { mesh, material: Material::Card, count, instances: 0, wind: false, rigged: false };
+            return if cards.is_empty() { Vec::new() } else { vec![plain] };
+        }
         let part = |material| {
             let (count, placed) = match self.placed(material) {
                 None => (self.bark, 1),
                 Some((leaves, shape)) => (shape.count(), leaves.len() as u64),
             };
             let instanced = self.instanced && material != Material::Bark;
+            let welded = self.welded.is_some() && material == Material::Bark;
             let times = if instanced { placed.min(1) } else { placed };
             Part {
                 mesh,
                 material,
                 count: Count { vertices: count.vertices * times, triangles: count.triangles * times },
                 instances: if instanced { placed } else { 0 },
-                wind: self.settings.wind && !instanced,
-                rigged: self.rig.is_some() && !instanced,
+                wind: self.settings.wind && !instanced && !welded,
+                rigged: self.rig.is_some() && !instanced && !welded,
             }
         };
         Material::ALL.into_iter().map(part).filter(|p| p.count.triangles > 0).collect()
@@ -140,6 +181,12 @@ impl<'a> Mesher<'a> {
 
     /// The stems or leaves of each block of a part.
     pub(crate) fn ranges(&self, material: Material) -> Vec<Range<usize>> {
+        if let Some(cards) = self.cards {
+            return std::iter::once(0..cards.len()).collect();
+        }
+        if self.welded.is_some() && material == Material::Bark {
+            return std::iter::once(0..1).collect();
+        }
         let Some((leaves, shape)) = self.placed(material) else { return self.blocks.clone() };
         let size = (BLOCK_VERTICES / shape.count().vertices.max(1)).max(1) as usize;
         (0..leaves.len()).step_by(size).map(|i| i..(i + size).min(leaves.len())).collect()
@@ -147,6 +194,14 @@ impl<'a> Mesher<'a> {
 
     /// Appends the stems or leaves of `range` to `block`.
     pub(crate) fn fill(&self, material: Material, range: Range<usize>, block: &mut Block) {
+        if let Some(cards) = self.cards {
+            return billboard::push(&cards[range], block);
+        }
+        if let (Some(bark), Material::Bark) = (self.welded, material) {
+            block.vertices.extend_from_slice(&bark.vertices);
+            block.triangles.extend_from_slice(&bark.triangles);
+            return;
+        }
         let Some((leaves, shape)) = self.placed(material) else {
             return self.fill_stems(range, block);
         };

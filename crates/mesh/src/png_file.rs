@@ -1,5 +1,6 @@
 //! Pictures as PNG files, one or many in a row.
 
+use crate::few_colours::FewColours;
 use crate::preview::Picture;
 use std::io::{self, Write};
 
@@ -33,5 +34,34 @@ pub fn write(out: &mut impl Write, pictures: &[Picture], milliseconds: u16) -> i
             writer.write_image_data(&picture.rgba)?;
         }
     }
+    Ok(writer.finish()?)
+}
+
+/// `picture` as the bytes of a PNG file.
+///
+/// # Errors
+/// If the picture is no rectangle of pixels.
+pub fn bytes(picture: &Picture) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    write(&mut bytes, std::slice::from_ref(picture), 0)?;
+    Ok(bytes)
+}
+
+/// Writes `picture` as a PNG of at most 256 colours, about a third of the size; opacity is left out.
+///
+/// # Errors
+/// What the system says.
+pub fn write_indexed(out: &mut impl Write, picture: &Picture) -> io::Result<()> {
+    let few = FewColours::of(picture);
+    let mut encoder = png::Encoder::new(out, picture.width, picture.height);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_palette(few.colours.concat());
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_compression(png::Compression::High);
+    // Differences of palette numbers mean nothing, so rows are packed as they are.
+    encoder.set_filter(png::Filter::NoFilter);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&few.pixels)?;
     Ok(writer.finish()?)
 }

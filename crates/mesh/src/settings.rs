@@ -10,7 +10,8 @@ pub enum LeafStyle {
     Reduced,
     /// Two triangles a leaf with the area of the outline, four a blossom.
     Simple,
-    /// Two upright cards through the middle of each leaf, for pictures with transparency.
+    /// Two crossed cards through the middle of each leaf and one across each blossom, for the pictures
+    /// of [`crate::leaf_picture`].
     CrossedCards,
     /// No leaves and no blossom.
     None,

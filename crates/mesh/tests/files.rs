@@ -5,8 +5,11 @@
 
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
-use pleach_mesh::write::{obj, ply, stl};
-use pleach_mesh::{LeafStyle, Mesh, MeshError, MeshSettings, Mesher, Palette, Rig, Sink, send};
+use pleach_mesh::write::{obj, ply, stl, usda};
+use pleach_mesh::{
+    Billboards, LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Rig, Sink, leaf_picture,
+    png_file, send,
+};
 use pleach_tree::{Species, Tree};
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -25,7 +28,7 @@ fn scene<'a>(species: &Species, tree: &Tree, levels: usize) -> Scene<'a> {
         extras: serde_json::json!({"species": species.name, "seed": 1}),
         placed: vec![Placed::at_origin(&species.name, levels)],
         rig: None,
-        card: None,
+        pictures: Vec::new(),
     }
 }
 
@@ -58,6 +61,25 @@ fn instanced(name: &str) -> Vec<u8> {
     let (species, tree) = grow(name);
     let mesher = Mesher::new(&tree, MeshSettings::default()).with_instanced_leaves();
     glb(&[mesher], &scene(&species, &tree, 1))
+}
+
+fn cards_glb(name: &str) -> Vec<u8> {
+    let (species, tree) = grow(name);
+    let settings = MeshSettings { leaves: LeafStyle::CrossedCards, ..MeshSettings::default() };
+    let plain = scene(&species, &tree, 1);
+    let pictures = leaf_picture::of(&tree, &plain.palette);
+    let pictures = pictures.iter().map(|(of, picture)| (*of, png_file::bytes(picture).unwrap())).collect();
+    glb(&[Mesher::new(&tree, settings)], &Scene { pictures, ..plain })
+}
+
+fn billboards_glb(name: &str, sides: u32) -> Vec<u8> {
+    let (species, tree) = grow(name);
+    let plain = scene(&species, &tree, 2);
+    let billboards = Billboards::paint(&[&tree], &plain.palette, sides);
+    let settings = MeshSettings::default();
+    let meshers = [Mesher::new(&tree, settings), Mesher::of_cards(&tree, &billboards.cards[0])];
+    let pictures = vec![(Material::Card, png_file::bytes(&billboards.picture).unwrap())];
+    glb(&meshers, &Scene { pictures, ..plain })
 }
 
 fn forest() -> Vec<u8> {
@@ -151,6 +173,49 @@ fn instances_place_every_leaf() {
 }
 
 #[test]
+fn cards_show_a_leaf_cut_out_of_a_picture() {
+    let bytes = cards_glb("apple");
+    let file = gltf::Gltf::from_slice(&bytes).unwrap();
+    let blob = file.blob.as_deref().unwrap();
+    let materials: Vec<_> = file.materials().map(|m| (m.name().unwrap_or_default(), m)).collect();
+    assert_eq!(materials.iter().map(|m| m.0).collect::<Vec<_>>(), ["bark", "leaves", "blossom"]);
+    for (name, material) in &materials[1..] {
+        assert_eq!(material.alpha_mode(), gltf::material::AlphaMode::Mask, "{name}");
+        let texture = material.pbr_metallic_roughness().base_color_texture().unwrap().texture();
+        let gltf::image::Source::View { view, .. } = texture.source().source() else { panic!("{name}") };
+        let png = &blob[view.offset()..view.offset() + view.length()];
+        let mut reader = png::Decoder::new(Cursor::new(png)).read_info().unwrap();
+        let mut rgba = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut rgba).unwrap();
+        let opaque = rgba.chunks_exact(4).filter(|p| p[3] > 102).count();
+        assert!(opaque * 5 > rgba.len() / 4 && opaque * 10 < rgba.len() / 4 * 9, "{name}: {opaque}");
+    }
+    // Two cards a leaf and one a blossom, whose corners are the picture's.
+    let (_, tree) = grow("apple");
+    for (primitive, corners) in file
+        .meshes()
+        .flat_map(|m| m.primitives())
+        .skip(1)
+        .zip([tree.leaves.len() * 8, tree.blossoms.len() * 4])
+    {
+        let uv = primitive.reader(|_| Some(blob)).read_tex_coords(0).unwrap().into_f32();
+        assert_eq!(uv.len(), corners);
+        assert!(uv.flatten().all(|c| c.abs() < 1e-5 || (c - 1.0).abs() < 1e-5));
+    }
+}
+
+#[test]
+fn the_last_level_is_a_picture_on_cards() {
+    let json = json_of(&billboards_glb("acer", 3));
+    let meshes = json["meshes"].as_array().unwrap();
+    assert_eq!(meshes.len(), 2);
+    let card = &meshes[1]["primitives"][0];
+    assert_eq!(json["materials"][card["material"].as_u64().unwrap() as usize]["name"], "card");
+    let corners = &json["accessors"][card["attributes"]["POSITION"].as_u64().unwrap() as usize]["count"];
+    assert_eq!(corners, 12);
+}
+
+#[test]
 fn the_sway_moves_every_joint_and_comes_back() {
     let bytes = rigged("acer");
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
@@ -218,7 +283,9 @@ fn the_khronos_validator_finds_no_error_and_no_warning() {
         ("instances".into(), instanced("hill_cherry")),
         ("sway".into(), rigged("acer")),
         ("forest".into(), forest()),
-        ("cards".into(), plain("palm", cards)),
+        ("cards".into(), cards_glb("apple")),
+        ("billboards".into(), billboards_glb("hill_cherry", 4)),
+        ("cards without pictures".into(), plain("palm", cards)),
     ];
     for name in ["quaking_aspen", "bamboo", "palm", "acer", "lombardy_poplar", "apple", "hill_cherry"] {
         files.push((name.into(), plain(name, MeshSettings::default())));
@@ -230,6 +297,32 @@ fn the_khronos_validator_finds_no_error_and_no_warning() {
     });
     let output = Command::new("node").arg(&script).args(paths).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+}
+
+#[test]
+fn the_usd_library_finds_nothing_wrong() {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/support/usd.py");
+    let python = |arguments: &[&str]| Command::new("python3").args(arguments).output();
+    if !python(&["-c", "from pxr import UsdValidation"]).is_ok_and(|run| run.status.success()) {
+        eprintln!("skipped: needs python3 and `pip install usd-core`");
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    for (name, leaves) in [("acer", LeafStyle::Outline), ("apple", LeafStyle::CrossedCards)] {
+        let (species, tree) = grow(name);
+        let palette = Palette::of(&species, tree.leaf_shape, None);
+        let mesher = Mesher::new(&tree, MeshSettings { leaves, ..MeshSettings::default() });
+        let mesher = if name == "acer" { mesher } else { mesher.with_instanced_leaves() };
+        let count = mesher.count();
+        let notes = usda::Notes { name: name.into(), ..usda::Notes::default() };
+        let path = dir.path().join(format!("{name}.usda"));
+        send(&[mesher], &mut usda::Usda::new(std::fs::File::create(&path).unwrap(), &notes, palette))
+            .unwrap();
+        let run = python(&[script.to_str().unwrap(), path.to_str().unwrap()]).unwrap();
+        let said = String::from_utf8_lossy(&run.stdout);
+        assert!(run.status.success(), "{said}{}", String::from_utf8_lossy(&run.stderr));
+        assert_eq!(said.trim(), format!("{} {}", count.vertices, count.triangles));
+    }
 }
 
 #[test]
@@ -290,8 +383,35 @@ fn obj_counts_corners_from_one_and_names_its_materials() {
     assert!(text.contains("mtllib palm.mtl") && text.contains("o a_palm") && text.contains("usemtl leaves"));
     let highest = text.lines().filter(|l| l.starts_with("f ")).flat_map(|l| l.split([' ', '/']).skip(1));
     assert_eq!(highest.map(|n| n.parse::<u64>().unwrap()).max(), Some(count.vertices));
-    let materials = obj::materials(&Palette::of(&species, tree.leaf_shape, None));
+    let materials = obj::materials(&Palette::of(&species, tree.leaf_shape, None), &[]);
     assert_eq!(materials.matches("newmtl").count(), 3);
+}
+
+/// Every array has as many items as the numbers of corners, triangles and leaves ask for.
+#[test]
+fn usda_arrays_have_their_lengths() {
+    let (species, tree) = grow("hill_cherry");
+    let mesher = Mesher::new(&tree, MeshSettings::default()).with_instanced_leaves();
+    let parts = mesher.parts(0);
+    let notes = usda::Notes { name: "1 hill cherry".into(), ..usda::Notes::default() };
+    let palette = Palette::of(&species, tree.leaf_shape, None);
+    let mut bytes = Vec::new();
+    send(&[mesher], &mut usda::Usda::new(&mut bytes, &notes, palette)).unwrap();
+    let text = String::from_utf8(bytes).unwrap();
+    assert!(text.contains("defaultPrim = \"_1_hill_cherry\""));
+    let depth = text.chars().fold(0, |d, c| d + i32::from("{([".contains(c)) - i32::from("})]".contains(c)));
+    assert_eq!(depth, 0, "brackets close");
+    let lengths = |name: &str| -> Vec<u64> {
+        let rows = text.lines().filter(|l| l.trim_start().starts_with(name));
+        rows.map(|l| l.matches(", ").count() as u64 + 1).collect()
+    };
+    let corners: Vec<u64> = parts.iter().map(|p| 3 * p.count.vertices).collect();
+    assert_eq!(lengths("point3f[] points"), corners);
+    assert_eq!(lengths("normal3f[] normals"), corners);
+    let triangles: Vec<u64> = parts.iter().map(|p| p.count.triangles).collect();
+    assert_eq!(lengths("int[] faceVertexCounts"), triangles);
+    assert_eq!(lengths("int[] faceVertexIndices"), triangles.iter().map(|t| 3 * t).collect::<Vec<_>>());
+    assert_eq!(lengths("quath[] orientations"), [4 * parts[1].instances]);
 }
 
 #[test]

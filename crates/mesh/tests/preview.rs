@@ -106,6 +106,20 @@ fn a_turn_table_keeps_the_tree_inside_and_nothing_is_no_panic() {
 }
 
 #[test]
+fn pasting_stays_inside() {
+    let dot = |width: u32, height: u32, value: u8| Picture {
+        width,
+        height,
+        rgba: vec![value; (width * height * 4) as usize],
+    };
+    let mut page = dot(4, 3, 0);
+    page.paste(&dot(2, 2, 9), 3, 2);
+    page.paste(&dot(1, 1, 7), 4, 0);
+    page.paste(&dot(1, 1, 7), 0, 9);
+    assert!(page.rgba[..44].iter().all(|v| *v == 0) && page.rgba[44..] == [9; 4]);
+}
+
+#[test]
 fn png_files_hold_one_picture_or_an_animation() {
     let picture = preview("palm", None).picture(&small());
     let mut file = Vec::new();

@@ -33,8 +33,8 @@ pub(crate) struct Grow {
     /// Grow a tree for every seed from A up to, and without, B
     #[arg(long, value_name = "A..B", value_parser = input::seeds, conflicts_with = "seed")]
     seeds: Option<Range<u64>>,
-    /// File (.json, .png, .glb, .obj, .ply or .stl) or folder to write to; the working directory by
-    /// default
+    /// File (.json, .png, .glb, .obj, .ply, .stl or .usda) or folder to write to; the working directory
+    /// by default
     #[arg(short, long, value_name = "PATH", conflicts_with = "stats_only")]
     out: Option<PathBuf>,
     /// Print statistics and write no file

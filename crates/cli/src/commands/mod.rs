@@ -4,6 +4,7 @@ mod blend;
 mod experiment;
 mod export;
 mod fit;
+mod gallery;
 mod grow;
 mod landmarks;
 mod map;

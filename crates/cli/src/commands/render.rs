@@ -1,6 +1,7 @@
 //! `pleach render`: a shaded picture of a tree, or one that turns.
 
 use super::export::SeasonArg;
+use super::gallery;
 use crate::input::LimitArgs;
 use crate::{files, input, output};
 use anyhow::{Context, bail};
@@ -20,22 +21,27 @@ const EXAMPLES: &str = "Examples:
   pleach render acer --turntable 36 -o acer.png                an animated PNG
   pleach render acer --turntable 36 -o frames/                 36 files
   pleach render all -o gallery/                                every species, leafy
-  pleach render all --no-leaves -o winter/                     and bare";
+  pleach render all --no-leaves -o winter/                     and bare
+  pleach render --gallery -o gallery.png                       fifteen species, leafy and in winter";
 
 /// Draw a shaded picture of a tree
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Render {
     /// A species, by name or file; `all` for every species that comes with pleach
-    species: String,
+    #[arg(required_unless_present = "gallery")]
+    species: Option<String>,
+    /// One sheet of the dissertation's fifteen species, leafy and in winter
+    #[arg(long, conflicts_with_all = ["species", "season", "no_leaves", "turntable", "background", "ground"])]
+    gallery: bool,
     /// Seed of the tree; the species file's own, or 1, by default
     #[arg(long, value_name = "N", value_parser = input::seed)]
     seed: Option<u64>,
     /// PNG file, or folder to write to; the working directory by default
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
-    /// Width and height in pixels
-    #[arg(long, value_name = "PIXELS", default_value_t = 768, value_parser = clap::value_parser!(u32).range(16..=4096))]
+    /// Width and height in pixels; in a gallery of each tree, 224 by default
+    #[arg(long, value_name = "PIXELS", default_value_t = 768, default_value_if("gallery", "true", "224"), value_parser = clap::value_parser!(u32).range(16..=4096))]
     size: u32,
     /// Azimuth, or azimuth,elevation, in degrees
     #[arg(long, value_name = "AZ,EL", default_value = "0,5", value_parser = input::view, allow_hyphen_values = true)]
@@ -82,8 +88,11 @@ fn background(text: &str) -> Result<Background, String> {
 
 impl Render {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
-        if self.species != "all" {
-            return self.one(&input::species(&self.species)?);
+        let Some(name) = self.species.as_deref() else {
+            return self.sheet();
+        };
+        if name != "all" {
+            return self.one(&input::species(name)?);
         }
         if self.out.as_deref().is_some_and(is_file) {
             bail!("pictures of all species need a folder, not a file: -o gallery/");
@@ -93,18 +102,11 @@ impl Render {
 
     fn one(&self, species: &Species) -> anyhow::Result<()> {
         let seed = self.seed.or(species.tree_seed).unwrap_or(1);
-        let file = self.out.as_deref().filter(|path| is_file(path));
-        if let Some(file) = file {
-            let suffix = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-            if suffix != "png" {
-                bail!("cannot write `.{suffix}` pictures, known is .png");
-            }
-        }
-        let tree = self.grow(species, seed)?;
+        let file = self.file()?;
+        let mut tree = self.grow(species, seed)?;
         let mut palette = Palette::of(species, tree.leaf_shape, self.season.map(Season::from));
         palette.leaves &= !self.no_leaves;
         palette.blossoms &= !self.no_leaves;
-        let mut tree = tree;
         palette.dress(&mut tree);
         let preview = Preview::new(&tree, &palette, self.size);
         let name = |what: &str| format!("{}-{seed}{what}.png", species.name);
@@ -125,6 +127,31 @@ impl Render {
         }
         (0..frames)
             .try_for_each(|i| write(&place(name(&format!("-{i:03}")))?, &[preview.picture(&turn(i))], 0))
+    }
+
+    fn sheet(&self) -> anyhow::Result<()> {
+        let path = match (self.file()?, &self.out) {
+            (Some(file), _) => file.to_owned(),
+            (None, Some(folder)) => files::inside(folder, "gallery.png")?,
+            (None, None) => PathBuf::from("gallery.png"),
+        };
+        let grow = |species: &Species| self.grow(species, self.seed.or(species.tree_seed).unwrap_or(1));
+        let sheet = gallery::sheet(self.size, grow, &self.settings(0.0))?;
+        files::write_whole(&path, |file| Ok(png_file::write_indexed(file, &sheet)?))?;
+        output::note(format!("wrote {}", path.display()));
+        Ok(())
+    }
+
+    /// The file to write to, if one was named.
+    fn file(&self) -> anyhow::Result<Option<&Path>> {
+        let file = self.out.as_deref().filter(|path| is_file(path));
+        if let Some(file) = file {
+            let suffix = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+            if suffix != "png" {
+                bail!("cannot write `.{suffix}` pictures, known is .png");
+            }
+        }
+        Ok(file)
     }
 
     fn grow(&self, species: &Species, seed: u64) -> anyhow::Result<Tree> {

@@ -40,10 +40,7 @@ impl UnitMesh {
         match style {
             LeafStyle::Outline | LeafStyle::Reduced => Self::petals(shape),
             LeafStyle::Simple => Self::pyramid(shape),
-            LeafStyle::CrossedCards => {
-                let widest = shape.faces().vertices.iter().map(|v| v[0].abs()).fold(0.0, f32::max);
-                Self::crossed(2.0 * widest)
-            }
+            LeafStyle::CrossedCards => Self::level_card(shape),
             LeafStyle::None => Self::default(),
         }
     }
@@ -92,6 +89,17 @@ impl UnitMesh {
         Self { corners, triangles: vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]] }
     }
 
+    /// One card across the blossom's axis, which shows it from above.
+    fn level_card(shape: BlossomShape) -> Self {
+        let (reach, high) = spread(shape);
+        let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)].map(|(x, z): (f32, f32)| Corner {
+            at: vec3(x * reach, 0.5 * high, z * reach),
+            normal: Vec3::Y,
+            uv: [0.5 + 0.5 * x, 0.5 + 0.5 * z],
+        });
+        Self { corners: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] }
+    }
+
     fn petals(shape: BlossomShape) -> Self {
         let faces = shape.faces();
         let at = |i: u8| Vec3::from(faces.vertices[usize::from(i)]);
@@ -107,8 +115,7 @@ impl UnitMesh {
                 triangles.push([a, b, c].map(u32::from));
             }
         }
-        let widest =
-            faces.vertices.iter().flat_map(|v| [v[0].abs(), v[2].abs()]).fold(f32::MIN_POSITIVE, f32::max);
+        let widest = spread(shape).0;
         let corners = faces
             .vertices
             .iter()
@@ -124,9 +131,7 @@ impl UnitMesh {
 
     /// Four triangles that open from the stalk, as wide and high as the blossom.
     fn pyramid(shape: BlossomShape) -> Self {
-        let vertices = shape.faces().vertices;
-        let reach = vertices.iter().flat_map(|v| [v[0].abs(), v[2].abs()]).fold(f32::MIN_POSITIVE, f32::max);
-        let high = vertices.iter().map(|v| v[1]).fold(0.0, f32::max);
+        let (reach, high) = spread(shape);
         let rim = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
         let mut corners = vec![Corner { at: Vec3::ZERO, normal: Vec3::Y, uv: [0.5, 0.5] }];
         corners.extend(rim.map(|(x, z): (f32, f32)| Corner {
@@ -136,6 +141,13 @@ impl UnitMesh {
         }));
         Self { corners, triangles: vec![[0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 1, 4]] }
     }
+}
+
+/// How far a unit blossom reaches from its axis, and how high it is.
+pub(crate) fn spread(shape: BlossomShape) -> (f32, f32) {
+    let vertices = shape.faces().vertices;
+    let reach = vertices.iter().flat_map(|v| [v[0].abs(), v[2].abs()]).fold(f32::MIN_POSITIVE, f32::max);
+    (reach, vertices.iter().map(|v| v[1]).fold(0.0, f32::max))
 }
 
 /// Width of the unit leaf.

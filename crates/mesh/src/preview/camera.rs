@@ -55,6 +55,18 @@ impl Camera {
         camera
     }
 
+    /// The camera so far away towards `azimuth` (radians) that a rectangle through `middle` of these half
+    /// sides, in metres, fills the picture, and what lies before or behind it is hardly any larger or
+    /// smaller.
+    pub(crate) fn afar(middle: Vec3, azimuth: f32, half: [f32; 2], samples: [u32; 2]) -> Self {
+        let (sin, cos) = azimuth.sin_cos();
+        let (right, ahead) = (vec3(cos, sin, 0.0), vec3(-sin, cos, 0.0));
+        let distance = 200.0 * half[0].max(half[1]).max(1e-3);
+        let size = vec2(samples[0] as f32, samples[1] as f32);
+        let focal = distance * size.y / (2.0 * half[1].max(1e-6));
+        Self { eye: middle - ahead * distance, right, up: Vec3::Z, ahead, focal, size, centre: Vec2::ZERO }
+    }
+
     fn extent(&self, corners: &[Vec3]) -> (Vec2, Vec2) {
         let seen = corners.iter().map(|&c| {
             let v = c - self.eye;

@@ -7,12 +7,15 @@
 mod bark;
 mod camera;
 mod crown;
+mod flat;
 mod light;
 mod raster;
 mod scene;
 mod shade;
 
 use crate::palette::Palette;
+pub(crate) use flat::Frame;
+use glam::Vec3;
 use pleach_tree::Tree;
 use pleach_tree::species::Colour;
 use scene::Scene;
@@ -86,6 +89,21 @@ pub struct Picture {
     pub rgba: Vec<u8>,
 }
 
+impl Picture {
+    /// Copies `other` with its upper left corner at (`x`, `y`); what reaches over the edge is left out.
+    pub fn paste(&mut self, other: &Self, x: u32, y: u32) {
+        let width = other.width.min(self.width.saturating_sub(x)) as usize * 4;
+        let rows = other.height.min(self.height.saturating_sub(y)) as usize;
+        if width == 0 {
+            return;
+        }
+        for (row, pixels) in other.rgba.chunks_exact(other.width as usize * 4).enumerate().take(rows) {
+            let start = ((y as usize + row) * self.width as usize + x as usize) * 4;
+            self.rgba[start..start + width].copy_from_slice(&pixels[..width]);
+        }
+    }
+}
+
 /// A tree ready to be looked at from many sides.
 #[derive(Debug)]
 pub struct Preview {
@@ -97,6 +115,24 @@ impl Preview {
     #[must_use]
     pub fn new(tree: &Tree, palette: &Palette, size: u32) -> Self {
         Self { scene: Scene::new(tree, palette, size) }
+    }
+
+    /// The smallest and largest coordinates of what is drawn, in metres.
+    pub(crate) fn bounds(&self) -> (Vec3, Vec3) {
+        let points = self.scene.points.iter().copied();
+        let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let (low, high) = points.fold(start, |(low, high), p| (low.min(p), high.max(p)));
+        if low.is_finite() { (low, high) } else { (Vec3::ZERO, Vec3::ZERO) }
+    }
+
+    /// How far the tree reaches from the vertical axis along `right` or against it, in metres.
+    pub(crate) fn reach(&self, right: Vec3) -> f32 {
+        self.scene.points.iter().map(|p| p.dot(right).abs()).fold(0.0, f32::max)
+    }
+
+    /// Takes a picture from afar, in even light.
+    pub(crate) fn flat(&self, frame: &Frame) -> Picture {
+        flat::picture(&self.scene, frame)
     }
 
     /// Takes a picture.

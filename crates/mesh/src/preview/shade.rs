@@ -13,7 +13,7 @@ use glam::{Vec3, Vec4, vec3};
 use rayon::prelude::*;
 
 /// Samples across and down a pixel.
-const SAMPLES: u32 = 3;
+pub(super) const SAMPLES: u32 = 3;
 /// Light of the sun, of the sky overhead, and what the ground sends back.
 const SUN: Vec3 = vec3(3.5, 3.2, 2.65);
 const SKY: Vec3 = vec3(0.66, 0.80, 1.02);
@@ -33,14 +33,7 @@ pub(super) fn picture(scene: &Scene, settings: &PreviewSettings) -> Picture {
     let towards = vec3(turn.sin() * rise.cos(), -turn.cos() * rise.cos(), rise.sin());
     let texels = (settings.width.max(settings.height) * 2).clamp(256, 4096);
     let sun = Sun::new(towards, &scene.points, &scene.triangles, texels);
-    let view = View { scene, settings, camera, sun, buffer };
-    let mut rgba = vec![0; settings.width as usize * settings.height as usize * 4];
-    rgba.par_chunks_mut(settings.width as usize * 4).enumerate().for_each(|(y, row)| {
-        for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
-            pixel.copy_from_slice(&view.pixel(x as u32, y as u32));
-        }
-    });
-    Picture { width: settings.width, height: settings.height, rgba }
+    View { scene, settings, camera, sun: Some(sun), buffer }.picture()
 }
 
 /// Points that a picture must show: some of the tree's own, or the rim of all its turns.
@@ -63,15 +56,27 @@ fn outline(scene: &Scene, all_around: bool) -> Vec<Vec3> {
     some.iter().step_by(8).flat_map(|p| rim(p).map(|(x, y)| vec3(x, y, p.z))).collect()
 }
 
-struct View<'a> {
-    scene: &'a Scene,
-    settings: &'a PreviewSettings,
-    camera: Camera,
-    sun: Sun,
-    buffer: DepthBuffer,
+/// A scene from a camera; without a sun, colours are shown as they are, in the crown's shade.
+pub(super) struct View<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) settings: &'a PreviewSettings,
+    pub(super) camera: Camera,
+    pub(super) sun: Option<Sun>,
+    pub(super) buffer: DepthBuffer,
 }
 
 impl View<'_> {
+    pub(super) fn picture(&self) -> Picture {
+        let (width, height) = (self.settings.width, self.settings.height);
+        let mut rgba = vec![0; width as usize * height as usize * 4];
+        rgba.par_chunks_mut(width as usize * 4).enumerate().for_each(|(y, row)| {
+            for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
+                pixel.copy_from_slice(&self.pixel(x as u32, y as u32));
+            }
+        });
+        Picture { width, height, rgba }
+    }
+
     fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
         let mut sum = Vec4::ZERO;
         for j in 0..SAMPLES {
@@ -108,7 +113,7 @@ impl View<'_> {
         let triangle = self.buffer.triangle[index];
         let ray = self.camera.ray(x as f32 + 0.5, y as f32 + 0.5);
         if triangle == NONE {
-            return self.ground(ray);
+            return self.ground(ray) * self.margin(x, y);
         }
         let corners = self.scene.triangles[triangle as usize];
         let [a, b, c] = corners.map(|i| self.scene.points[i as usize]);
@@ -138,7 +143,7 @@ impl View<'_> {
             }
             _ => self.leaf(at, normal, ray, material, leaf),
         };
-        shown(light).extend(1.0)
+        if self.sun.is_some() { shown(light).extend(1.0) } else { light.extend(1.0) }
     }
 
     fn bark(&self, at: Vec3, normal: Vec3, ray: Vec3, (radius, level): (f32, u8), u: f32, v: f32) -> Vec3 {
@@ -161,8 +166,9 @@ impl View<'_> {
         let albedo = young.lerp(bark, old) * marks;
         let facing = if normal.dot(ray) > 0.0 { -normal } else { normal };
         let sky = self.scene.crown.sky_at(at + facing * 0.05);
-        let shadow = self.sun.at(at + facing * 0.01, 1, 1.0);
-        let sunlit = SUN * (facing.dot(self.sun.towards).max(0.0) * shadow);
+        let Some(sun) = &self.sun else { return albedo * even(sky) };
+        let shadow = sun.at(at + facing * 0.01, 1, 1.0);
+        let sunlit = SUN * (facing.dot(sun.towards).max(0.0) * shadow);
         albedo * (sunlit + self.sky_light(facing, sky))
     }
 
@@ -178,12 +184,13 @@ impl View<'_> {
         let outward = (at - scene.heart) / scene.reach;
         let rounded = (facing + outward * 0.55).try_normalize().unwrap_or(facing);
         let sky = scene.crown.sky_at(at);
-        let shadow = self.sun.at(at, 1, 1.0);
-        let flat = facing.dot(self.sun.towards);
-        let reflected = 0.55 * flat.max(0.0) + 0.45 * (rounded.dot(self.sun.towards) * 0.75 + 0.25).max(0.0);
+        let Some(sun) = &self.sun else { return varied * even(sky) };
+        let shadow = sun.at(at, 1, 1.0);
+        let flat = facing.dot(sun.towards);
+        let reflected = 0.55 * flat.max(0.0) + 0.45 * (rounded.dot(sun.towards) * 0.75 + 0.25).max(0.0);
         let through = (-flat).max(0.0) * 0.55;
         let thin = if material == Material::Leaf { vec3(1.15, 1.25, 0.45) } else { Vec3::ONE };
-        let half = (self.sun.towards - ray).try_normalize().unwrap_or(facing);
+        let half = (sun.towards - ray).try_normalize().unwrap_or(facing);
         let gloss = facing.dot(half).max(0.0).powi(24) * 0.10 * shadow;
         varied * (SUN * (reflected * shadow) + self.sky_light(rounded, sky))
             + varied * thin * SUN * (through * shadow)
@@ -196,19 +203,32 @@ impl View<'_> {
         (SKY * (0.35 + 0.65 * up) + BOUNCE * (1.0 - up)) * (0.06 + 0.94 * open)
     }
 
+    /// How much of the ground is shown at a sample: a picture that will stand on a page ends softly,
+    /// where a studio's wall goes on behind the frame.
+    fn margin(&self, x: u32, y: u32) -> f32 {
+        if self.settings.background == Background::Studio {
+            return 1.0;
+        }
+        let (width, height) = (self.buffer.width as f32, self.buffer.height as f32);
+        let (left, above) = (x as f32 + 0.5, y as f32 + 0.5);
+        let edge = left.min(width - left).min(height - above);
+        smooth(0.0, 0.16 * width.min(height), edge)
+    }
+
     /// The ground where a ray meets it: grass, or its shadow alone.
     fn ground(&self, ray: Vec3) -> Vec4 {
-        if self.settings.ground == Ground::None || ray.z >= -1e-4 {
+        let Some(sun) = self.sun.as_ref().filter(|_| self.settings.ground != Ground::None && ray.z < -1e-4)
+        else {
             return Vec4::ZERO;
-        }
+        };
         let scene = self.scene;
         let at = self.camera.eye - ray * (self.camera.eye.z / ray.z);
         let away = (at - vec3(0.0, 0.0, at.z)).length() / (scene.high - scene.low).max_element().max(1e-3);
         let open = scene.crown.sky_at(at + Vec3::Z * 0.05);
-        let shadow = self.sun.at(at, 2, 1.6);
-        let sunlit = SUN * (self.sun.towards.z * shadow);
+        let shadow = sun.at(at, 2, 1.6);
+        let sunlit = SUN * (sun.towards.z * shadow);
         let light = sunlit + SKY * open;
-        let full = SUN * self.sun.towards.z + SKY;
+        let full = SUN * sun.towards.z + SKY;
         let fade = 1.0 - smooth(0.9, 2.2, away);
         match self.settings.ground {
             Ground::Grass => {
@@ -223,6 +243,11 @@ impl View<'_> {
             }
         }
     }
+}
+
+/// Part of its colour that a place shows in even light, where so much of the sky is open.
+fn even(open: f32) -> f32 {
+    0.45 + 0.55 * open
 }
 
 /// Light as it is shown, 0 to 1: straight in the dark, rolling off towards white.

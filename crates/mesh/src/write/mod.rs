@@ -1,4 +1,4 @@
-//! Files: GLB, OBJ with MTL, PLY and STL.
+//! Files: GLB, OBJ with MTL, PLY, STL and USDA.
 //!
 //! | format | up | holds |
 //! | --- | --- | --- |
@@ -6,11 +6,14 @@
 //! | [`obj`] | +y | one mesh, materials in a file beside it |
 //! | [`ply`] | +z | one mesh, one colour a corner, wind |
 //! | [`stl`] | +z | triangles alone |
+//! | [`usda`] | +z | one mesh, materials, leaves as instances |
 
+mod decimal;
 pub mod glb;
 pub mod obj;
 pub mod ply;
 pub mod stl;
+pub mod usda;
 
 use crate::sink::{MeshError, Part};
 

@@ -1,5 +1,6 @@
 //! Wavefront OBJ with a material file beside it; y up, metres.
 
+use super::decimal::{self, digits};
 use super::{one_plain_mesh, total};
 use crate::block::Block;
 use crate::palette::{Palette, linear};
@@ -35,16 +36,21 @@ impl<W: Write> Obj<W> {
     }
 }
 
-/// The material file that goes with an OBJ file.
+/// The material file that goes with an OBJ file; `pictures` are the names of PNG files in the same
+/// folder that materials show instead of their colour.
 #[must_use]
-pub fn materials(palette: &Palette) -> String {
+pub fn materials(palette: &Palette, pictures: &[(Material, String)]) -> String {
     let mut text = String::from("# materials of a tree\n");
     for material in Material::ALL {
-        let [r, g, b] = linear(palette.colour(material));
+        let picture = pictures.iter().find(|(of, _)| *of == material).map(|(_, name)| name);
+        let [r, g, b] = if picture.is_some() { [1.0; 3] } else { linear(palette.colour(material)) };
         text.push_str(&format!(
             "\nnewmtl {}\nKd {r:.4} {g:.4} {b:.4}\nKs 0 0 0\nNs 0\nd 1\nillum 1\n",
             material.name()
         ));
+        if let Some(name) = picture {
+            text.push_str(&format!("map_Kd {name}\nmap_d {name}\n"));
+        }
     }
     text
 }
@@ -98,46 +104,12 @@ impl<W: Write> Sink for Obj<W> {
     }
 }
 
-/// A keyword and numbers with so many decimals. The standard formatter took four fifths of the time.
+/// A keyword and numbers with so many decimals.
 fn line(text: &mut Vec<u8>, keyword: &[u8], numbers: &[f32], decimals: usize) {
     text.extend_from_slice(keyword);
-    let scale = 10_u64.pow(decimals as u32);
     for &number in numbers {
         text.push(b' ');
-        let scaled = (f64::from(number.abs()) * scale as f64).round() as u64;
-        if number < 0.0 && scaled > 0 {
-            text.push(b'-');
-        }
-        digits(text, scaled / scale, 1);
-        text.push(b'.');
-        digits(text, scaled % scale, decimals);
+        decimal::push(text, number, decimals);
     }
     text.push(b'\n');
-}
-
-/// A whole number with at least `least` digits.
-fn digits(text: &mut Vec<u8>, mut number: u64, least: usize) {
-    let mut buffer = [b'0'; 20];
-    let mut at = buffer.len();
-    while number > 0 || buffer.len() - at < least {
-        at -= 1;
-        buffer[at] = b'0' + (number % 10) as u8;
-        number /= 10;
-    }
-    text.extend_from_slice(&buffer[at..]);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_written_as_the_standard_formatter_would() {
-        for number in [0.0, -0.0, 1.0, -1.5, 0.000_004, -0.000_004, 12.345_678, -1234.5, 0.999_999_9_f32] {
-            let mut text = Vec::new();
-            line(&mut text, b"v", &[number], 5);
-            let expected = format!("v {:.5}\n", f64::from(number)).replace(" -0.00000", " 0.00000");
-            assert_eq!(String::from_utf8(text).unwrap(), expected);
-        }
-    }
 }

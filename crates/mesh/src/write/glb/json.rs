@@ -34,7 +34,8 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
         let root = file.rig(rig, layout);
         roots.push(root);
     }
-    let materials: Vec<Value> = file.materials.iter().map(|&m| material(scene, m)).collect();
+    let textures = file.textures(scene, layout);
+    let materials: Vec<Value> = file.materials.iter().map(|&m| material(scene, &textures, m)).collect();
     let mut root = json!({
         "asset": {"version": "2.0", "generator": concat!("pleach ", env!("CARGO_PKG_VERSION"))},
         "scene": 0,
@@ -50,17 +51,12 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
         root["skins"] = Value::Array(file.skins);
         root["animations"] = Value::Array(file.animations);
     }
-    if let (Some(png), true) = (scene.card, file.materials.contains(&Material::Card)) {
-        let view = json!({"buffer": 0, "byteOffset": layout.card, "byteLength": png.len()});
-        let views = root["bufferViews"].as_array_mut();
-        let number = views.map_or(0, |views| {
-            views.push(view);
-            views.len() - 1
-        });
-        root["images"] = json!([{"name": "card", "mimeType": "image/png", "bufferView": number}]);
+    if !textures.is_empty() {
+        let texture = |i: usize| json!({"source": i, "sampler": 0});
+        root["images"] = Value::Array(file.images);
         // Linear, with mipmaps; clamped at the edges.
         root["samplers"] = json!([{"magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071}]);
-        root["textures"] = json!([{"source": 0, "sampler": 0}]);
+        root["textures"] = Value::Array((0..textures.len()).map(texture).collect());
     }
     if !file.used.is_empty() {
         root["extensionsUsed"] = json!(file.used);
@@ -74,12 +70,14 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 const LEVELS: &str = "MSFT_lod";
 
-fn material(scene: &Scene<'_>, material: Material) -> Value {
-    if material == Material::Card {
+fn material(scene: &Scene<'_>, textures: &[Material], material: Material) -> Value {
+    if let Some(texture) = textures.iter().position(|m| *m == material) {
+        let roughness = if material == Material::Card { 1.0 } else { 0.7 };
         return json!({
             "name": material.name(), "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.4,
-            "pbrMetallicRoughness":
-                {"baseColorTexture": {"index": 0}, "metallicFactor": 0.0, "roughnessFactor": 1.0},
+            "pbrMetallicRoughness": {
+                "baseColorTexture": {"index": texture}, "metallicFactor": 0.0, "roughnessFactor": roughness,
+            },
         });
     }
     let [r, g, b] = linear(scene.palette.colour(material)).map(|c| (f64::from(c) * 1e4).round() / 1e4);
@@ -112,6 +110,7 @@ struct File {
     skins: Vec<Value>,
     animations: Vec<Value>,
     materials: Vec<Material>,
+    images: Vec<Value>,
     used: Vec<&'static str>,
 }
 
@@ -125,6 +124,20 @@ impl File {
         if !self.used.contains(&extension) {
             self.used.push(extension);
         }
+    }
+
+    /// One image and texture a picture that some part shows; returns whose they are.
+    fn textures(&mut self, scene: &Scene<'_>, layout: &Layout) -> Vec<Material> {
+        let mut textures = Vec::new();
+        for ((material, png), offset) in scene.pictures.iter().zip(&layout.pictures) {
+            if let Some(offset) = offset {
+                let view = self.view(*offset, png.len() as u64, None, None);
+                let image = json!({"name": material.name(), "mimeType": "image/png", "bufferView": view});
+                self.images.push(image);
+                textures.push(*material);
+            }
+        }
+        textures
     }
 
     fn view(&mut self, offset: u64, bytes: u64, stride: Option<u64>, target: Option<u32>) -> usize {

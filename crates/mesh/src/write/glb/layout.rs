@@ -57,7 +57,8 @@ pub(super) struct Layout {
     pub(super) bind_matrices: u64,
     pub(super) times: u64,
     pub(super) rotations: u64,
-    pub(super) card: u64,
+    /// Offset of each of the scene's pictures; none for one that no part shows.
+    pub(super) pictures: Vec<Option<u64>>,
     /// Size of the whole, a multiple of 4.
     pub(super) bytes: u64,
 }
@@ -70,7 +71,7 @@ impl Layout {
             at += bytes.next_multiple_of(4);
             start
         };
-        let parts = parts
+        let parts: Vec<PartLayout> = parts
             .iter()
             .map(|&part| {
                 let vertices = part.count.vertices;
@@ -91,8 +92,13 @@ impl Layout {
         let bind_matrices = take(joints * 64);
         let times = take(keys * 4);
         let rotations = take(joints * keys * 16);
-        let card = take(scene.card.map_or(0, |png| png.len() as u64));
-        Self { parts, bind_matrices, times, rotations, card, bytes: at }
+        let shown = |material| parts.iter().any(|p| p.part.material == material);
+        let pictures = scene
+            .pictures
+            .iter()
+            .map(|(material, png)| shown(*material).then(|| take(png.len() as u64)))
+            .collect();
+        Self { parts, bind_matrices, times, rotations, pictures, bytes: at }
     }
 
     /// What does not come in blocks: offset and bytes.
@@ -104,10 +110,12 @@ impl Layout {
             fixed.push((self.times, floats(&animation::times())));
             fixed.push((self.rotations, floats(&animation::rotations(rig))));
         }
-        if let Some(png) = scene.card {
-            let mut bytes = png.to_vec();
-            bytes.resize(bytes.len().next_multiple_of(4), 0);
-            fixed.push((self.card, bytes));
+        for ((_, png), offset) in scene.pictures.iter().zip(&self.pictures) {
+            if let Some(offset) = offset {
+                let mut bytes = png.clone();
+                bytes.resize(bytes.len().next_multiple_of(4), 0);
+                fixed.push((*offset, bytes));
+            }
         }
         fixed
     }

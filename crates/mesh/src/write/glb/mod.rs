@@ -6,7 +6,7 @@
 //! | what | how |
 //! | --- | --- |
 //! | corners | interleaved position, normal, texture coordinates; wind in `_WIND_PIVOT`, `_WIND_SWAY` |
-//! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided |
+//! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided; cards show pictures with alpha masks |
 //! | levels of detail | `MSFT_lod` on the node of the finest; whoever does not know it sees that one |
 //! | leaves as instances | `EXT_mesh_gpu_instancing`, then required: without it there is no crown |
 //! | forests | many nodes that share few meshes |
@@ -19,7 +19,7 @@ mod layout;
 use crate::block::Block;
 use crate::palette::Palette;
 use crate::rig::Rig;
-use crate::sink::{MeshError, Part, Sink};
+use crate::sink::{Material, MeshError, Part, Sink};
 use glam::{Quat, Vec3, vec3};
 use layout::Layout;
 use std::io::{Seek, SeekFrom, Write};
@@ -61,8 +61,8 @@ pub struct Scene<'a> {
     pub placed: Vec<Placed>,
     /// Joints and their sway, for a mesh that was made with this rig.
     pub rig: Option<&'a Rig>,
-    /// The picture that a last level of cards shows, as a PNG file.
-    pub card: Option<&'a [u8]>,
+    /// PNG files that materials show instead of their colour; what is not opaque there is cut out.
+    pub pictures: Vec<(Material, Vec<u8>)>,
 }
 
 /// Writes GLB.

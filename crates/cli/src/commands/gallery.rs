@@ -1,0 +1,68 @@
+//! The gallery: one sheet with every species of the dissertation, leafy beside winter.
+
+use anyhow::Context;
+use pleach_blend::picture::{Anchor, Colour, Scene, Shape};
+use pleach_mesh::preview::Background;
+use pleach_mesh::{Palette, Picture, Preview, PreviewSettings};
+use pleach_tree::species::{self, Season};
+use pleach_tree::{Species, Tree, TreeStats};
+
+/// Species a row, each with two pictures.
+const ACROSS: u32 = 3;
+/// How many of the built-in species are the dissertation's, in front.
+const FIFTEEN: usize = 15;
+const INK: Colour = Colour::opaque([40, 44, 40]);
+const GREY: Colour = Colour::opaque([120, 124, 120]);
+
+/// Draws the sheet, `size` pixels a tree.
+pub(super) fn sheet(
+    size: u32,
+    grow: impl Fn(&Species) -> anyhow::Result<Tree>,
+    settings: &PreviewSettings,
+) -> anyhow::Result<Picture> {
+    let names = &pleach_generators::names()[..FIFTEEN];
+    let rows = names.len().div_ceil(ACROSS as usize) as u32;
+    let (gap, label) = (size / 6, size / 5);
+    let (across, down) = (2 * size + gap, size + label + gap / 2);
+    let mut page = Scene::new(ACROSS * across + gap, rows * down + gap);
+    let settings = PreviewSettings {
+        width: size,
+        height: size,
+        background: Background::Plain(species::Colour([255; 3])),
+        ..*settings
+    };
+    let mut pictures = Vec::new();
+    for (i, name) in (0..).zip(names) {
+        let species = pleach_generators::species(name)?;
+        let mut tree = grow(&species)?;
+        let (x, y) = (gap + i % ACROSS * across, gap / 2 + i / ACROSS * down);
+        let height = TreeStats::of(&tree).height_m;
+        caption(&mut page, name, height, (f64::from(x + size), f64::from(y + size)), f64::from(size));
+        for (k, season) in [(0, None), (1, Some(Season::Winter))] {
+            let palette = Palette::of(&species, tree.leaf_shape, season);
+            palette.dress(&mut tree);
+            let picture = Preview::new(&tree, &palette, size).picture(&settings);
+            pictures.push((x + k * size, y, picture));
+        }
+    }
+    let png = page.to_png().context("the sheet is too large for this machine's memory")?;
+    let page = image::load_from_memory(&png)?.into_rgba8();
+    let mut sheet = Picture { width: page.width(), height: page.height(), rgba: page.into_raw() };
+    for (x, y, picture) in &pictures {
+        sheet.paste(picture, *x, *y);
+    }
+    Ok(sheet)
+}
+
+/// Name and height below the two pictures that meet above `at`.
+fn caption(page: &mut Scene, name: &str, height: f64, at: (f64, f64), size: f64) {
+    let (em, height) = (size / 13.0, format!("{height:.1} m"));
+    let mut line = |text: String, down: f64, em: f64, colour: Colour| {
+        let at = (at.0, at.1 + down * size);
+        page.add(Shape::Text { text, at, size: em, anchor: Anchor::Middle, colour });
+    };
+    let mut title = name.replace('_', " ");
+    title[..1].make_ascii_uppercase();
+    line(title, 0.075, em, INK);
+    line(height, 0.145, em * 0.8, GREY);
+}
