@@ -193,7 +193,8 @@ mod tests {
     use crate::method::{Hewitt, HewittSettings, Start};
 
     fn sample() -> Checkpoint<Hewitt> {
-        let mut search = SearchState::new(Hewitt::new(HewittSettings::default(), 7, Start::Random));
+        let mut search =
+            SearchState::new(Hewitt::new(HewittSettings::default(), 7, Start::Random), &Start::Random);
         let genome = Genome { values: vec![0.1 + 0.2, -0.0, 1e-300], tree_seed: u64::MAX };
         search.best = Some(Scored {
             genome,

@@ -186,7 +186,7 @@ impl<'a> Driver<'a> {
         let (state, history, elapsed_s) = resumed.map_or_else(
             || {
                 let method = settings.optimizer.method(settings.seed, settings.start.clone());
-                (SearchState::new(method), Vec::new(), 0.0)
+                (SearchState::new(method, &settings.start), Vec::new(), 0.0)
             },
             |checkpoint| (checkpoint.search, checkpoint.history, checkpoint.elapsed_s),
         );

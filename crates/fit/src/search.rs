@@ -1,7 +1,7 @@
 //! A [`Method`] as an argmin [`Solver`].
 
 use crate::genome::{Genome, Score, Scored, Size};
-use crate::method::Method;
+use crate::method::{Method, Start};
 use crate::space::SearchSpace;
 use argmin::core::{Error, KV, PopulationState, Problem, Solver, TerminationReason, TerminationStatus};
 use argmin::kv;
@@ -39,36 +39,38 @@ pub struct SearchState<M> {
     pub generation_best: Option<Score>,
     members: Vec<Genome>,
     scores: Vec<Score>,
-    /// Largest trees of this generation.
+    /// Largest trees that are tried.
     most: Size,
 }
 
-/// How much larger than the best tree so far another may be, before it is given up.
+/// How much larger than the best tree of the first generation another may be.
 ///
-/// Times differ a thousandfold between parameter lists, and trees that look like the goal are about
-/// as large as each other. Without this bound a search spends its time on the few that are absurd.
-const MOST_GROWTH: usize = 4;
+/// Times differ a thousandfold between parameter lists, and a crown of ten times the leaves covers
+/// the goal no worse: without a bound that stays, a search drifts to trees that take ten times as
+/// long and makes a tenth of the trials.
+const MOST_GROWTH: usize = 2;
 
-/// Trees up to this size are never given up: two or three milliseconds.
-const ALWAYS: Size = Size { stems: 1_500, leaves: 10_000, knots: 10_000 };
+/// Trees up to this size are never given up: some three milliseconds.
+const ALWAYS: Size = Size { stems: 2_000, leaves: 12_000, knots: 12_000 };
 
-/// The largest trees of the first generation, when nothing is known: some twenty milliseconds.
-const FIRST: Size = Size { stems: 10_000, leaves: 60_000, knots: 60_000 };
+/// No bound but the limits of the settings.
+const ANY: Size = Size { stems: usize::MAX, leaves: usize::MAX, knots: usize::MAX };
 
-fn largest_allowed(best: Option<&Scored>) -> Size {
-    let Some(best) = best.filter(|best| best.score.cost < f64::INFINITY) else { return FIRST };
-    let size = best.score.size;
+/// The largest trees of a search, once the first generation has shown how large its start is.
+fn largest_after(first: Size) -> Size {
     Size {
-        stems: ALWAYS.stems.max(MOST_GROWTH.saturating_mul(size.stems)),
-        leaves: ALWAYS.leaves.max(MOST_GROWTH.saturating_mul(size.leaves)),
-        knots: ALWAYS.knots.max(MOST_GROWTH.saturating_mul(size.knots)),
+        stems: ALWAYS.stems.max(MOST_GROWTH.saturating_mul(first.stems)),
+        leaves: ALWAYS.leaves.max(MOST_GROWTH.saturating_mul(first.leaves)),
+        knots: ALWAYS.knots.max(MOST_GROWTH.saturating_mul(first.knots)),
     }
 }
 
 impl<M> SearchState<M> {
-    /// The state before the first generation.
+    /// The state before the first generation of a search from `start`.
+    ///
+    /// Lists that were given are tried however large their trees are, random ones are not.
     #[must_use]
-    pub const fn new(method: M) -> Self {
+    pub const fn new(method: M, start: &Start) -> Self {
         Self {
             method,
             generation: 0,
@@ -77,7 +79,7 @@ impl<M> SearchState<M> {
             generation_best: None,
             members: Vec::new(),
             scores: Vec::new(),
-            most: FIRST,
+            most: if matches!(start, Start::Random) { ALWAYS } else { ANY },
         }
     }
 
@@ -108,10 +110,10 @@ pub struct Search<M> {
 pub type FitState = PopulationState<Genome, f64>;
 
 impl<M> Search<M> {
-    /// Starts `method` in `space`, without a limit.
+    /// Starts `method`, whose first lists are those of `start`, in `space`, without a limit.
     #[must_use]
-    pub const fn new(method: M, space: Arc<SearchSpace>) -> Self {
-        Self::resume(SearchState::new(method), space)
+    pub const fn new(method: M, start: &Start, space: Arc<SearchSpace>) -> Self {
+        Self::resume(SearchState::new(method, start), space)
     }
 
     /// Goes on from `state`.
@@ -136,7 +138,6 @@ impl<M: Method> Search<M> {
         let state = &mut self.state;
         if state.members.is_empty() {
             state.method.ask(&self.space, &mut state.members);
-            state.most = largest_allowed(state.best.as_ref());
         }
         let first = state.scores.len();
         let room = usize::try_from(self.evaluation_limit - state.evaluations).unwrap_or(usize::MAX);
@@ -157,6 +158,9 @@ impl<M: Method> Search<M> {
         if state.scores.len() == state.members.len() {
             state.method.tell(&self.space, &state.members, &state.scores);
             state.generation_best = state.scores.iter().copied().min_by(|a, b| a.cost.total_cmp(&b.cost));
+            if let (0, Some(best)) = (state.generation, &state.best) {
+                state.most = largest_after(best.score.size);
+            }
             state.generation += 1;
             state.members.clear();
             state.scores.clear();
@@ -197,7 +201,7 @@ impl<O: Evaluate, M: Method> Solver<O, FitState> for Search<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::{Random, RandomSettings, Start};
+    use crate::method::{Random, RandomSettings};
     use crate::space::{Freedom, TreeSeed};
     use crate::testing::{Function, cube};
     use argmin::core::{Executor, State};
@@ -206,7 +210,7 @@ mod tests {
         let space =
             SearchSpace::of_params(cube(3, -1.0, 1.0), &[0.5; 3], &Freedom::default(), TreeSeed::Fixed(1));
         let settings = RandomSettings { population: 10 };
-        Search::new(Random::new(settings, 1, Start::Random), Arc::new(space.unwrap()))
+        Search::new(Random::new(settings, 1, Start::Random), &Start::Random, Arc::new(space.unwrap()))
     }
 
     fn run(search: Search<Random>) -> (SearchState<Random>, FitState) {

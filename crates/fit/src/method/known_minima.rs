@@ -17,7 +17,7 @@ fn reached(name: &str, function: fn(&[f64]) -> f64, params: &ParamSpace, evaluat
         let space =
             SearchSpace::of_params(params.clone(), &base, &Freedom::default(), TreeSeed::Fixed(1)).unwrap();
         let optimizer: Optimizer = name.parse().unwrap();
-        let mut search = Search::new(optimizer.method(seed, Start::Random), Arc::new(space));
+        let mut search = Search::new(optimizer.method(seed, Start::Random), &Start::Random, Arc::new(space));
         search.evaluation_limit = evaluations;
         let result = Executor::new(Function(function), search).ctrlc(false).run().unwrap();
         result.solver.state.best.unwrap().score.cost
