@@ -124,6 +124,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     optimizer,
                     objective,
                     seed,
+                    match_height: std::env::var("X_NOMATCH").is_err(),
                     tree_seed: TreeSeed::Fixed(TREE_SEED),
                     budget: Budget {
                         evaluations: (evaluations > 0).then_some(evaluations),

@@ -4,7 +4,8 @@ use crate::genome::{Genome, Score, Size};
 use crate::objective::{Agreement, Objective};
 use crate::search::Evaluate;
 use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
-use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Detail, Frame, Projection, Rasteriser, View};
+use pleach_tree::stats::Bounds;
 use pleach_tree::{CheckedParams, Foliage, Generator, Growth, Limits, Tree, Workspace};
 use rayon::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -78,6 +79,8 @@ pub struct Evaluator {
     foliage: bool,
     objective: Objective,
     limits: Limits,
+    /// Height in metres that every tree is resized to.
+    height: Option<f64>,
     pool: Mutex<Vec<EvalWorkspace>>,
 }
 
@@ -89,10 +92,16 @@ struct PreparedView {
     frame: Frame,
 }
 
+/// How far a tree's height may be from the goal's before it is resized: a pixel of 200.
+const HEIGHT_TOLERANCE: f64 = 0.005;
+/// Trees that would have to be resized by more than this factor are left to their bad score.
+const MOST_RESIZING: f64 = 100.0;
+
 /// Memory that one thread reuses from one evaluation to the next: about the largest tree so far.
 #[derive(Debug)]
 pub struct EvalWorkspace {
     params: CheckedParams,
+    values: Vec<f64>,
     tree: Tree,
     workspace: Workspace,
     rasteriser: Rasteriser,
@@ -146,8 +155,24 @@ impl Evaluator {
             foliage: problem.foliage,
             objective,
             limits,
+            height: None,
             pool: Mutex::default(),
         })
+    }
+
+    /// Has every tree resized to the height of the first goal's ink before it is compared, if that
+    /// can be seen: in a level view without perspective, with paper above the tree.
+    ///
+    /// A picture shows the height of its tree to a pixel. A search that has to find it again for
+    /// every change of the trunk, or of the branches at its tip, spends most of its trials on that.
+    #[must_use]
+    pub fn matching_height(mut self) -> Self {
+        let PreparedView { goal, view, frame, .. } = &self.views[0];
+        let is_level = view.elevation == 0.0 && view.projection == Projection::Orthographic;
+        let top = goal.ink_box().map_or(0, |(_, top, _, _)| top);
+        let height = (frame.ground_row - f64::from(top)) * frame.metres_per_pixel;
+        self.height = (is_level && top > 0 && height > 0.0).then_some(height);
+        self
     }
 
     /// Memory for one thread.
@@ -159,6 +184,7 @@ impl Evaluator {
         let space = self.generator.space();
         EvalWorkspace {
             params: space.check(space.defaults()).expect("defaults are allowed values"),
+            values: Vec::new(),
             tree: Tree::default(),
             workspace: Workspace::default(),
             rasteriser: Rasteriser::with_detail(Detail::Half),
@@ -176,10 +202,7 @@ impl Evaluator {
     }
 
     fn evaluate_within(&self, genome: &Genome, most: Size, memory: &mut EvalWorkspace) -> Score {
-        let EvalWorkspace { params, tree, workspace, rasteriser, bitmap, scratch } = memory;
-        if params.set(self.generator.space(), &genome.values).is_err() {
-            return Score::FAILED;
-        }
+        let EvalWorkspace { params, values, tree, workspace, rasteriser, bitmap, scratch } = memory;
         let growth = Growth {
             seed: genome.tree_seed,
             limits: Limits {
@@ -190,8 +213,22 @@ impl Evaluator {
             foliage: if self.foliage { Foliage::All } else { Foliage::None },
             parallel: false,
         };
-        if self.generator.grow(params, &growth, workspace, tree).is_err() {
+        let mut grow = |values: &[f64], tree: &mut Tree| {
+            params.set(self.generator.space(), values).is_ok()
+                && self.generator.grow(params, &growth, workspace, tree).is_ok()
+        };
+        if !grow(&genome.values, tree) {
             return Score::FAILED;
+        }
+        let mut resized = 1.0;
+        if let Some(factor) = self.factor(tree) {
+            values.clone_from(&genome.values);
+            if self.generator.resize(values, factor) {
+                resized = factor;
+                if !grow(values, tree) {
+                    return Score::FAILED;
+                }
+            }
         }
         let mut sum = Score::of_cost(0.0);
         for view in &self.views {
@@ -207,7 +244,14 @@ impl Evaluator {
             leaves: tree.leaves.len() + tree.blossoms.len(),
             knots: tree.knots.len(),
         };
-        Score { cost: sum.cost / views, iou: sum.iou / views, accuracy: sum.accuracy / views, size }
+        Score { cost: sum.cost / views, iou: sum.iou / views, accuracy: sum.accuracy / views, size, resized }
+    }
+
+    /// How much larger `tree` has to be for the height that it should have, if it is not so already.
+    fn factor(&self, tree: &Tree) -> Option<f64> {
+        let factor = self.height? / Bounds::of(tree, self.foliage)?.max.z;
+        let is_off = (factor - 1.0).abs() > HEIGHT_TOLERANCE;
+        (is_off && (1.0 / MOST_RESIZING..MOST_RESIZING).contains(&factor)).then_some(factor)
     }
 
     /// Share of equal pixels that an empty picture has, in 0..=1; the mean over views.

@@ -28,6 +28,9 @@ pub struct Score {
     pub accuracy: f64,
     /// How large the tree was.
     pub size: Size,
+    /// Factor by which the tree was resized to the goal's height before it was drawn; 1 for none.
+    /// Searches resize the individual as well, with [`pleach_tree::Generator::resize`].
+    pub resized: f64,
 }
 
 /// How large a tree is: what its evaluation takes, in time and memory.
@@ -41,6 +44,11 @@ pub struct Size {
     pub knots: usize,
 }
 
+impl Size {
+    /// No bound.
+    pub const ANY: Self = Self { stems: usize::MAX, leaves: usize::MAX, knots: usize::MAX };
+}
+
 impl Score {
     /// The score of what does not grow.
     pub const FAILED: Self = Self { cost: f64::INFINITY, ..Self::of_cost(0.0) };
@@ -48,7 +56,7 @@ impl Score {
     /// A bare cost, for problems that are no pictures.
     #[must_use]
     pub const fn of_cost(cost: f64) -> Self {
-        Self { cost, iou: 0.0, accuracy: 0.0, size: Size { stems: 0, leaves: 0, knots: 0 } }
+        Self { cost, iou: 0.0, accuracy: 0.0, size: Size { stems: 0, leaves: 0, knots: 0 }, resized: 1.0 }
     }
 }
 

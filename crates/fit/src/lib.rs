@@ -3,6 +3,7 @@
 //! | module | idea |
 //! | --- | --- |
 //! | [`genome`] | [`Genome`], [`Score`]: what is searched and how good it is |
+//! | [`guess`] | [`first_guess`]: the known species that a goal looks like, to start from |
 //! | [`space`] | [`SearchSpace`]: which numbers are free, and how far |
 //! | [`method`] | optimisers that are asked for individuals and told their scores |
 //! | [`search`] | [`Search`]: a method as an argmin solver |
@@ -26,6 +27,7 @@ pub mod evaluator;
 mod exact;
 pub mod fingerprint;
 pub mod genome;
+pub mod guess;
 pub mod history;
 pub mod method;
 pub mod objective;
@@ -41,6 +43,7 @@ pub use budget::{Budget, Clock, StopReason};
 pub use checkpoint::CheckpointError;
 pub use evaluator::{EvalWorkspace, Evaluator, FitProblem, GoalView, ProblemError};
 pub use genome::{Genome, Score, Scored, Size};
+pub use guess::{Candidate, FirstGuess, Guess, GuessSettings, first_guess};
 pub use history::{COLUMNS, Column, Observer, Progress, Row};
 pub use method::{Method, Start};
 pub use objective::Objective;

@@ -102,7 +102,7 @@ pub enum FitError {
 /// # Errors
 /// See [`FitError`]; once the search runs, it ends with an [`Outcome`].
 pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -> Result<Outcome, FitError> {
-    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?;
+    let mut evaluator = Evaluator::new(problem, settings.objective, settings.limits)?;
     let mut space = SearchSpace::new(
         Arc::clone(&problem.generator),
         &problem.base,
@@ -115,6 +115,9 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
     for list in settings.start.lists() {
         space.widen(list)?;
     }
+    if settings.match_height && space.sizes_are_free() {
+        evaluator = evaluator.matching_height();
+    }
     let fingerprint = Fingerprint::default()
         .with_bytes("goal", evaluator.goal_bytes())
         .with("generator", problem.generator.family())
@@ -126,6 +129,7 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
         .with("tree seed", &settings.tree_seed)
         .with("objective", &settings.objective)
         .with("start", &settings.start)
+        .with("match height", &settings.match_height)
         .with("limits", &(settings.limits.stems, settings.limits.leaves, settings.limits.knots));
     drive(&evaluator, space, settings, fingerprint, control)
 }

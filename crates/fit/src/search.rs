@@ -53,9 +53,6 @@ const MOST_GROWTH: usize = 2;
 /// Trees up to this size are never given up: some three milliseconds.
 const ALWAYS: Size = Size { stems: 2_000, leaves: 12_000, knots: 12_000 };
 
-/// No bound but the limits of the settings.
-const ANY: Size = Size { stems: usize::MAX, leaves: usize::MAX, knots: usize::MAX };
-
 /// The largest trees of a search, once the first generation has shown how large its start is.
 fn largest_after(first: Size) -> Size {
     Size {
@@ -79,7 +76,7 @@ impl<M> SearchState<M> {
             generation_best: None,
             members: Vec::new(),
             scores: Vec::new(),
-            most: if matches!(start, Start::Random) { ALWAYS } else { ANY },
+            most: if matches!(start, Start::Random) { ALWAYS } else { Size::ANY },
         }
     }
 
@@ -145,6 +142,10 @@ impl<M: Method> Search<M> {
         let batch = &state.members[first..first + count];
         let scores = score(batch, state.most)?;
         state.evaluations += count as u64;
+        let batch = &mut state.members[first..first + count];
+        for (member, score) in batch.iter_mut().zip(&scores) {
+            self.space.resize(member, score.resized);
+        }
         let (at, &top) = scores
             .iter()
             .enumerate()

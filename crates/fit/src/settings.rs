@@ -137,6 +137,9 @@ pub struct FitSettings {
     pub freedom: Freedom,
     /// Bounds above which a tree counts as not growing.
     pub limits: Limits,
+    /// Whether trees are resized to the goal's height before they are compared: see
+    /// [`crate::Evaluator::matching_height`]. Only done while all sizes are free.
+    pub match_height: bool,
 }
 
 impl Default for FitSettings {
@@ -151,6 +154,7 @@ impl Default for FitSettings {
             start: Start::default(),
             freedom: Freedom::default(),
             limits: LIMITS,
+            match_height: true,
         }
     }
 }

@@ -5,6 +5,7 @@
 use crate::generator::{Foliage, GrowError, Growth, Limits, Workspace};
 use crate::plant::Tree;
 use crate::species::{Species, SpeciesDoc};
+use crate::stats::Bounds;
 
 /// Runs every check on `species`; `reread` parses a species file again.
 ///
@@ -43,6 +44,18 @@ pub fn check(species: &Species, reread: impl Fn(&SpeciesDoc) -> Species) {
             (area(&coarse) / area(&tree) - 1.0).abs() < 0.05,
             "{name}: coarse foliage keeps the leaf area"
         );
+    }
+
+    // A tree of twice the size looks the same from twice as far.
+    let mut values = species.params.values().to_vec();
+    if species.generator.resize(&mut values, 2.0) {
+        let params = species.generator.space().check(values);
+        let params = params.unwrap_or_else(|e| panic!("{name} resized is allowed: {e}"));
+        let twice = Species { params, ..species.clone() }.grow(7);
+        let twice = twice.unwrap_or_else(|e| panic!("{name} grows at twice the size: {e}"));
+        let height = |tree: &Tree| Bounds::of(tree, true).map_or(0.0, |bounds| bounds.max.z);
+        let ratio = height(&twice) / height(&tree);
+        assert!((1.98..2.02).contains(&ratio), "{name}: twice the size is {ratio} times the height");
     }
 
     // Limits are errors, not swap storms.

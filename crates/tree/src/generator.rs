@@ -1,6 +1,6 @@
 //! What a generator promises.
 
-use crate::param::{CheckedParams, ParamSpace};
+use crate::param::{CheckedParams, ParamSpace, Unit};
 use crate::plant::Tree;
 use crate::species::{Species, SpeciesDoc, SpeciesError};
 use std::any::Any;
@@ -165,6 +165,21 @@ pub trait Generator: Send + Sync + fmt::Debug {
     /// Blends change such numbers together, in few steps, so that a tree stays itself in between.
     fn redeals(&self, slot: usize) -> bool {
         self.space().kind_of(slot).is_whole()
+    }
+
+    /// Changes `values` so that their tree grows `factor` times as large and nearly the same in all
+    /// else; if that cannot be had within the allowed ranges, leaves them and returns false.
+    ///
+    /// Numbers in metres are sizes unless a generator says otherwise. Only nearly, since models have
+    /// sizes of their own: Weber and Penn's stems are never thinner than a centimetre.
+    fn resize(&self, values: &mut [f64], factor: f64) -> bool {
+        let space = self.space();
+        let sizes = || (0..space.len()).filter(|&slot| space.param_of(slot).unit == Unit::Metres);
+        let fits = sizes().all(|slot| space.check_slot(slot, values[slot] * factor).is_ok());
+        if fits {
+            sizes().for_each(|slot| values[slot] *= factor);
+        }
+        fits
     }
 
     /// The parts of a species file beside the numbers (solids, a grammar), as TOML lines that

@@ -6,7 +6,7 @@ pub use gene::Gene;
 
 use crate::genome::Genome;
 use crate::stream::Stream;
-use pleach_tree::param::Problem;
+use pleach_tree::param::{Problem, Unit};
 use pleach_tree::{Generator, ParamSpace};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -170,6 +170,21 @@ impl SearchSpace {
             genome.tree_seed = seed;
         }
         genome
+    }
+
+    /// Whether all sizes in metres are free, so that individuals may be resized.
+    #[must_use]
+    pub fn sizes_are_free(&self) -> bool {
+        let is_free = |slot| self.genes.iter().any(|gene| gene.slot == slot);
+        let mut sizes = (0..self.params.len()).filter(|&s| self.params.param_of(s).unit == Unit::Metres);
+        sizes.all(is_free)
+    }
+
+    /// Makes the tree of `genome` larger by `factor`, as [`Generator::resize`] does.
+    pub fn resize(&self, genome: &mut Genome, factor: f64) {
+        if let (true, Some(generator)) = (factor != 1.0, &self.generator) {
+            generator.resize(&mut genome.values, factor);
+        }
     }
 
     /// A random parameter list: every free number drawn as [`Gene::random`] says.
