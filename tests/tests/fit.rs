@@ -97,6 +97,29 @@ fn every_optimizer_is_the_same_on_any_number_of_threads() {
     }
 }
 
+/// By default a fit starts from what the goal looks like, and says so.
+#[test]
+fn the_first_guess_names_the_species_and_starts_the_fit() {
+    let dir = Dir::new();
+    // A tree of a seed that the fit does not use.
+    let _ = dir.run(["silhouette", "small_pine", "--seed", "21", "--size", "128", "-o", "pine.png"]).ok();
+    let args = ["fit", "pine.png", "--size", "64", "--evaluations", "60", "--json"];
+    let run = |more: &[&str]| dir.run([&args[..], more].concat());
+    let auto = run(&["--out", "auto"]);
+    assert!(auto.stderr().contains("looks like small_pine"), "{}", auto.stderr());
+    let auto = auto.json();
+    assert_eq!((&auto["from"], &auto["looks_like"][0]["species"]), (&"auto".into(), &"small_pine".into()));
+    let random = run(&["--out", "random", "--from", "random"]).json();
+    assert_eq!(random["looks_like"].as_array().unwrap().len(), 0);
+    let iou = |summary: &serde_json::Value| summary["iou"].as_f64().unwrap();
+    assert!(iou(&auto) > iou(&random), "{} {}", iou(&auto), iou(&random));
+    // The guess is part of the promise of equal bits.
+    let again = run(&["--out", "again", "--threads", "3"]);
+    let _ = again.json();
+    assert!(results(&dir.path("auto")) == results(&dir.path("again")));
+    run(&["--out", "x", "--from", "small_pin"]).fails(1, &["small_pin", "did you mean `small_pine`?"]);
+}
+
 #[test]
 fn another_seed_is_another_search() {
     let dir = Dir::new();

@@ -3,17 +3,22 @@
 //! ```text
 //! cargo run --release -p pleach-fit --example compare -- \
 //!     [--evaluations N] [--timeout SECONDS] [--species a,b|all] [--seeds N] [--optimizers a,b] \
-//!     [--objective NAME] [--settings JSON] [--csv FILE] [--clock wall|cpu]
+//!     [--objective NAME] [--settings JSON] [--csv FILE] [--clock wall|cpu] \
+//!     [--goal-seed N] [--from random|known|others]
 //! ```
 //!
-//! Every goal is its species' tree of seed 1, leafy, from the front, 256 × 256; fits use the same
-//! tree seed and start from random lists. One row a run, then the mean of each optimiser. With
+//! Every goal is its species' tree of seed 1 (or another), leafy, from the front, 256 × 256; fits use
+//! tree seed 1. They start from random lists, from the nearest of the known species, or from the
+//! nearest of all species but the goal's own. One row a run, then the mean of each optimiser. With
 //! `--clock cpu` the timeout counts the processor's time, all threads together: for a machine that
 //! does other work too (Linux only).
 
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
-use pleach_fit::{Budget, Control, FitProblem, FitSettings, GoalView, Objective, Optimizer, TreeSeed, fit};
+use pleach_fit::{
+    Budget, Candidate, Control, FitProblem, FitSettings, GoalView, GuessSettings, Objective, Optimizer,
+    Start, TreeSeed, first_guess, fit,
+};
 use pleach_silhouette::score::best_ellipse_iou;
 use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
 use pleach_tree::Species;
@@ -47,8 +52,8 @@ const FIFTEEN: [&str; 15] = [
     "balsam_fir",
 ];
 
-fn problem(species: &Species) -> Result<FitProblem, Box<dyn Error>> {
-    let tree = species.grow(TREE_SEED)?;
+fn problem(species: &Species, seed: u64) -> Result<FitProblem, Box<dyn Error>> {
+    let tree = species.grow(seed)?;
     let frame = Frame::automatic(&tree, &View::FRONT, true, SIZE, SIZE);
     let mut goal = Bitmap::default();
     Rasteriser::new().draw(&tree, &View::FRONT, &frame, true, &mut goal);
@@ -58,6 +63,18 @@ fn problem(species: &Species) -> Result<FitProblem, Box<dyn Error>> {
         goals: vec![GoalView { goal, view: View::FRONT, frame }],
         foliage: true,
     })
+}
+
+/// The nearest of the known species, without the one called `except`.
+fn known(problem: &FitProblem, settings: &FitSettings, except: &str) -> Result<Start, Box<dyn Error>> {
+    let candidate = |name: &str| {
+        let values = pleach_generators::preset(name)?.params.values().to_vec();
+        Some(Candidate { name: name.to_owned(), values })
+    };
+    let names = FIFTEEN.iter().filter(|name| **name != except);
+    let candidates: Vec<Candidate> = names.filter_map(|name| candidate(name)).collect();
+    let guess = first_guess(problem, settings, &candidates, &GuessSettings::default(), |_, _| ())?;
+    Ok(Start::Lists(guess.nearest.into_iter().map(|guess| guess.values).collect()))
 }
 
 fn wall_time() -> Duration {
@@ -95,6 +112,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         "cpu" => cpu_time,
         other => return Err(format!("--clock {other}: wall or cpu").into()),
     };
+    let goal_seed: u64 = take("goal-seed", "1").parse()?;
+    let from = take("from", "random");
     if let Some(unknown) = given.keys().next() {
         return Err(format!("unknown flag --{unknown}").into());
     }
@@ -107,7 +126,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut means: BTreeMap<&str, ([f64; 3], f64)> = BTreeMap::new();
     for name in names {
         let species = pleach_generators::preset(name).ok_or_else(|| format!("no species `{name}`"))?;
-        let problem = problem(&species)?;
+        let problem = problem(&species, goal_seed)?;
         let goal = &problem.goals[0].goal;
         let ellipse = best_ellipse_iou(goal);
         let empty = 1.0 - goal.ink() as f64 / goal.area() as f64;
@@ -120,11 +139,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                 } else {
                     serde_json::from_str::<Optimizer>(&settings)?
                 };
-                let settings = FitSettings {
+                let mut settings = FitSettings {
                     optimizer,
                     objective,
                     seed,
-                    match_height: std::env::var("X_NOMATCH").is_err(),
                     tree_seed: TreeSeed::Fixed(TREE_SEED),
                     budget: Budget {
                         evaluations: (evaluations > 0).then_some(evaluations),
@@ -135,6 +153,12 @@ fn main() -> Result<(), Box<dyn Error>> {
                 };
                 let started = clock();
                 let clock = move || clock() - started;
+                match from.as_str() {
+                    "random" => {}
+                    "known" => settings.start = known(&problem, &settings, "")?,
+                    "others" => settings.start = known(&problem, &settings, name)?,
+                    other => return Err(format!("--from {other}: random, known or others").into()),
+                }
                 let outcome = fit(&problem, &settings, Control::new(&clock, &AtomicBool::new(false)))?;
                 let score = outcome.best.ok_or("nothing was evaluated")?.score;
                 for (sum, value) in sum.iter_mut().zip([score.accuracy, score.iou, score.cost]) {

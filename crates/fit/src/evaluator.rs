@@ -5,8 +5,7 @@ use crate::objective::{Agreement, Objective};
 use crate::search::Evaluate;
 use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
 use pleach_silhouette::{Bitmap, Detail, Frame, Projection, Rasteriser, View};
-use pleach_tree::stats::Bounds;
-use pleach_tree::{CheckedParams, Foliage, Generator, Growth, Limits, Tree, Workspace};
+use pleach_tree::{CheckedParams, Foliage, Generator, Growth, Leaf, Limits, Tree, Workspace};
 use rayon::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -79,9 +78,16 @@ pub struct Evaluator {
     foliage: bool,
     objective: Objective,
     limits: Limits,
-    /// Height in metres that every tree is resized to.
-    height: Option<f64>,
+    /// Height that every tree is resized to.
+    height: Option<Height>,
     pool: Mutex<Vec<EvalWorkspace>>,
+}
+
+/// The height of the goal's tree, in metres.
+#[derive(Clone, Copy, Debug)]
+struct Height {
+    goal: f64,
+    tolerance: f64,
 }
 
 #[derive(Debug)]
@@ -92,8 +98,9 @@ struct PreparedView {
     frame: Frame,
 }
 
-/// How far a tree's height may be from the goal's before it is resized: a pixel of 200.
-const HEIGHT_TOLERANCE: f64 = 0.005;
+/// How far a tree's height may be from the goal's before it is resized, in pixels: the tip of a tree
+/// is thinner than a pixel and leaves no ink.
+const HEIGHT_TOLERANCE: f64 = 2.0;
 /// Trees that would have to be resized by more than this factor are left to their bad score.
 const MOST_RESIZING: f64 = 100.0;
 
@@ -170,8 +177,9 @@ impl Evaluator {
         let PreparedView { goal, view, frame, .. } = &self.views[0];
         let is_level = view.elevation == 0.0 && view.projection == Projection::Orthographic;
         let top = goal.ink_box().map_or(0, |(_, top, _, _)| top);
-        let height = (frame.ground_row - f64::from(top)) * frame.metres_per_pixel;
-        self.height = (is_level && top > 0 && height > 0.0).then_some(height);
+        let goal = (frame.ground_row - f64::from(top)) * frame.metres_per_pixel;
+        let tolerance = HEIGHT_TOLERANCE * frame.metres_per_pixel;
+        self.height = (is_level && top > 0 && goal > tolerance).then_some(Height { goal, tolerance });
         self
     }
 
@@ -249,8 +257,10 @@ impl Evaluator {
 
     /// How much larger `tree` has to be for the height that it should have, if it is not so already.
     fn factor(&self, tree: &Tree) -> Option<f64> {
-        let factor = self.height? / Bounds::of(tree, self.foliage)?.max.z;
-        let is_off = (factor - 1.0).abs() > HEIGHT_TOLERANCE;
+        let Height { goal, tolerance } = self.height?;
+        let height = height_of(tree);
+        let factor = goal / height;
+        let is_off = (height - goal).abs() > tolerance;
         (is_off && (1.0 / MOST_RESIZING..MOST_RESIZING).contains(&factor)).then_some(factor)
     }
 
@@ -270,6 +280,15 @@ impl Evaluator {
         }
         bytes
     }
+}
+
+/// Metres from the ground to the highest knot or middle line of a leaf: the height to a pixel or two,
+/// at a fraction of the price of [`pleach_tree::stats::Bounds`].
+fn height_of(tree: &Tree) -> f64 {
+    let knots = tree.knots.iter().map(|knot| knot.point.z).fold(0.0, f64::max);
+    let leaves = tree.leaves.iter().chain(&tree.blossoms);
+    let top = |leaf: &Leaf| leaf.position.z + leaf.along.z.max(0.0);
+    knots.max(f64::from(leaves.map(top).fold(0.0, f32::max)))
 }
 
 impl PreparedView {

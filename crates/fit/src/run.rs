@@ -115,7 +115,7 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
     for list in settings.start.lists() {
         space.widen(list)?;
     }
-    if settings.match_height && space.sizes_are_free() {
+    if settings.optimizer.matches_height() && space.sizes_are_free() {
         evaluator = evaluator.matching_height();
     }
     let fingerprint = Fingerprint::default()
@@ -129,7 +129,6 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
         .with("tree seed", &settings.tree_seed)
         .with("objective", &settings.objective)
         .with("start", &settings.start)
-        .with("match height", &settings.match_height)
         .with("limits", &(settings.limits.stems, settings.limits.leaves, settings.limits.knots));
     drive(&evaluator, space, settings, fingerprint, control)
 }

@@ -56,6 +56,18 @@ impl Optimizer {
     }
 }
 
+impl Optimizer {
+    /// Whether it wants trees resized to the goal's height before they are compared: see
+    /// [`crate::Evaluator::matching_height`]. The dissertation's algorithm and the random floor do not.
+    #[must_use]
+    pub const fn matches_height(&self) -> bool {
+        match self {
+            Self::Random(_) | Self::Hewitt(_) => false,
+            Self::Evolution(settings) => settings.match_height,
+        }
+    }
+}
+
 impl FromStr for Optimizer {
     type Err = UnknownOptimizer;
 
@@ -137,9 +149,6 @@ pub struct FitSettings {
     pub freedom: Freedom,
     /// Bounds above which a tree counts as not growing.
     pub limits: Limits,
-    /// Whether trees are resized to the goal's height before they are compared: see
-    /// [`crate::Evaluator::matching_height`]. Only done while all sizes are free.
-    pub match_height: bool,
 }
 
 impl Default for FitSettings {
@@ -154,7 +163,6 @@ impl Default for FitSettings {
             start: Start::default(),
             freedom: Freedom::default(),
             limits: LIMITS,
-            match_height: true,
         }
     }
 }

@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::own_goal;
+use common::goal_of;
 use pleach_fit::settings::LIMITS;
 use pleach_fit::stream::Stream;
 use pleach_fit::{Evaluator, Freedom, Genome, Objective, SearchSpace, TreeSeed};
@@ -19,7 +19,7 @@ static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
 #[test]
 fn warm_evaluations_allocate_nothing() {
-    let problem = own_goal("quaking_aspen", 128);
+    let problem = goal_of("quaking_aspen", 1, 128);
     let evaluator = Evaluator::new(&problem, Objective::Blend, LIMITS).unwrap();
     let tree_seed = TreeSeed::Fixed(1);
     let space =

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::own_goal;
+use common::goal_of;
 use pleach_fit::settings::LIMITS;
 use pleach_fit::{
     Budget, Control, Evaluator, FitError, FitSettings, Freedom, Objective, ProblemError, Start, fit,
@@ -24,7 +24,7 @@ fn attempt(
 
 #[test]
 fn goals_that_cannot_be_compared_with_are_named() {
-    let good = own_goal("palm", 32);
+    let good = goal_of("palm", 1, 32);
     let mut none = good.clone();
     none.goals.clear();
     let mut empty = good.clone();
@@ -42,7 +42,7 @@ fn goals_that_cannot_be_compared_with_are_named() {
 
 #[test]
 fn settings_that_do_not_fit_the_generator_are_errors() {
-    let problem = own_goal("palm", 32);
+    let problem = goal_of("palm", 1, 32);
     let budget = Budget::evaluations(5);
     let unknown = Freedom { free: vec!["lenght".to_owned()], ..Freedom::default() };
     let error = attempt(&problem, &FitSettings { freedom: unknown, budget, ..FitSettings::default() });
@@ -56,7 +56,7 @@ fn settings_that_do_not_fit_the_generator_are_errors() {
 
 #[test]
 fn what_does_not_grow_costs_infinity_and_the_fit_goes_on() {
-    let problem = own_goal("palm", 32);
+    let problem = goal_of("palm", 1, 32);
     let limits = Limits { stems: 0, leaves: 0, knots: 0 };
     for name in pleach_fit::Optimizer::NAMES {
         let settings = FitSettings {
@@ -73,10 +73,11 @@ fn what_does_not_grow_costs_infinity_and_the_fit_goes_on() {
 
 #[test]
 fn the_truth_is_perfect_and_ends_the_fit() {
-    let problem = own_goal("palm", 64);
+    let problem = goal_of("palm", 1, 64);
     let start = Start::Lists(vec![problem.base.clone()]);
     for objective in Objective::ALL {
-        let settings = FitSettings { start: start.clone(), objective, ..FitSettings::default() };
+        let budget = Budget::evaluations(500);
+        let settings = FitSettings { start: start.clone(), objective, budget, ..FitSettings::default() };
         let outcome = attempt(&problem, &settings).unwrap();
         assert_eq!(outcome.stop, pleach_fit::StopReason::Perfect, "{objective}");
         let score = outcome.best.unwrap().score;

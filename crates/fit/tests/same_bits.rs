@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::own_goal;
+use common::goal_of;
 use pleach_fit::{
     Budget, CheckpointSettings, Control, FitProblem, FitSettings, Optimizer, Outcome, StopReason, TreeSeed,
     fit,
@@ -28,7 +28,7 @@ fn run(problem: &FitProblem, settings: &FitSettings, checkpoint: Option<Checkpoi
 
 #[test]
 fn threads_change_nothing() {
-    let problem = own_goal("palm", 64);
+    let problem = goal_of("palm", 1, 64);
     for name in Optimizer::NAMES {
         let settings = settings(name, 500);
         let on = |threads| {
@@ -45,7 +45,7 @@ fn threads_change_nothing() {
 
 #[test]
 fn a_fit_killed_at_any_checkpoint_comes_to_the_same_end() {
-    let problem = own_goal("palm", 64);
+    let problem = goal_of("palm", 1, 64);
     let folder = tempfile::tempdir().unwrap();
     for name in Optimizer::NAMES {
         let mut whole = run(&problem, &settings(name, 600), None);
@@ -91,9 +91,9 @@ fn another_goal_is_another_run() {
     let folder = tempfile::tempdir().unwrap();
     let file = CheckpointSettings { resume: true, ..CheckpointSettings::new(folder.path().join("c")) };
     let settings = settings("random", 20);
-    run(&own_goal("palm", 64), &settings, Some(file.clone()));
+    run(&goal_of("palm", 1, 64), &settings, Some(file.clone()));
     let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
     let control = Control { checkpoint: Some(file), ..Control::new(&clock, &stop) };
-    let error = fit(&own_goal("palm", 48), &settings, control).unwrap_err().to_string();
+    let error = fit(&goal_of("palm", 1, 48), &settings, control).unwrap_err().to_string();
     assert!(error.ends_with("it differs in goal"), "{error}");
 }

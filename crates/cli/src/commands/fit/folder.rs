@@ -1,5 +1,6 @@
 //! The run folder.
 
+use super::start::LooksLike;
 use crate::{files, output};
 use anyhow::{Context, bail};
 use pleach_fit::{COLUMNS, FitProblem, FitSettings, Outcome, Scored, StopReason};
@@ -28,7 +29,8 @@ pub(super) struct Results<'a> {
     pub(super) view: &'a View,
     pub(super) height: f64,
     pub(super) foliage: bool,
-    pub(super) from: &'a str,
+    pub(super) from: String,
+    pub(super) looks_like: Vec<LooksLike>,
 }
 
 /// `summary.json`.
@@ -51,6 +53,7 @@ pub(super) struct Summary {
     finished: bool,
     seed: u64,
     from: String,
+    looks_like: Vec<LooksLike>,
     free: Vec<String>,
     fix: Vec<String>,
     height_m: f64,
@@ -146,7 +149,8 @@ impl RunFolder {
             stopped_by: outcome.stop,
             finished: outcome.stop != StopReason::Interrupted,
             seed: settings.seed,
-            from: results.from.to_owned(),
+            from: results.from.clone(),
+            looks_like: results.looks_like.clone(),
             free: settings.freedom.free.clone(),
             fix: settings.freedom.fix.clone(),
             height_m: results.height,

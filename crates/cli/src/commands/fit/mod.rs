@@ -3,6 +3,7 @@
 mod folder;
 mod options;
 mod progress;
+mod start;
 
 use crate::{input, output};
 use anyhow::{Context, bail};
@@ -23,7 +24,7 @@ use std::time::{Duration, Instant};
 const EXAMPLES: &str = "Examples:
   pleach fit targets/quaking_aspen.png                a minute of search, results in runs/quaking_aspen
   pleach fit oak.jpg --height 18 --timeout 5m         a tree of 18 m, five minutes
-  pleach fit goal.png --optimizer hewitt --evaluations 20000 --seed 3
+  pleach fit goal.png --from random --optimizer hewitt --evaluations 20000 --seed 3
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit goal.png --out DIR --resume              go on after ctrl-C or a crash
 
@@ -91,9 +92,10 @@ struct GoalArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "The search")]
 struct SearchArgs {
-    /// Where to start: a species (name or file), or `random` parameter lists
-    #[arg(long, value_name = "SPECIES|random", default_value = "random")]
-    from: String,
+    /// Where to start: from the known species that look most like the goal, from `random` parameter
+    /// lists, or from one species (name or file)
+    #[arg(long, value_name = "auto|random|SPECIES", default_value = "auto")]
+    from: start::From,
     /// Parameters that may change: a name, a slot such as length[1], a group, or level:N; repeatable.
     /// All by default; see `pleach params`
     #[arg(long, value_name = "PATTERN")]
@@ -138,11 +140,11 @@ struct BudgetArgs {
 impl Fit {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let settings = self.settings()?;
-        let Settings::Fit(settings) = settings else {
+        let Settings::Fit(mut settings) = settings else {
             return output::line(options::describe(&self.search.optimizer)?);
         };
         let goal = self.goal()?;
-        let problem = self.problem(&goal.working)?;
+        let mut problem = self.problem(&goal.working)?;
         let folder = self.folder()?;
         let checkpoint =
             CheckpointSettings { resume: self.resume, ..CheckpointSettings::new(folder.checkpoint()) };
@@ -159,6 +161,7 @@ impl Fit {
 
         let started = Instant::now();
         let clock = || started.elapsed();
+        let looks_like = self.search.from.begin(&mut problem, &mut settings)?;
         let mut bar = Bar::new(&settings);
         let control = Control {
             observers: vec![&mut bar],
@@ -187,7 +190,8 @@ impl Fit {
             view: &self.goal_options.view,
             height: self.goal_options.height,
             foliage: problem.foliage,
-            from: &self.search.from,
+            from: self.search.from.to_string(),
+            looks_like,
         })?;
         if self.json {
             output::json(&summary)?;
@@ -228,12 +232,7 @@ impl Fit {
     }
 
     fn problem(&self, goal: &Goal) -> anyhow::Result<FitProblem> {
-        let start = match self.search.from.as_str() {
-            "random" => {
-                pleach_generators::preset("quaking_aspen").context("the default species is built in")?
-            }
-            species => input::species(species)?,
-        };
+        let start = self.search.from.species()?;
         Ok(FitProblem {
             generator: start.generator,
             base: start.params.values().to_vec(),
@@ -256,10 +255,6 @@ impl Fit {
         if timeout.is_none() && budget.evaluations.or(budget.generations).is_none() {
             timeout = Some(Duration::from_secs(60));
         }
-        let start = match search.from.as_str() {
-            "random" => pleach_fit::Start::Random,
-            species => pleach_fit::Start::Lists(vec![input::species(species)?.params.values().to_vec()]),
-        };
         Ok(Settings::Fit(Box::new(FitSettings {
             optimizer: options::optimizer(&search.optimizer, &search.settings)?,
             budget: Budget {
@@ -271,7 +266,6 @@ impl Fit {
             seed: search.seed,
             tree_seed: search.tree_seed,
             objective: search.objective.parse::<Objective>()?,
-            start,
             freedom: pleach_fit::Freedom { free: search.free.clone(), fix: search.fix.clone() },
             ..FitSettings::default()
         })))

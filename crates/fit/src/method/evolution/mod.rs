@@ -50,6 +50,8 @@ pub struct EvolutionSettings {
     pub patience: usize,
     /// Lanes from random lists between two lanes in which champions meet.
     pub lanes: usize,
+    /// Whether trees are resized to the goal's height before they are compared, if all sizes are free.
+    pub match_height: bool,
 }
 
 impl Default for EvolutionSettings {
@@ -63,6 +65,7 @@ impl Default for EvolutionSettings {
             greed: 2.0,
             patience: 50,
             lanes: 3,
+            match_height: true,
         }
     }
 }

@@ -1,0 +1,109 @@
+//! Where a fit starts: random lists, a species, or whatever the goal looks like.
+
+use crate::{input, output};
+use anyhow::Context;
+use indicatif::{ProgressBar, ProgressStyle};
+use pleach_fit::{Candidate, FitProblem, FitSettings, GuessSettings, Start, first_guess};
+use pleach_tree::Species;
+use serde::Serialize;
+use std::str::FromStr;
+
+/// What `--from` says.
+#[derive(Clone, Debug)]
+pub(super) enum From {
+    /// The known species that the goal looks like.
+    Auto,
+    /// Random parameter lists.
+    Random,
+    /// A species by name or file.
+    Species(String),
+}
+
+impl FromStr for From {
+    type Err = std::convert::Infallible;
+
+    fn from_str(given: &str) -> Result<Self, Self::Err> {
+        Ok(match given {
+            "auto" => Self::Auto,
+            "random" => Self::Random,
+            species => Self::Species(species.to_owned()),
+        })
+    }
+}
+
+impl std::fmt::Display for From {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Auto => "auto",
+            Self::Random => "random",
+            Self::Species(name) => name,
+        })
+    }
+}
+
+/// A species that the goal was compared with, in `summary.json`.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct LooksLike {
+    species: String,
+    confidence: f64,
+}
+
+/// Species with less confidence than this are not spoken of.
+const LEAST_CONFIDENCE: f64 = 0.01;
+
+impl From {
+    /// The species whose generator is fitted, and whose values fixed parameters keep unless a guess
+    /// has better ones.
+    pub(super) fn species(&self) -> anyhow::Result<Species> {
+        match self {
+            Self::Species(name) => Ok(input::species(name)?),
+            Self::Auto | Self::Random => {
+                pleach_generators::preset("quaking_aspen").context("the default species is built in")
+            }
+        }
+    }
+
+    /// Sets where the search begins; returns what the goal looks like, if that was asked for.
+    pub(super) fn begin(
+        &self,
+        problem: &mut FitProblem,
+        settings: &mut FitSettings,
+    ) -> anyhow::Result<Vec<LooksLike>> {
+        match self {
+            Self::Random => settings.start = Start::Random,
+            Self::Species(_) => settings.start = Start::Lists(vec![problem.base.clone()]),
+            Self::Auto => return guess(problem, settings),
+        }
+        Ok(Vec::new())
+    }
+}
+
+fn guess(problem: &mut FitProblem, settings: &mut FitSettings) -> anyhow::Result<Vec<LooksLike>> {
+    let bar = if output::is_watched() { ProgressBar::new(1) } else { ProgressBar::hidden() };
+    if let Ok(style) = ProgressStyle::with_template("first guess {wide_bar} {pos} of {len} trees") {
+        bar.set_style(style);
+    }
+    let guess =
+        first_guess(problem, settings, &candidates(problem), &GuessSettings::default(), |done, all| {
+            bar.set_length(all as u64);
+            bar.set_position(done as u64);
+        })?;
+    bar.finish_and_clear();
+    let mut names = guess.names;
+    names.retain(|(_, confidence)| *confidence >= LEAST_CONFIDENCE);
+    let said: Vec<String> =
+        names.iter().take(3).map(|(name, c)| format!("{name} ({:.0} %)", 100.0 * c)).collect();
+    output::note(format!("looks like {}", said.join(", ")));
+    problem.base = guess.nearest[0].values.clone();
+    settings.start = Start::Lists(guess.nearest.into_iter().map(|guess| guess.values).collect());
+    Ok(names.into_iter().map(|(species, confidence)| LooksLike { species, confidence }).collect())
+}
+
+/// The known species that the problem's generator grows.
+fn candidates(problem: &FitProblem) -> Vec<Candidate> {
+    let species = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
+    species
+        .filter(|s| s.generator.family() == problem.generator.family() && s.generator.extra_toml().is_empty())
+        .map(|s| Candidate { name: s.name.clone(), values: s.params.values().to_vec() })
+        .collect()
+}
