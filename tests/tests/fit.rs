@@ -68,7 +68,18 @@ fn the_run_folder_holds_what_it_should() {
         names.sort();
         names
     };
-    assert_eq!(names(&folder), ["best.png", "best.toml", "history.csv", "overlay.png", "summary.json"]);
+    let expected =
+        ["best.png", "best.toml", "history.csv", "overlay.png", "parameters.csv", "summary.json"];
+    assert_eq!(names(&folder), expected);
+
+    // How it does with other seeds, and what of it the goal determines.
+    assert_eq!(summary["fresh_seeds"]["count"], 16);
+    assert!(summary["fresh_seeds"]["iou"]["sd"].as_f64().unwrap() > 0.0);
+    let parameters = String::from_utf8(read(&folder.join("parameters.csv"))).unwrap();
+    let count = |word: &str| parameters.lines().filter(|line| line.split(',').nth(2) == Some(word)).count();
+    assert_eq!(summary["determined"]["determined"], count("determined"));
+    assert_eq!(summary["determined"]["not_seen"], count("not-seen"));
+    assert!(count("determined") > 0 && count("not-seen") > 0, "{parameters}");
 
     // The picture has the goal's size, the card is that of `score`, and the species grows the picture.
     let best = folder.join("best.png");
@@ -127,6 +138,19 @@ fn another_seed_is_another_search() {
     let _ = dir.run(small(&goal, "a", &["--evaluations", "200", "--seed", "1"])).ok();
     let _ = dir.run(small(&goal, "b", &["--evaluations", "200", "--seed", "2"])).ok();
     assert!(results(&dir.path("a")) != results(&dir.path("b")));
+}
+
+/// Judged by three trees, the mean is what the summary says it is.
+#[test]
+fn a_robust_fit_says_so() {
+    let dir = Dir::new();
+    let goal = goal("acer.png");
+    let robust = dir.run(small(&goal, "run", &["--evaluations", "40", "--robust", "3", "--json"])).json();
+    assert_eq!(robust["robust"], 3);
+    let single = dir.run(small(&goal, "one", &["--evaluations", "40", "--json"])).json();
+    assert_ne!(robust["cost"], single["cost"]);
+    dir.run(small(&goal, "x", &["--robust", "0"])).fails(2, &["from 1 to 64"]);
+    dir.run(small(&goal, "x", &["--robust", "65"])).fails(2, &["from 1 to 64"]);
 }
 
 #[test]

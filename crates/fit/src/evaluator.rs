@@ -7,6 +7,7 @@ use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
 use pleach_silhouette::{Bitmap, Detail, Frame, Projection, Rasteriser, View};
 use pleach_tree::{CheckedParams, Foliage, Generator, Growth, Leaf, Limits, Tree, Workspace};
 use rayon::prelude::*;
+use std::num::NonZeroU32;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// One picture of the goal tree, and from where it was taken.
@@ -78,8 +79,10 @@ pub struct Evaluator {
     foliage: bool,
     objective: Objective,
     limits: Limits,
-    /// Height that every tree is resized to.
+    /// Height that every tree is resized to; of several seeds, the first.
     height: Option<Height>,
+    /// Trees that an individual is judged by.
+    seeds: u32,
     pool: Mutex<Vec<EvalWorkspace>>,
 }
 
@@ -163,8 +166,16 @@ impl Evaluator {
             objective,
             limits,
             height: None,
+            seeds: 1,
             pool: Mutex::default(),
         })
+    }
+
+    /// Judges an individual by the mean over `count` trees, of its tree seed and of those after it, so
+    /// that parameters win of which every tree is like the goal and not a lucky one.
+    #[must_use]
+    pub fn over_seeds(self, count: NonZeroU32) -> Self {
+        Self { seeds: count.get(), ..self }
     }
 
     /// Has every tree resized to the height of the first goal's ink before it is compared, if that
@@ -211,7 +222,7 @@ impl Evaluator {
 
     fn evaluate_within(&self, genome: &Genome, most: Size, memory: &mut EvalWorkspace) -> Score {
         let EvalWorkspace { params, values, tree, workspace, rasteriser, bitmap, scratch } = memory;
-        let growth = Growth {
+        let mut growth = Growth {
             seed: genome.tree_seed,
             limits: Limits {
                 stems: self.limits.stems.min(most.stems),
@@ -221,38 +232,45 @@ impl Evaluator {
             foliage: if self.foliage { Foliage::All } else { Foliage::None },
             parallel: false,
         };
-        let mut grow = |values: &[f64], tree: &mut Tree| {
+        let mut grow = |values: &[f64], growth: &Growth, tree: &mut Tree| {
             params.set(self.generator.space(), values).is_ok()
-                && self.generator.grow(params, &growth, workspace, tree).is_ok()
+                && self.generator.grow(params, growth, workspace, tree).is_ok()
         };
-        if !grow(&genome.values, tree) {
+        values.clone_from(&genome.values);
+        if !grow(values, &growth, tree) {
             return Score::FAILED;
         }
-        let mut resized = 1.0;
+        let mut sum = Score::of_cost(0.0);
         if let Some(factor) = self.factor(tree) {
-            values.clone_from(&genome.values);
             if self.generator.resize(values, factor) {
-                resized = factor;
-                if !grow(values, tree) {
+                sum.resized = factor;
+                if !grow(values, &growth, tree) {
                     return Score::FAILED;
                 }
             }
         }
-        let mut sum = Score::of_cost(0.0);
-        for view in &self.views {
-            rasteriser.draw(tree, &view.view, &view.frame, self.foliage, bitmap);
-            let agreement = view.compare(bitmap, scratch);
-            sum.cost += self.objective.cost(&agreement);
-            sum.iou += agreement.iou;
-            sum.accuracy += agreement.accuracy;
-        }
-        let views = self.views.len() as f64;
-        let size = Size {
+        sum.size = Size {
             stems: tree.stems.len(),
             leaves: tree.leaves.len() + tree.blossoms.len(),
             knots: tree.knots.len(),
         };
-        Score { cost: sum.cost / views, iou: sum.iou / views, accuracy: sum.accuracy / views, size, resized }
+        for number in 0..self.seeds {
+            if number > 0 {
+                growth.seed = genome.tree_seed.wrapping_add(u64::from(number));
+                if !grow(values, &growth, tree) {
+                    return Score::FAILED;
+                }
+            }
+            for view in &self.views {
+                rasteriser.draw(tree, &view.view, &view.frame, self.foliage, bitmap);
+                let agreement = view.compare(bitmap, scratch);
+                sum.cost += self.objective.cost(&agreement);
+                sum.iou += agreement.iou;
+                sum.accuracy += agreement.accuracy;
+            }
+        }
+        let pictures = f64::from(self.seeds) * self.views.len() as f64;
+        Score { cost: sum.cost / pictures, iou: sum.iou / pictures, accuracy: sum.accuracy / pictures, ..sum }
     }
 
     /// How much larger `tree` has to be for the height that it should have, if it is not so already.

@@ -84,7 +84,8 @@ pub fn first_guess(
     guess: &GuessSettings,
     mut progress: impl FnMut(usize, usize),
 ) -> Result<FirstGuess, FitError> {
-    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?.matching_height();
+    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?;
+    let evaluator = evaluator.over_seeds(settings.robust).matching_height();
     let tries = tries(problem, settings, candidates, guess)?;
     let mut scores = Vec::new();
     for batch in tries.chunks(BATCH) {

@@ -9,6 +9,8 @@
 //! | [`search`] | [`Search`]: a method as an argmin solver |
 //! | [`objective`] | [`Objective`]: what is made small |
 //! | [`evaluator`] | [`Evaluator`]: grow, draw, score, without allocating |
+//! | [`fresh`] | [`fresh_seeds`]: what the result is worth with other seeds |
+//! | [`profile`](mod@profile) | [`profile()`]: how well the goal determines each number |
 //! | [`budget`] | [`Budget`], [`StopReason`], [`Clock`] |
 //! | [`history`] | one row a generation; [`Observer`] |
 //! | [`checkpoint`] | the state of a fit in a file that survives a crash |
@@ -26,11 +28,13 @@ pub mod checkpoint;
 pub mod evaluator;
 mod exact;
 pub mod fingerprint;
+pub mod fresh;
 pub mod genome;
 pub mod guess;
 pub mod history;
 pub mod method;
 pub mod objective;
+pub mod profile;
 pub mod run;
 pub mod search;
 pub mod settings;
@@ -42,11 +46,13 @@ mod testing;
 pub use budget::{Budget, Clock, StopReason};
 pub use checkpoint::CheckpointError;
 pub use evaluator::{EvalWorkspace, Evaluator, FitProblem, GoalView, ProblemError};
+pub use fresh::{FreshSeeds, Spread, fresh_seeds};
 pub use genome::{Genome, Score, Scored, Size};
 pub use guess::{Candidate, FirstGuess, Guess, GuessSettings, first_guess};
 pub use history::{COLUMNS, Column, Observer, Progress, Row};
 pub use method::{Method, Start};
 pub use objective::Objective;
+pub use profile::{Profile, Seen, profile, put_back_unseen};
 pub use run::{CheckpointSettings, Control, FitError, Outcome, fit};
 pub use search::{Evaluate, Search, SearchState};
 pub use settings::{AnyMethod, FitSettings, Optimizer};

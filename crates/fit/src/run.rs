@@ -102,19 +102,9 @@ pub enum FitError {
 /// # Errors
 /// See [`FitError`]; once the search runs, it ends with an [`Outcome`].
 pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -> Result<Outcome, FitError> {
-    let mut evaluator = Evaluator::new(problem, settings.objective, settings.limits)?;
-    let mut space = SearchSpace::new(
-        Arc::clone(&problem.generator),
-        &problem.base,
-        &settings.freedom,
-        settings.tree_seed,
-    )?;
-    if settings.start == Start::Lists(Vec::new()) {
-        return Err(FitError::NoStart);
-    }
-    for list in settings.start.lists() {
-        space.widen(list)?;
-    }
+    let mut evaluator =
+        Evaluator::new(problem, settings.objective, settings.limits)?.over_seeds(settings.robust);
+    let space = search_space(problem, settings)?;
     if settings.optimizer.matches_height() && space.sizes_are_free() {
         evaluator = evaluator.matching_height();
     }
@@ -127,10 +117,24 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
         .with("optimizer", &settings.optimizer)
         .with("seed", &settings.seed)
         .with("tree seed", &settings.tree_seed)
+        .with("robust", &settings.robust)
         .with("objective", &settings.objective)
         .with("start", &settings.start)
         .with("limits", &(settings.limits.stems, settings.limits.leaves, settings.limits.knots));
     drive(&evaluator, space, settings, fingerprint, control)
+}
+
+/// The space that a fit searches: the free slots, in ranges that hold every start.
+pub(crate) fn search_space(problem: &FitProblem, settings: &FitSettings) -> Result<SearchSpace, FitError> {
+    let generator = Arc::clone(&problem.generator);
+    let mut space = SearchSpace::new(generator, &problem.base, &settings.freedom, settings.tree_seed)?;
+    if settings.start == Start::Lists(Vec::new()) {
+        return Err(FitError::NoStart);
+    }
+    for list in settings.start.lists() {
+        space.widen(list)?;
+    }
+    Ok(space)
 }
 
 /// [`fit`] on anything that can be scored.

@@ -9,6 +9,7 @@ use crate::objective::Objective;
 use crate::space::{Freedom, SearchSpace, TreeSeed};
 use pleach_tree::Limits;
 use serde::{Deserialize, Serialize};
+use std::num::NonZeroU32;
 use std::str::FromStr;
 
 /// Which optimiser, with its settings.
@@ -141,6 +142,8 @@ pub struct FitSettings {
     pub seed: u64,
     /// Seed of the tree: fixed, or searched.
     pub tree_seed: TreeSeed,
+    /// Trees that each individual is judged by: see [`crate::Evaluator::over_seeds`].
+    pub robust: NonZeroU32,
     /// What is made small.
     pub objective: Objective,
     /// Where the search starts.
@@ -159,6 +162,7 @@ impl Default for FitSettings {
             budget: Budget::default(),
             seed: 1,
             tree_seed: TreeSeed::Fixed(1),
+            robust: NonZeroU32::MIN,
             objective: Objective::default(),
             start: Start::default(),
             freedom: Freedom::default(),

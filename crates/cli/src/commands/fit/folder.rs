@@ -1,9 +1,10 @@
 //! The run folder.
 
+use super::aftermath::Aftermath;
 use super::start::LooksLike;
 use crate::{files, output};
-use anyhow::{Context, bail};
-use pleach_fit::{COLUMNS, FitProblem, FitSettings, Outcome, Scored, StopReason};
+use anyhow::bail;
+use pleach_fit::{COLUMNS, FitProblem, FitSettings, FreshSeeds, Outcome, Scored, StopReason};
 use pleach_silhouette::goal::Goal;
 use pleach_silhouette::picture;
 use pleach_silhouette::score::ScoreCard;
@@ -23,6 +24,9 @@ pub(super) struct RunFolder {
 pub(super) struct Results<'a> {
     pub(super) settings: &'a FitSettings,
     pub(super) outcome: &'a Outcome,
+    pub(super) best: &'a Scored,
+    /// None if the fit was interrupted.
+    pub(super) aftermath: Option<&'a Aftermath>,
     pub(super) species: &'a Species,
     pub(super) tree: &'a Tree,
     pub(super) goal: &'a Goal,
@@ -39,8 +43,11 @@ pub(super) struct Summary {
     species: String,
     generator: String,
     tree_seed: u64,
+    robust: u32,
     #[serde(flatten)]
     scores: ScoreCard,
+    fresh_seeds: Option<FreshSeeds>,
+    determined: Option<Counts>,
     evaluations: u64,
     generations: u64,
     seconds: f64,
@@ -61,6 +68,14 @@ pub(super) struct Summary {
     goal_width: u32,
     goal_height: u32,
     version: &'static str,
+}
+
+/// How many of the free parameters the goal determines.
+#[derive(Debug, Serialize)]
+struct Counts {
+    determined: usize,
+    loosely: usize,
+    not_seen: usize,
 }
 
 impl RunFolder {
@@ -99,14 +114,13 @@ impl RunFolder {
 
     /// Writes everything but the checkpoint.
     pub(super) fn write(&self, results: &Results<'_>) -> anyhow::Result<Summary> {
-        let Results { settings, outcome, species, goal, .. } = *results;
-        let best = outcome.best.as_ref().context("a fit with a result")?;
+        let Results { settings, outcome, best, species, goal, .. } = *results;
         let frame = goal.frame(results.height);
         let mut bitmap = Bitmap::default();
         Rasteriser::new().draw(results.tree, results.view, &frame, results.foliage, &mut bitmap);
         let scores = ScoreCard::of(&bitmap, &goal.bitmap)?;
 
-        let comments = [
+        let mut comments = vec![
             format!(
                 "Fitted by pleach {} in {} evaluations ({}).",
                 env!("CARGO_PKG_VERSION"),
@@ -118,18 +132,17 @@ impl RunFolder {
                 scores.iou, scores.pixel_accuracy
             ),
         ];
+        if let Some(aftermath) = results.aftermath {
+            comments.extend(aftermath.comment(species.generator.space()));
+            write_table(&self.path.join("parameters.csv"), aftermath.table(species.generator.space()))?;
+        }
         files::write_text(&self.path.join("best.toml"), &species.to_toml(&comments))?;
         files::write_whole(&self.path.join("best.png"), |file| Ok(bitmap.write_png(file)?))?;
         let overlay = picture::overlay(&bitmap, &goal.bitmap);
         files::write_whole(&self.path.join("overlay.png"), |file| Ok(overlay.write_png(file)?))?;
-        files::write_whole(&self.path.join("history.csv"), |file| {
-            let mut csv = csv::Writer::from_writer(file);
-            csv.write_record(COLUMNS.iter().map(|c| c.name))?;
-            for row in &outcome.history {
-                csv.write_record(row.cells())?;
-            }
-            Ok(csv.flush()?)
-        })?;
+        let header = COLUMNS.iter().map(|c| c.name.to_owned()).collect();
+        let rows = outcome.history.iter().map(|row| row.cells().collect());
+        write_table(&self.path.join("history.csv"), std::iter::once(header).chain(rows))?;
 
         let seconds = outcome.elapsed.as_secs_f64();
         let optimizer = serde_json::to_value(&settings.optimizer)?;
@@ -137,7 +150,13 @@ impl RunFolder {
             species: species.name.clone(),
             generator: species.generator.family().to_owned(),
             tree_seed: best.genome.tree_seed,
+            robust: settings.robust.get(),
             scores,
+            fresh_seeds: results.aftermath.and_then(|aftermath| aftermath.fresh),
+            determined: results.aftermath.map(|aftermath| {
+                let [determined, loosely, not_seen] = aftermath.counts();
+                Counts { determined, loosely, not_seen }
+            }),
             evaluations: outcome.evaluations,
             generations: outcome.generations,
             seconds,
@@ -167,6 +186,16 @@ impl RunFolder {
     }
 }
 
+fn write_table(path: &Path, rows: impl IntoIterator<Item = Vec<String>>) -> anyhow::Result<()> {
+    files::write_whole(path, |file| {
+        let mut csv = csv::Writer::from_writer(file);
+        for row in rows {
+            csv.write_record(row)?;
+        }
+        Ok(csv.flush()?)
+    })
+}
+
 /// The species that an individual is.
 pub(super) fn species(problem: &FitProblem, best: &Scored, name: &str) -> anyhow::Result<Species> {
     Ok(Species {
@@ -181,8 +210,24 @@ pub(super) fn species(problem: &FitProblem, best: &Scored, name: &str) -> anyhow
 
 /// The score card that ends a fit.
 pub(super) fn report(summary: &Summary, folder: &RunFolder, stop: StopReason) -> String {
+    let mut judged = String::new();
+    if let Some(fresh) = &summary.fresh_seeds {
+        judged += &format!(
+            "{} other seeds: IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels\n",
+            fresh.count,
+            fresh.iou.mean,
+            fresh.iou.sd,
+            100.0 * fresh.pixel_accuracy.mean,
+            100.0 * fresh.pixel_accuracy.sd,
+        );
+    }
+    if let Some(Counts { determined, loosely, not_seen }) = summary.determined {
+        judged += &format!(
+            "of the parameters the goal determines {determined}, loosely {loosely}; {not_seen} are not seen\n"
+        );
+    }
     format!(
-        "{}\n\n{} trees in {:.1} s ({:.0} a second) by `{}`; {stop}\n\n\
+        "{}\n\n{judged}{} trees in {:.1} s ({:.0} a second) by `{}`; {stop}\n\n\
          overlay  {}\nspecies  {}",
         crate::commands::score::card(&summary.scores),
         summary.evaluations,

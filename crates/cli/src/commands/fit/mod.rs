@@ -1,11 +1,13 @@
 //! `pleach fit`: from a goal image to a run folder.
 
+mod aftermath;
 mod folder;
 mod options;
 mod progress;
 mod start;
 
 use crate::{input, output};
+use aftermath::Aftermath;
 use anyhow::{Context, bail};
 use folder::RunFolder;
 use options::Settings;
@@ -16,6 +18,7 @@ use pleach_silhouette::View;
 use pleach_silhouette::goal::{Goal, GoalOptions, Origin, Polarity, Split};
 use pleach_tree::{Foliage, Growth};
 use progress::Bar;
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,11 +28,13 @@ const EXAMPLES: &str = "Examples:
   pleach fit targets/quaking_aspen.png                a minute of search, results in runs/quaking_aspen
   pleach fit oak.jpg --height 18 --timeout 5m         a tree of 18 m, five minutes
   pleach fit goal.png --from random --optimizer hewitt --evaluations 20000 --seed 3
+  pleach fit goal.png --robust 4                      parameters of which every seed looks like the goal
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit goal.png --out DIR --resume              go on after ctrl-C or a crash
 
 The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png,
-history.csv (a row a generation) and summary.json; and a checkpoint while the fit is unfinished.";
+history.csv (a row a generation), parameters.csv (how well the goal determines each parameter) and
+summary.json; and a checkpoint while the fit is unfinished.";
 
 /// Fit a generator's parameters to a goal image
 #[derive(Debug, clap::Args)]
@@ -118,6 +123,9 @@ struct SearchArgs {
     /// Seed of the tree, or `any` to search it too
     #[arg(long, value_name = "N|any", default_value = "1", value_parser = options::tree_seed)]
     tree_seed: pleach_fit::TreeSeed,
+    /// Judge parameters by the mean over this many trees, of the tree seed and those after it
+    #[arg(long, value_name = "K", default_value = "1", value_parser = options::seeds)]
+    robust: NonZeroU32,
 }
 
 #[derive(Debug, clap::Args)]
@@ -174,6 +182,12 @@ impl Fit {
         let Some(best) = outcome.best.as_ref().filter(|best| best.score.cost.is_finite()) else {
             bail!("no parameter list that grows a tree was found in {} evaluations", outcome.evaluations);
         };
+        let aftermath = match outcome.stop {
+            // Whoever waits for the prompt has it at once.
+            StopReason::Interrupted => None,
+            _ => Some(Aftermath::of(&problem, &settings, best)?),
+        };
+        let best = aftermath.as_ref().map_or(best, |aftermath| &aftermath.best);
         let species = folder::species(&problem, best, &goal.name)?;
         let growth = Growth {
             limits: settings.limits,
@@ -184,6 +198,8 @@ impl Fit {
         let summary = folder.write(&folder::Results {
             settings: &settings,
             outcome: &outcome,
+            best,
+            aftermath: aftermath.as_ref(),
             species: &species,
             tree: &tree,
             goal: &goal.full,
@@ -265,6 +281,7 @@ impl Fit {
             },
             seed: search.seed,
             tree_seed: search.tree_seed,
+            robust: search.robust,
             objective: search.objective.parse::<Objective>()?,
             freedom: pleach_fit::Freedom { free: search.free.clone(), fix: search.fix.clone() },
             ..FitSettings::default()

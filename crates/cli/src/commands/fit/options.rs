@@ -3,6 +3,7 @@
 use anyhow::{Context, bail};
 use pleach_fit::{FitSettings, Optimizer, TreeSeed};
 use serde_json::Value;
+use std::num::NonZeroU32;
 use std::time::Duration;
 
 /// What the arguments ask for.
@@ -29,6 +30,16 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|v| *v > 0.0 && *v <= 1000.0)
         .ok_or_else(|| "expected a number of metres above 0 and up to 1000".to_owned())
+}
+
+/// Most trees that an individual is judged by: more than the spread of seeds needs.
+const MOST_SEEDS: u32 = 64;
+
+pub(super) fn seeds(text: &str) -> Result<NonZeroU32, String> {
+    text.parse::<NonZeroU32>()
+        .ok()
+        .filter(|count| count.get() <= MOST_SEEDS)
+        .ok_or_else(|| format!("expected a number of trees from 1 to {MOST_SEEDS}"))
 }
 
 pub(super) fn share(text: &str) -> Result<f64, String> {

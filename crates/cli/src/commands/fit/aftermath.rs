@@ -1,0 +1,81 @@
+//! What is asked of a result once the search has ended: how it does with other seeds, and what of it
+//! the goal determines.
+
+use pleach_fit::{
+    FitError, FitProblem, FitSettings, FreshSeeds, Profile, Scored, Seen, Start, fresh_seeds, profile,
+    put_back_unseen,
+};
+use pleach_tree::ParamSpace;
+
+/// Trees of other seeds that a result is judged by.
+const FRESH: usize = 16;
+
+/// The judged result.
+pub(super) struct Aftermath {
+    /// The best individual, with numbers that nobody sees back at the start's values.
+    pub(super) best: Scored,
+    /// How other seeds do; none if one of them does not grow.
+    pub(super) fresh: Option<FreshSeeds>,
+    /// One for every free number.
+    pub(super) profiles: Vec<Profile>,
+    /// Slots that went back to the start's value.
+    pub(super) put_back: Vec<usize>,
+}
+
+impl Aftermath {
+    pub(super) fn of(problem: &FitProblem, settings: &FitSettings, best: &Scored) -> Result<Self, FitError> {
+        let judge = |genome| fresh_seeds(problem, settings.objective, settings.limits, genome, FRESH);
+        // Without other seeds there is no spread to compare with; then a hundredth is seen.
+        let tolerance = judge(&best.genome)?.map_or(0.01, |fresh| fresh.cost.sd);
+        let profiles = profile(problem, settings, best, tolerance)?;
+        let (best, put_back) = match &settings.start {
+            Start::Random => (best.clone(), Vec::new()),
+            Start::Lists(lists) => put_back_unseen(problem, settings, best, &profiles, &lists[0], tolerance)?,
+        };
+        Ok(Self { fresh: judge(&best.genome)?, best, profiles, put_back })
+    }
+
+    /// A comment of the species file: what the goal does not show.
+    pub(super) fn comment(&self, space: &ParamSpace) -> Option<String> {
+        let names: Vec<String> = self.put_back.iter().map(|&slot| space.slot_name(slot)).collect();
+        (!names.is_empty())
+            .then(|| format!("Not seen in the goal, so as where the search started: {}.", names.join(", ")))
+    }
+
+    /// How many numbers are determined, loosely determined, and not seen.
+    pub(super) fn counts(&self) -> [usize; 3] {
+        [Seen::Determined, Seen::Loosely, Seen::NotSeen]
+            .map(|seen| self.profiles.iter().filter(|profile| profile.seen == seen).count())
+    }
+
+    /// Rows of `parameters.csv`, the header first.
+    pub(super) fn table(&self, space: &ParamSpace) -> Vec<Vec<String>> {
+        let [small, large] = pleach_fit::profile::STEPS.map(|step| format!("{:.0}%", 100.0 * step));
+        let header = vec![
+            "parameter".to_owned(),
+            "value".to_owned(),
+            "seen".to_owned(),
+            format!("cost_rise_down_{small}"),
+            format!("cost_rise_up_{small}"),
+            format!("cost_rise_down_{large}"),
+            format!("cost_rise_up_{large}"),
+        ];
+        let rows = self.profiles.iter().map(|profile| {
+            let seen = match profile.seen {
+                Seen::Determined => "determined",
+                Seen::Loosely => "loosely",
+                Seen::NotSeen => "not-seen",
+            };
+            let mut row = vec![
+                space.slot_name(profile.slot),
+                self.best.genome.values[profile.slot].to_string(),
+                seen.to_owned(),
+            ];
+            row.extend(profile.rises.iter().flatten().map(|rise| {
+                rise.filter(|rise| rise.is_finite()).map_or_else(String::new, |rise| format!("{rise:.5}"))
+            }));
+            row
+        });
+        std::iter::once(header).chain(rows).collect()
+    }
+}

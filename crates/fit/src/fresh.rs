@@ -1,0 +1,83 @@
+//! What parameters are worth with other seeds than the one that was fitted.
+
+use crate::evaluator::{Evaluator, FitProblem, ProblemError};
+use crate::genome::{Genome, Score, Size};
+use crate::objective::Objective;
+use crate::search::Evaluate as _;
+use pleach_tree::Limits;
+use serde::Serialize;
+
+/// Mean and spread of a score over seeds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// The mean.
+    pub mean: f64,
+    /// The standard deviation of one seed, from the sample.
+    pub sd: f64,
+}
+
+/// Scores of trees of the same parameters and of seeds that the search has not seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FreshSeeds {
+    /// How many trees.
+    pub count: usize,
+    /// Intersection over union.
+    pub iou: Spread,
+    /// Share of equal pixels.
+    pub pixel_accuracy: Spread,
+    /// What the search made small.
+    pub cost: Spread,
+}
+
+/// How far the first fresh seed is from the fitted one: beyond any `--robust`.
+const FIRST: u64 = 1000;
+
+/// Grows `count` other trees of `genome`'s parameters and scores them against the goals of `problem`.
+///
+/// `None` if one of them does not grow within `limits`.
+///
+/// # Errors
+/// A problem that [`Evaluator::new`] refuses.
+pub fn fresh_seeds(
+    problem: &FitProblem,
+    objective: Objective,
+    limits: Limits,
+    genome: &Genome,
+    count: usize,
+) -> Result<Option<FreshSeeds>, ProblemError> {
+    let evaluator = Evaluator::new(problem, objective, limits)?;
+    let seeds = (0..count as u64).map(|i| genome.tree_seed.wrapping_add(FIRST + i));
+    let trees: Vec<Genome> = seeds.map(|tree_seed| Genome { tree_seed, ..genome.clone() }).collect();
+    let scores = evaluator.scores(&trees, Size::ANY);
+    if scores.is_empty() || scores.iter().any(|score| !score.cost.is_finite()) {
+        return Ok(None);
+    }
+    let spread = |of: fn(&Score) -> f64| Spread::of(scores.iter().map(of));
+    Ok(Some(FreshSeeds {
+        count,
+        iou: spread(|score| score.iou),
+        pixel_accuracy: spread(|score| score.accuracy),
+        cost: spread(|score| score.cost),
+    }))
+}
+
+impl Spread {
+    /// Of at least one value; one alone has no spread.
+    fn of(values: impl ExactSizeIterator<Item = f64> + Clone) -> Self {
+        let n = values.len() as f64;
+        let mean = values.clone().sum::<f64>() / n;
+        let squares: f64 = values.map(|v| (v - mean).powi(2)).sum();
+        Self { mean, sd: (squares / (n - 1.0).max(1.0)).sqrt() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spreads_are_of_one_sample() {
+        assert_eq!(Spread::of([1.0, 3.0].into_iter()), Spread { mean: 2.0, sd: 2.0_f64.sqrt() });
+        assert_eq!(Spread::of([5.0].into_iter()), Spread { mean: 5.0, sd: 0.0 });
+    }
+}

@@ -1,0 +1,154 @@
+//! What a picture cannot tell: how far each number can move before anyone sees it.
+
+use crate::evaluator::{Evaluator, FitProblem};
+use crate::genome::{Genome, Scored, Size};
+use crate::run::{FitError, search_space};
+use crate::search::Evaluate as _;
+use crate::settings::FitSettings;
+use crate::space::{Gene, SearchSpace};
+use serde::Serialize;
+
+/// How well a goal determines a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Seen {
+    /// A twentieth of its range to one side or the other makes the fit worse; another choice does.
+    Determined,
+    /// A fifth of its range does.
+    Loosely,
+    /// Neither does, or the tree does not read it.
+    NotSeen,
+}
+
+/// What is known of one free number after a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// The slot in the generator's parameter space.
+    pub slot: usize,
+    /// How well it is determined.
+    pub seen: Seen,
+    /// By how much the cost rises when the number goes down, and up, by [`STEPS`] of its search range;
+    /// for a choice only the least of all other choices. None beyond the range.
+    pub rises: [[Option<f64>; 2]; 2],
+}
+
+/// The two moves, as parts of the search range.
+pub const STEPS: [f64; 2] = [0.05, 0.2];
+
+/// How much of the tolerance may be spent on putting numbers back that are not seen.
+const SPENT_ON_RETURN: f64 = 0.1;
+
+/// Profiles every free number of `best` against the goals: a move is seen if it makes the cost worse
+/// by more than `tolerance`, best the spread of one seed's cost.
+///
+/// # Errors
+/// Those of [`crate::fit`] on the same problem and settings.
+pub fn profile(
+    problem: &FitProblem,
+    settings: &FitSettings,
+    best: &Scored,
+    tolerance: f64,
+) -> Result<Vec<Profile>, FitError> {
+    let (space, evaluator) = prepare(problem, settings)?;
+    let mut moves: Vec<Genome> = Vec::new();
+    let mut plan: Vec<(usize, Vec<Move>)> = Vec::new();
+    for gene in space.genes() {
+        let mut of_gene = Vec::new();
+        if space.is_read(&best.genome.values, gene) {
+            for (place, value) in alternatives(gene, best.genome.values[gene.slot]) {
+                of_gene.push(Move { place, number: moves.len() });
+                let mut genome = best.genome.clone();
+                genome.values[gene.slot] = value;
+                moves.push(genome);
+            }
+        }
+        plan.push((gene.slot, of_gene));
+    }
+    let scores = evaluator.scores(&moves, Size::ANY);
+    Ok(plan
+        .into_iter()
+        .map(|(slot, of_gene)| {
+            let mut rises = [[None; 2]; 2];
+            for Move { place: (step, side), number } in of_gene {
+                let rise = scores[number].cost - best.score.cost;
+                let known: &mut Option<f64> = &mut rises[step][side];
+                *known = Some(known.map_or(rise, |least| least.min(rise)));
+            }
+            let is_seen = |step: usize| rises[step].iter().flatten().any(|rise| *rise > tolerance);
+            let seen = match (is_seen(0), is_seen(1)) {
+                (true, _) => Seen::Determined,
+                (_, true) => Seen::Loosely,
+                _ => Seen::NotSeen,
+            };
+            Profile { slot, seen, rises }
+        })
+        .collect())
+}
+
+/// One trial: which of [`STEPS`] and which side, and its number among all trials.
+struct Move {
+    place: (usize, usize),
+    number: usize,
+}
+
+/// The values that are tried instead of `value`, with step and side.
+fn alternatives(gene: &Gene, value: f64) -> Vec<((usize, usize), f64)> {
+    if gene.is_choice() {
+        let all = (0..gene.count() as usize).map(|i| gene.low + i as f64);
+        return all.filter(|&other| other != value).map(|other| ((0, 0), other)).collect();
+    }
+    let unit = gene.to_unit(value);
+    let mut list = Vec::new();
+    for (step, size) in STEPS.iter().enumerate() {
+        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let there = unit + sign * size;
+            let other = gene.from_unit(there.clamp(0.0, 1.0));
+            // Beyond the end there is nothing to see; a whole number may be too coarse for the step.
+            if (-1e-9..=1.0 + 1e-9).contains(&there) && other != value {
+                list.push(((step, side), other));
+            }
+        }
+    }
+    list
+}
+
+/// Gives numbers that are not seen the value that they have in `start`, one after the other, where all
+/// of them together cost less than a tenth of `tolerance`.
+///
+/// A fit leaves such numbers wherever the search happened to be; those of a known species are at least
+/// a tree's. Returns the individual, with its score, and the slots that went back.
+///
+/// # Errors
+/// Those of [`crate::fit`] on the same problem and settings.
+pub fn put_back_unseen(
+    problem: &FitProblem,
+    settings: &FitSettings,
+    best: &Scored,
+    profiles: &[Profile],
+    start: &[f64],
+    tolerance: f64,
+) -> Result<(Scored, Vec<usize>), FitError> {
+    let (_, evaluator) = prepare(problem, settings)?;
+    let mut memory = evaluator.workspace();
+    let most = best.score.cost + SPENT_ON_RETURN * tolerance;
+    let mut kept = best.clone();
+    let mut slots = Vec::new();
+    for slot in profiles.iter().filter(|profile| profile.seen == Seen::NotSeen).map(|profile| profile.slot) {
+        if kept.genome.values[slot] == start[slot] {
+            continue;
+        }
+        let mut genome = kept.genome.clone();
+        genome.values[slot] = start[slot];
+        let score = evaluator.evaluate(&genome, &mut memory);
+        if score.cost <= most {
+            kept = Scored { genome, score };
+            slots.push(slot);
+        }
+    }
+    Ok((kept, slots))
+}
+
+fn prepare(problem: &FitProblem, settings: &FitSettings) -> Result<(SearchSpace, Evaluator), FitError> {
+    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?.over_seeds(settings.robust);
+    Ok((search_space(problem, settings)?, evaluator))
+}

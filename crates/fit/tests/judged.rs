@@ -1,0 +1,75 @@
+//! What is asked of a result: other seeds, and what the goal determines.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::goal_of;
+use pleach_fit::settings::LIMITS;
+use pleach_fit::{
+    EvalWorkspace, Evaluator, FitProblem, FitSettings, Genome, Objective, Score, Scored, Seen, fresh_seeds,
+    profile, put_back_unseen,
+};
+use std::num::NonZeroU32;
+
+fn truth(problem: &FitProblem) -> Genome {
+    Genome { values: problem.base.clone(), tree_seed: 1 }
+}
+
+fn evaluate(evaluator: &Evaluator, genome: &Genome) -> Score {
+    let mut memory: EvalWorkspace = evaluator.workspace();
+    evaluator.evaluate(genome, &mut memory)
+}
+
+#[test]
+fn several_seeds_are_judged_by_their_mean() {
+    let problem = goal_of("acer", 1, 64);
+    let one = Evaluator::new(&problem, Objective::Iou, LIMITS).unwrap();
+    let cost = |seed| evaluate(&one, &Genome { tree_seed: seed, ..truth(&problem) }).cost;
+    let mean = (cost(1) + cost(2) + cost(3)) / 3.0;
+    assert!(cost(1) == 0.0 && mean > 0.1, "only the goal's own tree fits: {mean}");
+    let three = Evaluator::new(&problem, Objective::Iou, LIMITS).unwrap();
+    let three = three.over_seeds(NonZeroU32::new(3).unwrap());
+    assert!((evaluate(&three, &truth(&problem)).cost - mean).abs() < 1e-12);
+}
+
+#[test]
+fn other_seeds_of_the_truth_are_alike_but_not_the_same() {
+    let problem = goal_of("lombardy_poplar", 1, 96);
+    let fresh = fresh_seeds(&problem, Objective::Iou, LIMITS, &truth(&problem), 8).unwrap().unwrap();
+    assert_eq!(fresh.count, 8);
+    assert!((0.6..0.95).contains(&fresh.iou.mean), "{fresh:?}");
+    assert!(fresh.iou.sd > 0.001 && fresh.iou.sd < 0.1, "{fresh:?}");
+    assert!((fresh.iou.mean + fresh.cost.mean - 1.0).abs() < 1e-12);
+    // Trees that do not grow have no mean.
+    let none = pleach_tree::Limits { stems: 3, ..LIMITS };
+    assert_eq!(fresh_seeds(&problem, Objective::Iou, none, &truth(&problem), 8).unwrap(), None);
+}
+
+#[test]
+fn heights_are_determined_and_what_is_not_read_is_not_seen() {
+    let problem = goal_of("palm", 1, 96);
+    let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
+    let best = Scored { genome: truth(&problem), score: Score::of_cost(0.0) };
+    let profiles = profile(&problem, &settings, &best, 0.05).unwrap();
+    let space = problem.generator.space();
+    let seen = |name: &str| {
+        let slot = space.select(name).unwrap()[0];
+        profiles.iter().find(|profile| profile.slot == slot).unwrap().seen
+    };
+    assert_eq!(seen("g_scale"), Seen::Determined);
+    // A palm has two levels.
+    assert_eq!(seen("length[3]"), Seen::NotSeen);
+    assert_eq!(seen("blossom_shape"), Seen::NotSeen);
+
+    // What is not seen goes back to the start, and nothing else does.
+    let mut start = problem.base.clone();
+    let slot = |name: &str| space.select(name).unwrap()[0];
+    start[slot("length[3]")] = 0.123;
+    start[slot("g_scale")] = 5.0;
+    let (kept, slots) = put_back_unseen(&problem, &settings, &best, &profiles, &start, 0.05).unwrap();
+    assert_eq!(slots, [slot("length[3]")]);
+    assert_eq!(kept.genome.values[slot("length[3]")], 0.123);
+    assert_eq!(kept.genome.values[slot("g_scale")], problem.base[slot("g_scale")]);
+    assert_eq!(kept.score.cost, 0.0);
+}
