@@ -241,12 +241,12 @@ impl Evaluator {
             return Score::FAILED;
         }
         let mut sum = Score::of_cost(0.0);
-        if let Some(factor) = self.factor(tree) {
-            if self.generator.resize(values, factor) {
-                sum.resized = factor;
-                if !grow(values, &growth, tree) {
-                    return Score::FAILED;
-                }
+        if let Some(factor) = self.factor(tree)
+            && self.generator.resize(values, factor)
+        {
+            sum.resized = factor;
+            if !grow(values, &growth, tree) {
+                return Score::FAILED;
             }
         }
         sum.size = Size {
