@@ -68,8 +68,7 @@ fn the_run_folder_holds_what_it_should() {
         names.sort();
         names
     };
-    let expected =
-        ["best.png", "best.toml", "history.csv", "overlay.png", "parameters.csv", "summary.json"];
+    let expected = ["best.png", "best.toml", "history.csv", "overlay.png", "parameters.csv", "summary.json"];
     assert_eq!(names(&folder), expected);
 
     // How it does with other seeds, and what of it the goal determines.
