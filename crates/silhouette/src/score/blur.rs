@@ -18,6 +18,15 @@ pub fn blurred_iou(a: &Bitmap, b: &Bitmap, sigma: f64) -> f64 {
     if most > 0.0 { least / most } else { 1.0 }
 }
 
+/// The picture blurred by a Gaussian of `sigma` pixels, inked where it is at least half: its masses
+/// without their texture.
+#[must_use]
+pub fn blob(bitmap: &Bitmap, sigma: f64) -> Bitmap {
+    let field = blurred(bitmap, sigma);
+    let width = bitmap.width();
+    Bitmap::from_fn(width, bitmap.height(), |x, y| field[(y * width + x) as usize] >= 0.5)
+}
+
 fn blurred(bitmap: &Bitmap, sigma: f64) -> Vec<f32> {
     let (width, height) = (bitmap.width() as usize, bitmap.height() as usize);
     let mut field = vec![0.0; width * height];
@@ -84,6 +93,17 @@ mod tests {
             let peak = 1.0 / (std::f64::consts::TAU * sigma * sigma);
             assert!((f64::from(field[64 * 129 + 64]) / peak - 1.0).abs() < 0.2);
         }
+    }
+
+    #[test]
+    fn a_comb_becomes_a_block() {
+        // Bars of six in eight pixels: three quarters of ink inside, none outside.
+        let comb =
+            Bitmap::from_fn(128, 128, |x, y| (32..96).contains(&x) && (32..96).contains(&y) && x % 8 < 6);
+        let found = blob(&comb, 8.0);
+        assert!((40..88).all(|x| found.get(x, 64)), "no gap is left");
+        assert!(!found.get(20, 64) && !found.get(64, 108));
+        assert_eq!(blob(&Bitmap::new(9, 9), 2.0), Bitmap::new(9, 9));
     }
 
     #[test]
