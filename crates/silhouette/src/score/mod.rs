@@ -10,7 +10,7 @@ mod ellipse;
 pub mod fast;
 pub mod likeness;
 
-pub use blur::{blob, blurred_iou};
+pub use blur::{Blurred, blob, blurred_iou};
 pub use card::{BlurredIou, Crown, ScoreCard, SizeMismatch};
 pub use ellipse::{best_ellipse, best_ellipse_iou};
 pub use likeness::Likeness;

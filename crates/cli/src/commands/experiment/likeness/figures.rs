@@ -2,13 +2,13 @@
 
 use super::super::plot::{Plot, Scale};
 use super::blobs::{self, BLOBS};
-use super::measures::{self, MEASURES};
+use super::measures::{self, MEASURES, Seen};
 use super::pictures;
 use super::walk::{Line, STEP};
 use super::{LikenessSpec, species};
 use crate::files;
 use anyhow::Context;
-use pleach_silhouette::{Bitmap, picture};
+use pleach_silhouette::picture;
 use std::path::Path;
 
 /// Pictures in a row of the sheet, the goal among them.
@@ -27,19 +27,21 @@ pub(super) fn sheet(folder: &Path, spec: &LikenessSpec) -> anyhow::Result<()> {
             .with_context(|| format!("`{name}` is not among the species"))?;
         let others =
             trees.iter().filter(|d| d.seed > spec.tuned_seeds && !(d.species == *name && d.seed == seed));
-        let mut candidates: Vec<(String, &Bitmap)> =
-            others.map(|d| (format!("{} {}", d.species.replace('_', " "), d.seed), &d.bitmap)).collect();
-        let shapes = blobs::of(&goal.bitmap);
+        let mut candidates: Vec<(String, &Seen)> =
+            others.map(|d| (format!("{} {}", d.species.replace('_', " "), d.seed), &d.seen)).collect();
+        let shapes = blobs::of(&goal.seen.bitmap).map(Seen::new);
         candidates.extend(BLOBS.iter().map(|s| (*s).to_owned()).zip(&shapes));
         for (m, head) in [(0, "by likeness"), (1, "by IoU")] {
-            cells.push((format!("goal {}, {head}", name.replace('_', " ")), goal.bitmap.clone()));
-            let mut ranked: Vec<(f64, &str, &Bitmap)> = candidates
+            cells.push((format!("goal {}, {head}", name.replace('_', " ")), goal.seen.bitmap.clone()));
+            let mut ranked: Vec<(f64, &str, &Seen)> = candidates
                 .iter()
-                .map(|(label, bitmap)| (measures::of(bitmap, &goal.bitmap)[m], label.as_str(), *bitmap))
+                .map(|(label, seen)| (measures::of(seen, &goal.seen)[m], label.as_str(), *seen))
                 .collect();
             ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
             let best = ranked.into_iter().take(COLUMNS - 1);
-            cells.extend(best.map(|(value, label, bitmap)| (format!("{value:.2} {label}"), bitmap.clone())));
+            cells.extend(
+                best.map(|(value, label, seen)| (format!("{value:.2} {label}"), seen.bitmap.clone())),
+            );
         }
     }
     let sheet = picture::sheet(&cells, COLUMNS);

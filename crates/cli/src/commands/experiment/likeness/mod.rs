@@ -11,8 +11,9 @@ mod walk;
 use super::spec::LikenessSpec;
 use super::{Slice, Table, progress};
 use crate::input;
-use measures::Values;
+use measures::{MEASURES, Seen, Values};
 use pictures::Drawn;
+use pleach_silhouette::Bitmap;
 use pleach_tree::Species;
 use rayon::prelude::*;
 use std::path::Path;
@@ -79,6 +80,7 @@ fn own(spec: &LikenessSpec, species: &[Species], rows: &mut Rows) -> anyhow::Res
     judge("own, tuned on", &half(false), rows);
     judge("own, not tuned on", &half(true), rows);
     judge("own", &leafy, rows);
+    moved("own", &leafy, rows);
     judge("own, bare", &pictures::draw(species, spec.seeds, false)?, rows);
 
     // Species that had no part in the tuning, among all others.
@@ -90,7 +92,7 @@ fn own(spec: &LikenessSpec, species: &[Species], rows: &mut Rows) -> anyhow::Res
     rates::rows("other species", "own, unseen species", &asked, rows);
 
     let (goals, values) = pictures::at_goal_scale(species, spec.shared_scale_seeds)?;
-    let asked = rates::species(&goals, |g, t| values[g][t], |_| true);
+    let asked = rates::species(&goals, |g, t| values[t][g], |_| true);
     rates::rows("other species", "own, goal's scale", &asked, rows);
     Ok(())
 }
@@ -106,6 +108,28 @@ fn judge(set: &str, drawn: &[Drawn], rows: &mut Rows) {
     }
 }
 
+/// What every measure says of goals that are moved aside by a sixteenth of the picture, as far as they
+/// stay in it, and of their mirror images: the mean.
+fn moved(set: &str, drawn: &[Drawn], rows: &mut Rows) {
+    const ASIDE: u32 = SIDE / 16;
+    let aside = |goal: &Bitmap| {
+        let (_, _, right, _) = goal.ink_box()?;
+        (right + ASIDE < SIDE)
+            .then(|| Bitmap::from_fn(SIDE, SIDE, |x, y| x.checked_sub(ASIDE).is_some_and(|x| goal.get(x, y))))
+    };
+    let mirrored = |goal: &Bitmap| Some(Bitmap::from_fn(SIDE, SIDE, |x, y| goal.get(SIDE - 1 - x, y)));
+    let ways: [(&str, &dyn Fn(&Bitmap) -> Option<Bitmap>); 2] =
+        [("aside by 1/16", &aside), ("mirrored", &mirrored)];
+    for (way, change) in ways {
+        let changed = |d: &Drawn| Some(measures::of(&d.seen, &Seen::new(change(&d.seen.bitmap)?)));
+        let values: Vec<Values> = drawn.iter().filter_map(changed).collect();
+        for (m, measure) in MEASURES.iter().enumerate() {
+            let mean = values.iter().map(|v| v[m]).sum::<f64>() / values.len().max(1) as f64;
+            rows.add(["moved", set, way, measure], values.len() as u64, mean);
+        }
+    }
+}
+
 /// Every measure of every two pictures.
 fn pairs(drawn: &[Drawn]) -> Vec<Vec<Values>> {
     let bar = progress("goals", drawn.len() as u64);
@@ -114,7 +138,7 @@ fn pairs(drawn: &[Drawn]) -> Vec<Vec<Values>> {
         .par_iter()
         .enumerate()
         .map(|(g, goal)| {
-            let row = drawn[..=g].iter().map(|other| measures::of(&goal.bitmap, &other.bitmap)).collect();
+            let row = drawn[..=g].iter().map(|other| measures::of(&goal.seen, &other.seen)).collect();
             bar.inc(1);
             row
         })

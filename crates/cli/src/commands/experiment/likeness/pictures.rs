@@ -1,6 +1,6 @@
 //! Pictures of trees: own ones, and those of another program.
 
-use super::measures::{self, Values};
+use super::measures::{self, Seen, Values};
 use super::{SIDE, progress};
 use anyhow::{Context, bail};
 use pleach_silhouette::goal::{Goal, GoalOptions};
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 pub(super) struct Drawn {
     pub(super) species: String,
     pub(super) seed: u64,
-    pub(super) bitmap: Bitmap,
+    pub(super) seen: Seen,
 }
 
 /// Seeds 1 to `seeds` of each species, each in its own automatic frame.
@@ -22,11 +22,12 @@ pub(super) struct Drawn {
 /// A silhouette has no scale: in frames of their own trees differ by how they look and not by their
 /// size, which is the harder task.
 pub(super) fn draw(species: &[Species], seeds: u64, foliage: bool) -> anyhow::Result<Vec<Drawn>> {
-    grown(species, seeds, foliage, |tree| {
+    let look = |tree: &Tree| {
         let frame = Frame::automatic(tree, &View::FRONT, foliage, SIDE, SIDE);
-        silhouette(tree, &frame, foliage)
-    })
-    .map(|trees| trees.into_iter().map(|(species, seed, bitmap)| Drawn { species, seed, bitmap }).collect())
+        Seen::new(silhouette(tree, &frame, foliage))
+    };
+    let trees = grown(species, seeds, foliage, look)?;
+    Ok(trees.into_iter().map(|(species, seed, seen)| Drawn { species, seed, seen }).collect())
 }
 
 pub(super) fn silhouette(tree: &Tree, frame: &Frame, foliage: bool) -> Bitmap {
@@ -53,39 +54,27 @@ fn grown<T: Send>(
         .collect()
 }
 
-/// Trees in their goal's frame, as a fit sees them: which goals there are, and what every measure
-/// says of each tree in the frame of each goal.
+/// Trees in their goal's frame, as a fit sees them: the goals, and what every measure says of tree t
+/// in the frame of goal g at `[t][g]`.
 pub(super) fn at_goal_scale(
     species: &[Species],
     seeds: u64,
 ) -> anyhow::Result<(Vec<Drawn>, Vec<Vec<Values>>)> {
-    let frames = grown(species, seeds, true, |tree| Frame::automatic(tree, &View::FRONT, true, SIDE, SIDE))?;
+    let goals = draw(species, seeds, true)?;
+    let frame = |tree: &Tree| Frame::automatic(tree, &View::FRONT, true, SIDE, SIDE);
+    let frames = grown(species, seeds, true, frame)?;
     // A tree at a time, in every frame: all trees together would take gigabytes.
     let bar = progress("trees", frames.len() as u64);
-    let drawn = grown(species, seeds, true, |tree| {
-        let pictures: Vec<Bitmap> =
-            frames.iter().map(|(_, _, frame)| silhouette(tree, frame, true)).collect();
+    let values = grown(species, seeds, true, |tree| {
+        let of = |(goal, (_, _, frame)): (&Drawn, &(String, u64, Frame))| {
+            measures::of(&goal.seen, &Seen::new(silhouette(tree, frame, true)))
+        };
+        let values = goals.iter().zip(&frames).map(of).collect();
         bar.inc(1);
-        pictures
+        values
     })?;
     bar.finish_and_clear();
-    let goals: Vec<Drawn> = drawn
-        .iter()
-        .enumerate()
-        .map(|(g, (species, seed, pictures))| Drawn {
-            species: species.clone(),
-            seed: *seed,
-            bitmap: pictures[g].clone(),
-        })
-        .collect();
-    let values = goals
-        .par_iter()
-        .enumerate()
-        .map(|(g, goal)| {
-            drawn.iter().map(|(_, _, pictures)| measures::of(&pictures[g], &goal.bitmap)).collect()
-        })
-        .collect();
-    Ok((goals, values))
+    Ok((goals, values.into_iter().map(|(_, _, values)| values).collect()))
 }
 
 /// The pictures `SPECIES_SEED_front.png` in `folders`, or `…_front_bare.png`, at our size.
@@ -106,7 +95,7 @@ pub(super) fn read(
             if (bitmap.width(), bitmap.height()) != (SIDE, SIDE) {
                 bail!("{} is not square", path.display());
             }
-            drawn.push(Drawn { species: name.clone(), seed, bitmap });
+            drawn.push(Drawn { species: name.clone(), seed, seen: Seen::new(bitmap) });
         }
     }
     Ok(drawn)

@@ -2,7 +2,7 @@
 
 use super::Rows;
 use super::blobs::{self, BLOBS};
-use super::measures::{self, MEASURES, Values};
+use super::measures::{self, MEASURES, Seen, Values};
 use super::pictures::Drawn;
 use rayon::prelude::*;
 
@@ -72,7 +72,10 @@ pub(super) fn species(
 pub(super) fn blobs(drawn: &[Drawn], value: impl Fn(usize, usize) -> Values) -> Vec<Asked> {
     let scores: Vec<Vec<Values>> = drawn
         .par_iter()
-        .map(|goal| blobs::of(&goal.bitmap).iter().map(|blob| measures::of(&goal.bitmap, blob)).collect())
+        .map(|goal| {
+            let blobs = blobs::of(&goal.seen.bitmap).map(Seen::new);
+            blobs.iter().map(|blob| measures::of(&goal.seen, blob)).collect()
+        })
         .collect();
     let mut kinds: Vec<Asked> = BLOBS.iter().map(|name| Asked::new(name)).collect();
     for (g, goal) in drawn.iter().enumerate() {

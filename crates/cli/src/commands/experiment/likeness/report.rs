@@ -106,10 +106,15 @@ fn walks(table: &Table, measures: &[&str]) -> String {
     output::table(&rows, &(1..2 + measures.len()).collect::<Vec<_>>())
 }
 
-/// A line a measure: species told apart, the worst blob, the mean of all walks.
+/// A line a measure: species told apart, the worst blob, the mean of all walks, and what a goal that
+/// is moved aside or mirrored has.
 fn ablated(table: &Table, measures: &[&str]) -> String {
     let sets = ["own, not tuned on", "own", "own, bare", "own, goal's scale", "reference"];
-    let heading = ["measure"].iter().chain(&sets).chain(&["worst blob", "walks"]).map(|s| (*s).to_owned());
+    let heading = ["measure"]
+        .iter()
+        .chain(&sets)
+        .chain(&["worst blob", "walks", "aside", "mirrored"])
+        .map(|s| (*s).to_owned());
     let mut rows: Vec<Vec<String>> = vec![heading.collect()];
     let against_blobs = subjects(table, "blobs");
     for measure in measures {
@@ -119,8 +124,11 @@ fn ablated(table: &Table, measures: &[&str]) -> String {
         let of_blobs = against_blobs.iter().filter(|s| s.0 == "own" || s.0 == "reference");
         let worst = of_blobs.filter_map(|s| value(table, "blobs", *s, measure)).fold(1.0, f64::min);
         let walks = format!("{:.3}", mean(&correlations(table, None, measure)));
+        let moved = ["aside by 1/16", "mirrored"].map(|way| {
+            value(table, "moved", ("own", way), measure).map_or_else(String::new, |v| format!("{v:.3}"))
+        });
         let head = [(*measure).to_owned()];
-        rows.push(head.into_iter().chain(told).chain([percent(worst), walks]).collect());
+        rows.push(head.into_iter().chain(told).chain([percent(worst), walks]).chain(moved).collect());
     }
-    output::table(&rows, &(1..8).collect::<Vec<_>>())
+    output::table(&rows, &(1..10).collect::<Vec<_>>())
 }

@@ -1,9 +1,9 @@
 //! Does a measure fall steadily when one parameter walks away from the truth?
 
-use super::measures::{self, MEASURES, Values};
+use super::measures::{self, MEASURES, Seen, Values};
 use super::pictures::silhouette;
 use super::{LikenessSpec, Rows, SIDE, progress};
-use pleach_silhouette::{Bitmap, Frame, View};
+use pleach_silhouette::{Frame, View};
 use pleach_tree::{Growth, Limits, Species};
 use rayon::prelude::*;
 
@@ -60,7 +60,7 @@ pub(super) fn rows(lines: &[Line], rows: &mut Rows) {
 
 /// The tree that walks set out from.
 struct Goal {
-    bitmap: Bitmap,
+    seen: Seen,
     frame: Frame,
 }
 
@@ -68,7 +68,7 @@ impl Goal {
     fn of(species: &Species) -> anyhow::Result<Self> {
         let tree = species.grow(SEED)?;
         let frame = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
-        Ok(Self { bitmap: silhouette(&tree, &frame, true), frame })
+        Ok(Self { seen: Seen::new(silhouette(&tree, &frame, true)), frame })
     }
 
     /// Up to `steps` steps of `parameter` in the direction of `sign`, seen in the goal's frame.
@@ -91,9 +91,8 @@ impl Goal {
             let usual = Limits::default();
             let limits = Limits { stems: usual.stems / 5, leaves: usual.leaves / 5, knots: usual.knots / 5 };
             let tree = there.grow_with(&Growth { limits, parallel: false, ..Growth::seed(SEED) });
-            Ok(tree
-                .ok()
-                .map(|tree| (step, measures::of(&silhouette(&tree, &self.frame, true), &self.bitmap))))
+            let look = |tree| Seen::new(silhouette(&tree, &self.frame, true));
+            Ok(tree.ok().map(|tree| (step, measures::of(&look(tree), &self.seen))))
         });
         Ok(walked.collect::<anyhow::Result<Vec<_>>>()?.into_iter().flatten().collect())
     }
