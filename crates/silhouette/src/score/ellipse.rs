@@ -220,7 +220,7 @@ mod tests {
             let drawn = best_ellipse(&goal);
             let both = drawn.intersection(&goal) as f64;
             let iou = both / (drawn.ink() as f64 + goal.ink() as f64 - both);
-            assert!((iou - found).abs() < 0.01, "drawn {iou}, found {found}");
+            assert!((iou - found).abs() < 0.02, "drawn {iou}, found {found}");
         }
     }
 
