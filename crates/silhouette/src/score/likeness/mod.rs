@@ -7,19 +7,32 @@
 //! other, compared by the same rule, Σ min(a, b) / Σ max(a, b) (Ruzicka 1958): 0 where they share
 //! nothing, 1 where they are equal, the same both ways. Likeness is their weighted mean:
 //!
-//! | part | weight | a list of | sees | does not see |
-//! | --- | ---: | --- | --- | --- |
-//! | [`mass`] | 0.1 | ink in 16 × 16 cells, blurred | where a tree stands, how it leans | texture; a blob has the same mass |
-//! | [`rim`] | 0.3 | outline in such cells, mirrored halves laid onto each other | the crown's shape and bareness; upright and level edges apart | left and right |
-//! | strokes, see [`runs`] | 0.3 | ink by the length of the run that it is in | trunk, branches, leaves: how thick and which way | where they are |
-//! | gaps, see [`runs`] | 0.3 | paper between ink by the length of its run | how airy a crown is, and how coarsely | where they are |
+//! | part | weight | sees | does not see |
+//! | --- | ---: | --- | --- |
+//! | mass | 0.1 | where a tree stands, how it leans | texture: a blob has the same mass |
+//! | rim | 0.3 | the crown's shape and roughness, upright and level edges apart | left and right |
+//! | strokes | 0.3 | trunk, branches, leaves: how thick, and which way they run | where they are, how large the tree is |
+//! | gaps | 0.3 | how airy a crown is, and how coarsely | where the gaps are, how large the tree is |
 //!
-//! With S = max(width, height), all lengths are taken as parts of S, so that the same drawing has about
-//! the same likeness at any size. Two empty pictures have a likeness of 1, an empty one and another of 0.
+//! With S = max(width, height), all lengths are parts of S, so that the same drawing has about the same
+//! likeness at any size. Cells have the side S / 16 and are blurred by the binomial weights 1 2 1 both
+//! ways, so that crossing from one into the next costs little.
 //!
-//! The lists, the lengths and the weights were chosen among some seventy by how well they tell species apart
-//! and trees from blobs on one half of the trees; `experiments/likeness` has what came of the others, and what is
-//! lost without each part.
+//! - *Mass*: the share of each cell that is inked.
+//! - *Rim*: the length of the upright and of the level outline, each in cells by height and by distance
+//!   from the ink's mean column, in parts of S. Trees have no left and right of their own: laying both
+//!   halves onto each other makes one tree a better witness of its species.
+//! - *Strokes*: for rows and for columns, and for k = 0 … 7, Σ ℓ w(ℓ, k) / ink over all runs of ink, ℓ
+//!   pixels long, with w(ℓ, k) = max(0, 1 − |log₂(256 ℓ / S) − k|): ink by the thickness of what it is
+//!   part of (run lengths: Galloway 1975).
+//! - *Gaps*: the same sum over the runs of paper between ink of a row or a column. 0.1 is added to the
+//!   lists of both pictures, or the first pinhole in a solid crown would cost the whole part.
+//!
+//! Two empty pictures have a likeness of 1, an empty one and another of 0.
+//!
+//! The lists and their weights were chosen among some seventy lists by how well they tell species apart
+//! and trees from blobs; `experiments/likeness` has what came of it on other trees, and what is lost
+//! without each part.
 
 mod columns;
 mod mass;
@@ -46,8 +59,8 @@ pub struct Likeness {
 
 /// Weights of mass, rim, strokes and gaps, in that order; they add up to 1.
 ///
-/// The whole tenths that told the species of seeds 1 to 5 apart best among those in which the place
-/// still counts.
+/// Whole tenths that tell the species of seeds 1 to 5 apart while the place still counts; others nearby
+/// do as well.
 const WEIGHTS: [f64; 4] = [0.1, 0.3, 0.3, 0.3];
 
 impl Likeness {
