@@ -126,6 +126,8 @@ mod tests {
         assert_eq!(of([1.0, 2.0, 5.0, 6.0, 100.0]), 1.0);
         // One exchange of neighbours: 1 − 6 · 2 / (5 · 24).
         assert!((of([2.0, 1.0, 3.0, 4.0, 5.0]) - 0.9).abs() < 1e-12);
+        // A tie shares its ranks: 9.5 / √(10 · 9.5).
+        assert!((of([1.0, 2.0, 2.0, 3.0, 4.0]) - 0.95_f64.sqrt()).abs() < 1e-12);
         assert_eq!(of([3.0; 5]), 0.0);
     }
 }
