@@ -28,6 +28,11 @@ fn complexity() {
 }
 
 #[test]
+fn likeness() {
+    check("likeness", &["--repetitions", "1"]);
+}
+
+#[test]
 fn changed_results_are_found() {
     let dir = Dir::new();
     let folder = pleach_tests::root().join("experiments/complexity");

@@ -45,6 +45,8 @@ fn the_run_folder_holds_what_it_should() {
         "boundary_f",
         "chamfer",
         "blurred_iou",
+        "likeness",
+        "likeness_parts",
         "species",
         "generator",
         "tree_seed",

@@ -49,6 +49,27 @@ fn without_a_file_the_tree_is_drawn_in_the_terminal() {
 }
 
 #[test]
+fn another_tree_of_the_species_is_likelier_than_one_that_overlaps_more() {
+    let dir = Dir::new();
+    for (name, species, seed) in
+        [("goal", "palm", "1"), ("same", "palm", "4"), ("other", "silver_birch", "2")]
+    {
+        let _ = dir
+            .run(["silhouette", species, "--seed", seed, "--size", "128", "-o", &format!("{name}.png")])
+            .ok();
+    }
+    let score = |name: &str| dir.run(["score", &format!("{name}.png"), "goal.png", "--json"]).json();
+    let (same, other, itself) = (score("same"), score("other"), score("goal"));
+    let number = |card: &serde_json::Value, key: &str| card[key].as_f64().unwrap();
+    assert_eq!(number(&itself, "likeness"), 1.0);
+    assert!(number(&same, "iou") < number(&other, "iou"), "{same} {other}");
+    assert!(number(&same, "likeness") > number(&other, "likeness"), "{same} {other}");
+    assert!(number(&same["likeness_parts"], "gaps") <= 1.0);
+    let table = dir.run(["score", "same.png", "goal.png"]).ok();
+    assert!(table.starts_with("likeness") && table.contains("strokes"), "{table}");
+}
+
+#[test]
 fn wrong_arguments_are_told() {
     let dir = Dir::new();
     dir.run(["silhouette", "palm", "--view", "0,100"]).fails(2, &["-90 to 90"]);

@@ -1,9 +1,10 @@
 //! Grow, draw, score: what a fit does a million times.
 
 use crate::genome::{Genome, Score, Size};
-use crate::objective::{Agreement, Objective};
+use crate::objective::Objective;
 use crate::search::Evaluate;
-use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
+use pleach_silhouette::score::fast::{Overlaps, PreparedGoal, Scratch};
+use pleach_silhouette::score::likeness::{self, Descriptor};
 use pleach_silhouette::{Bitmap, Detail, Frame, Projection, Rasteriser, View};
 use pleach_tree::{CheckedParams, Foliage, Generator, Growth, Leaf, Limits, Tree, Workspace};
 use rayon::prelude::*;
@@ -96,6 +97,7 @@ struct Height {
 #[derive(Debug)]
 struct PreparedView {
     prepared: PreparedGoal,
+    descriptor: Descriptor,
     goal: Bitmap,
     view: View,
     frame: Frame,
@@ -116,7 +118,14 @@ pub struct EvalWorkspace {
     workspace: Workspace,
     rasteriser: Rasteriser,
     bitmap: Bitmap,
-    scratch: Scratch,
+    comparisons: Comparisons,
+}
+
+/// Memory of the comparisons.
+#[derive(Debug, Default)]
+struct Comparisons {
+    overlaps: Scratch,
+    likeness: likeness::Scratch,
 }
 
 impl EvalWorkspace {
@@ -156,8 +165,13 @@ impl Evaluator {
             if !(scale > 0.0 && scale.is_finite()) {
                 return Err(ProblemError::Scale { index, metres_per_pixel: scale.to_string() });
             }
-            let prepared = PreparedGoal::new(goal);
-            views.push(PreparedView { prepared, goal: goal.clone(), view: *view, frame: *frame });
+            views.push(PreparedView {
+                prepared: PreparedGoal::new(goal),
+                descriptor: Descriptor::of(goal, &mut likeness::Scratch::default()),
+                goal: goal.clone(),
+                view: *view,
+                frame: *frame,
+            });
         }
         Ok(Self {
             generator: Arc::clone(&problem.generator),
@@ -208,7 +222,7 @@ impl Evaluator {
             workspace: Workspace::default(),
             rasteriser: Rasteriser::with_detail(Detail::Half),
             bitmap: Bitmap::default(),
-            scratch: Scratch::default(),
+            comparisons: Comparisons::default(),
         }
     }
 
@@ -221,7 +235,7 @@ impl Evaluator {
     }
 
     fn evaluate_within(&self, genome: &Genome, most: Size, memory: &mut EvalWorkspace) -> Score {
-        let EvalWorkspace { params, values, tree, workspace, rasteriser, bitmap, scratch } = memory;
+        let EvalWorkspace { params, values, tree, workspace, rasteriser, bitmap, comparisons } = memory;
         let mut growth = Growth {
             seed: genome.tree_seed,
             limits: Limits {
@@ -263,8 +277,8 @@ impl Evaluator {
             }
             for view in &self.views {
                 rasteriser.draw(tree, &view.view, &view.frame, self.foliage, bitmap);
-                let agreement = view.compare(bitmap, scratch);
-                sum.cost += self.objective.cost(&agreement);
+                let agreement = view.compare(bitmap, self.objective, comparisons);
+                sum.cost += 1.0 - agreement.value;
                 sum.iou += agreement.iou;
                 sum.accuracy += agreement.accuracy;
             }
@@ -309,23 +323,44 @@ fn height_of(tree: &Tree) -> f64 {
     knots.max(f64::from(leaves.map(top).fold(0.0, f32::max)))
 }
 
+/// What is measured of one silhouette against one goal, each in 0..=1.
+struct Agreement {
+    /// Share of equal pixels.
+    accuracy: f64,
+    /// Intersection over union of the ink, pixel by pixel.
+    iou: f64,
+    /// What the objective makes large.
+    value: f64,
+}
+
 impl PreparedView {
-    fn compare(&self, bitmap: &Bitmap, scratch: &mut Scratch) -> Agreement {
-        let overlaps = self.prepared.overlaps(bitmap, scratch);
+    fn compare(&self, bitmap: &Bitmap, objective: Objective, memory: &mut Comparisons) -> Agreement {
+        let overlaps = self.prepared.overlaps(bitmap, &mut memory.overlaps);
+        let accuracy = 1.0 - overlaps.differing as f64 / self.goal.area() as f64;
         let iou = overlaps.iou();
-        // `pyramid` goes from cells of 2 pixels up; the weights from 32 down.
-        let scales = overlaps.pyramid.iter().rev().copied().chain([iou]);
-        let (mut sum, mut total) = (0.0, 0.0);
-        for (weight, overlap) in BLEND.iter().zip(scales) {
-            sum += weight * overlap;
-            total += weight;
-        }
-        Agreement {
-            accuracy: 1.0 - overlaps.differing as f64 / self.goal.area() as f64,
-            iou,
-            blend: sum / total,
-        }
+        let value = match objective {
+            Objective::Accuracy => accuracy,
+            Objective::Iou => iou,
+            Objective::Blend => blend(&overlaps),
+            Objective::Likeness => {
+                let descriptor = Descriptor::of(bitmap, &mut memory.likeness);
+                self.descriptor.compare(&descriptor).value()
+            }
+        };
+        Agreement { accuracy, iou, value }
     }
+}
+
+/// The weighted mean of overlaps over cell sizes.
+fn blend(overlaps: &Overlaps) -> f64 {
+    // `pyramid` goes from cells of 2 pixels up; the weights from 32 down.
+    let scales = overlaps.pyramid.iter().rev().copied().chain([overlaps.iou()]);
+    let (mut sum, mut total) = (0.0, 0.0);
+    for (weight, overlap) in BLEND.iter().zip(scales) {
+        sum += weight * overlap;
+        total += weight;
+    }
+    sum / total
 }
 
 impl Evaluate for Evaluator {

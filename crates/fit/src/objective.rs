@@ -1,6 +1,5 @@
 //! What a fit makes small.
 
-use crate::exact;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -18,6 +17,9 @@ pub enum Objective {
     /// cells of 2 to 32 pixels: a crown in the right place counts before its twigs are.
     #[default]
     Blend,
+    /// 1 − likeness: crown, outline, strokes and gaps, not twigs in their places; see
+    /// [`pleach_silhouette::score::likeness`].
+    Likeness,
 }
 
 /// A word that names no objective.
@@ -30,7 +32,7 @@ pub struct UnknownObjective {
 
 impl Objective {
     /// All objectives.
-    pub const ALL: [Self; 3] = [Self::Accuracy, Self::Iou, Self::Blend];
+    pub const ALL: [Self; 4] = [Self::Accuracy, Self::Iou, Self::Blend, Self::Likeness];
 
     /// The name on the command line.
     #[must_use]
@@ -39,6 +41,7 @@ impl Objective {
             Self::Accuracy => "accuracy",
             Self::Iou => "iou",
             Self::Blend => "blend",
+            Self::Likeness => "likeness",
         }
     }
 }
@@ -60,28 +63,6 @@ impl FromStr for Objective {
     }
 }
 
-/// What is measured of one silhouette against one goal.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Agreement {
-    /// Share of equal pixels.
-    #[serde(with = "exact::number")]
-    pub(crate) accuracy: f64,
-    /// Intersection over union of the ink, pixel by pixel.
-    pub(crate) iou: f64,
-    /// The weighted mean over cell sizes.
-    pub(crate) blend: f64,
-}
-
-impl Objective {
-    pub(crate) fn cost(self, agreement: &Agreement) -> f64 {
-        1.0 - match self {
-            Self::Accuracy => agreement.accuracy,
-            Self::Iou => agreement.iou,
-            Self::Blend => agreement.blend,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,6 +73,6 @@ mod tests {
             assert_eq!(objective.to_string().parse(), Ok(objective));
         }
         let message = "likenes".parse::<Objective>().unwrap_err().to_string();
-        assert_eq!(message, "unknown objective `likenes`, known are accuracy, iou, blend");
+        assert_eq!(message, "unknown objective `likenes`, known are accuracy, iou, blend, likeness");
     }
 }

@@ -3,6 +3,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
+use pleach_silhouette::score::likeness::{self, Descriptor};
 use pleach_silhouette::{Bitmap, Detail, Frame, Part, Rasteriser, View, referee};
 use std::hint::black_box;
 use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
@@ -53,6 +54,14 @@ fn score(c: &mut Criterion) {
     let (goal, picture) = (draw("quaking_aspen"), draw("black_oak"));
     let (prepared, mut scratch) = (PreparedGoal::new(&goal), Scratch::default());
     c.bench_function("score/search", |b| b.iter(|| prepared.overlaps(black_box(&picture), &mut scratch)));
+    // What a search does for each tree; a willow is the most work, its curtain has the most runs.
+    for name in ["black_oak", "weeping_willow"] {
+        let (picture, mut scratch) = (draw(name), likeness::Scratch::default());
+        let prepared = Descriptor::of(&goal, &mut scratch);
+        c.bench_function(&format!("score/likeness/{name}"), |b| {
+            b.iter(|| prepared.compare(&Descriptor::of(black_box(&picture), &mut scratch)));
+        });
+    }
     c.bench_function("score/card", |b| b.iter(|| ScoreCard::of(black_box(&picture), &goal)));
 }
 

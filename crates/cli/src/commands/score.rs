@@ -2,7 +2,7 @@
 
 use crate::output;
 use pleach_silhouette::goal::{Goal, GoalOptions};
-use pleach_silhouette::score::ScoreCard;
+use pleach_silhouette::score::{Likeness, ScoreCard};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
@@ -10,7 +10,8 @@ const EXAMPLES: &str = "Examples:
   pleach score best.png goal.png --json    for scripts
 
 Each score stands beside what says nothing would have: pixel accuracy beside that of an empty
-picture, IoU beside that of the best single ellipse.";
+picture, IoU beside that of the best single ellipse. Likeness is about the kind of tree and not about
+twigs in their places; it stands beside its parts.";
 
 /// Print the score card of two silhouettes of one size
 #[derive(Debug, clap::Args)]
@@ -39,6 +40,7 @@ impl Score {
 pub(crate) fn card(scores: &ScoreCard) -> String {
     let row = |name: &str, value: f64, beside: String| vec![name.to_owned(), format!("{value:.4}"), beside];
     let rows = vec![
+        row("likeness", scores.likeness, parts(&scores.likeness_parts)),
         row("IoU", scores.iou, format!("best single ellipse {:.4}", scores.best_ellipse_iou)),
         row("pixel accuracy", scores.pixel_accuracy, format!("empty picture {:.4}", scores.empty_accuracy)),
         row("Dice", scores.dice, String::new()),
@@ -53,4 +55,9 @@ pub(crate) fn card(scores: &ScoreCard) -> String {
         ),
     ];
     output::table(&rows, &[1])
+}
+
+fn parts(likeness: &Likeness) -> String {
+    let parts = Likeness::PARTS.iter().zip(likeness.parts());
+    parts.map(|(name, part)| format!("{name} {part:.2}")).collect::<Vec<_>>().join(", ")
 }

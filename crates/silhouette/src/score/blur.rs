@@ -2,20 +2,49 @@
 
 use crate::bitmap::Bitmap;
 
-/// Soft intersection over union, Σ min / Σ max, of the two pictures blurred by a Gaussian of `sigma`
-/// pixels; 1 where both are empty. Beyond the edges is paper.
+/// A picture blurred by a Gaussian, to be compared with others blurred alike.
 ///
 /// The Gaussian is three running means (Wells 1986, *Efficient synthesis of Gaussian filters by
 /// cascaded uniform filters*, IEEE PAMI 8): its sigma is within 5 % from 4 pixels up, and any sigma is
-/// as fast as another.
-pub fn blurred_iou(a: &Bitmap, b: &Bitmap, sigma: f64) -> f64 {
-    let (a, b) = (blurred(a, sigma), blurred(b, sigma));
-    let (mut least, mut most) = (0.0, 0.0);
-    for (a, b) in a.iter().zip(&b) {
-        least += f64::from(a.min(*b));
-        most += f64::from(a.max(*b));
+/// as fast as another. Beyond the edges is paper.
+#[derive(Clone, Debug)]
+pub struct Blurred {
+    field: Vec<f32>,
+}
+
+impl Blurred {
+    /// Blurs `bitmap` with a sigma in pixels.
+    #[must_use]
+    pub fn of(bitmap: &Bitmap, sigma: f64) -> Self {
+        Self { field: blurred(bitmap, sigma) }
     }
-    if most > 0.0 { least / most } else { 1.0 }
+
+    /// Soft intersection over union, Σ min / Σ max, of two pictures of one size, in 0..=1; 1 where both
+    /// are empty.
+    #[must_use]
+    pub fn iou(&self, other: &Self) -> f64 {
+        let (mut least, mut most) = (0.0, 0.0);
+        for (a, b) in self.field.iter().zip(&other.field) {
+            least += f64::from(a.min(*b));
+            most += f64::from(a.max(*b));
+        }
+        if most > 0.0 { least / most } else { 1.0 }
+    }
+}
+
+/// Soft intersection over union of the two pictures blurred by a Gaussian of `sigma` pixels, see
+/// [`Blurred`].
+pub fn blurred_iou(a: &Bitmap, b: &Bitmap, sigma: f64) -> f64 {
+    Blurred::of(a, sigma).iou(&Blurred::of(b, sigma))
+}
+
+/// The picture blurred by a Gaussian of `sigma` pixels, inked where it is at least half: its masses
+/// without their texture.
+#[must_use]
+pub fn blob(bitmap: &Bitmap, sigma: f64) -> Bitmap {
+    let Blurred { field } = Blurred::of(bitmap, sigma);
+    let width = bitmap.width();
+    Bitmap::from_fn(width, bitmap.height(), |x, y| field[(y * width + x) as usize] >= 0.5)
 }
 
 fn blurred(bitmap: &Bitmap, sigma: f64) -> Vec<f32> {
@@ -84,6 +113,17 @@ mod tests {
             let peak = 1.0 / (std::f64::consts::TAU * sigma * sigma);
             assert!((f64::from(field[64 * 129 + 64]) / peak - 1.0).abs() < 0.2);
         }
+    }
+
+    #[test]
+    fn a_comb_becomes_a_block() {
+        // Bars of six in eight pixels: three quarters of ink inside, none outside.
+        let comb =
+            Bitmap::from_fn(128, 128, |x, y| (32..96).contains(&x) && (32..96).contains(&y) && x % 8 < 6);
+        let found = blob(&comb, 8.0);
+        assert!((40..88).all(|x| found.get(x, 64)), "no gap is left");
+        assert!(!found.get(20, 64) && !found.get(64, 108));
+        assert_eq!(blob(&Bitmap::new(9, 9), 2.0), Bitmap::new(9, 9));
     }
 
     #[test]

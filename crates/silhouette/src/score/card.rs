@@ -3,6 +3,7 @@
 use super::blur::blurred_iou;
 use super::distance::squared_distances;
 use super::ellipse::best_ellipse_iou;
+use super::likeness::Likeness;
 use crate::bitmap::Bitmap;
 use serde::Serialize;
 
@@ -29,6 +30,10 @@ pub struct ScoreCard {
     pub chamfer: f64,
     /// Soft IoU after blurring, see [`BlurredIou`].
     pub blurred_iou: BlurredIou,
+    /// How much the two look like trees of one kind, in 0..=1, see [`super::likeness`].
+    pub likeness: f64,
+    /// The parts of which `likeness` is the weighted mean.
+    pub likeness_parts: Likeness,
     /// Numbers of the picture's crown.
     pub crown: Crown,
     /// The same numbers of the goal's.
@@ -94,6 +99,7 @@ impl ScoreCard {
         let both = image.intersection(goal);
         let ratio = |part: u64, whole: u64| if whole == 0 { 1.0 } else { part as f64 / whole as f64 };
         let (boundary_f, chamfer) = outlines(image, goal);
+        let likeness = Likeness::of(image, goal);
         let blurred = |part: f64| blurred_iou(image, goal, f64::from(goal.height()) / part);
         Ok(Self {
             pixel_accuracy: 1.0 - image.differing(goal) as f64 / area,
@@ -108,6 +114,8 @@ impl ScoreCard {
                 thirty_second: blurred(32.0),
                 sixty_fourth: blurred(64.0),
             },
+            likeness: likeness.value(),
+            likeness_parts: likeness,
             crown: Crown::of(image),
             goal_crown: Crown::of(goal),
         })
@@ -200,6 +208,7 @@ mod tests {
             (card.pixel_accuracy, card.iou, card.dice, card.boundary_f, card.chamfer),
             (1.0, 1.0, 1.0, 1.0, 0.0)
         );
+        assert_eq!(card.likeness, 1.0);
         assert_eq!(card.blurred_iou, BlurredIou { sixteenth: 1.0, thirty_second: 1.0, sixty_fourth: 1.0 });
         assert!(card.best_ellipse_iou > 0.97);
         assert!((card.empty_accuracy - (1.0 - card.goal_crown.ink)).abs() < 1e-12);
@@ -214,7 +223,7 @@ mod tests {
         for w in cards.windows(2) {
             assert!(w[1].iou < w[0].iou && w[1].dice < w[0].dice && w[1].chamfer > w[0].chamfer);
             assert!(w[1].blurred_iou.sixteenth < w[0].blurred_iou.sixteenth);
-            assert!(w[1].boundary_f <= w[0].boundary_f);
+            assert!(w[1].boundary_f <= w[0].boundary_f && w[1].likeness < w[0].likeness);
         }
         // Two discs of radius r at distance d: the lens over the union.
         let (r, d) = (20.0_f64, 12.0_f64);

@@ -11,14 +11,32 @@ const SIDE: u32 = 128;
 type Ellipse = [f64; 5];
 
 /// The intersection over union of `goal` with the ellipse that fits it best, in 0..=1; 0 without ink.
+#[must_use]
+pub fn best_ellipse_iou(goal: &Bitmap) -> f64 {
+    search(goal).map_or(0.0, |found| found.0)
+}
+
+/// The ellipse that fits `goal` best, filled; empty without ink.
+#[must_use]
+pub fn best_ellipse(goal: &Bitmap) -> Bitmap {
+    let Some((_, [cx, cy, a, b, angle])) = search(goal) else {
+        return Bitmap::new(goal.width(), goal.height());
+    };
+    let (sin, cos) = angle.sin_cos();
+    Bitmap::from_fn(goal.width(), goal.height(), |x, y| {
+        let (dx, dy) = (f64::from(x) + 0.5 - cx, f64::from(y) + 0.5 - cy);
+        ((dx * cos + dy * sin) / a).powi(2) + ((dy * cos - dx * sin) / b).powi(2) <= 1.0
+    })
+}
+
+/// The best ellipse and its intersection over union; none without ink.
 ///
 /// Searched at 128 pixels by steps along each number, halved when none helps, from the moments of the
 /// whole picture and of its upper parts; then polished on the picture itself. Deterministic.
-#[must_use]
-pub fn best_ellipse_iou(goal: &Bitmap) -> f64 {
+fn search(goal: &Bitmap) -> Option<(f64, Ellipse)> {
     let reduction = (goal.width().max(goal.height())).div_ceil(SIDE).max(1);
     let small = Rows::new(goal, reduction);
-    let Some((mean, spread)) = small.moments(1.0) else { return 0.0 };
+    let (mean, spread) = small.moments(1.0)?;
     let mut best = (0.0, [0.0; 5]);
     for part in [1.0, 0.8, 0.6] {
         let Some((mean, spread)) = small.moments(part) else { continue };
@@ -38,13 +56,13 @@ pub fn best_ellipse_iou(goal: &Bitmap) -> f64 {
         best = pole;
     }
     if reduction == 1 {
-        return best.0;
+        return Some(best);
     }
     let scale = f64::from(reduction);
     let [x, y, a, b, angle] = best.1;
     let full = Rows::new(goal, 1);
-    full.climb([x * scale, y * scale, a * scale, b * scale, angle], [scale, scale, scale, scale, 0.02], 0.25)
-        .0
+    let start = [x * scale, y * scale, a * scale, b * scale, angle];
+    Some(full.climb(start, [scale, scale, scale, scale, 0.02], 0.25))
 }
 
 /// Directions of steps: each number alone; one end of the upright axis with the other held; both axes.
@@ -199,6 +217,10 @@ mod tests {
             });
             let found = best_ellipse_iou(&goal);
             assert!(found > 0.97, "{found} at {cx}, {cy}");
+            let drawn = best_ellipse(&goal);
+            let both = drawn.intersection(&goal) as f64;
+            let iou = both / (drawn.ink() as f64 + goal.ink() as f64 - both);
+            assert!((iou - found).abs() < 0.02, "drawn {iou}, found {found}");
         }
     }
 
@@ -214,6 +236,7 @@ mod tests {
     #[test]
     fn degenerate_goals_have_an_answer() {
         assert_eq!(best_ellipse_iou(&Bitmap::new(30, 30)), 0.0);
+        assert_eq!(best_ellipse(&Bitmap::new(30, 20)), Bitmap::new(30, 20));
         let dot = Bitmap::from_fn(30, 30, |x, y| x == 3 && y == 3);
         assert!((0.0..=1.0).contains(&best_ellipse_iou(&dot)));
     }

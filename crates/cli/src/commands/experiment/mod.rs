@@ -6,6 +6,7 @@
 mod blend;
 mod fits;
 mod growth;
+mod likeness;
 mod plot;
 mod spec;
 
@@ -109,6 +110,7 @@ impl Experiment {
                     Spec::Fits(spec) => fits::run(folder, &spec)?,
                     Spec::Growth(spec) => growth::run(folder, &spec)?,
                     Spec::Blend(spec) => blend::run(folder, &spec)?,
+                    Spec::Likeness(spec) => likeness::run(folder, &spec)?,
                 };
                 output::line(report)?;
                 output::note(format!("wrote {}", folder.join("results.csv").display()));
@@ -119,6 +121,7 @@ impl Experiment {
                     Spec::Fits(spec) => fits::table(folder, &spec, *slice)?.0,
                     Spec::Growth(spec) => growth::table(&spec, *slice)?,
                     Spec::Blend(spec) => blend::table(&spec, *slice)?,
+                    Spec::Likeness(spec) => likeness::table(folder, &spec, *slice)?,
                 };
                 table.check(&folder.join("results.csv"))?;
                 output::line(format!(

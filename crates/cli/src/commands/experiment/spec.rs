@@ -14,6 +14,8 @@ pub(super) enum Spec {
     Growth(GrowthSpec),
     /// Blends of species, ours against the dissertation's.
     Blend(BlendSpec),
+    /// Measures of how alike pictures of trees are, against each other.
+    Likeness(LikenessSpec),
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -62,6 +64,29 @@ pub(super) struct BlendSpec {
     pub(super) steps: u32,
     /// Random points of the hull.
     pub(super) points: u32,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LikenessSpec {
+    /// Species by name.
+    pub(super) species: Vec<String>,
+    /// Species that had no part in the choice of weights.
+    pub(super) unseen_species: Vec<String>,
+    /// Seeds 1 to this of each species.
+    pub(super) seeds: u64,
+    /// Seeds 1 to this had a part in the choice of weights.
+    pub(super) tuned_seeds: u64,
+    /// Seeds 1 to this of each species are drawn in each other's frames.
+    pub(super) shared_scale_seeds: u64,
+    /// Folders of pictures by another program, from the experiment's: the first of seed 1, and so on.
+    pub(super) reference: Vec<PathBuf>,
+    /// Parameters that walk away from the truth, as slots.
+    pub(super) walks: Vec<String>,
+    /// Steps of each walk.
+    pub(super) walk_steps: u32,
+    /// Species whose first tree that the weights have not seen is the goal of a row of the sheet.
+    pub(super) sheet: Vec<String>,
 }
 
 impl Spec {

@@ -114,7 +114,7 @@ struct SearchArgs {
     /// A setting of the optimiser, such as population=60; repeatable. `--set help` lists them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
-    /// What is made small
+    /// What is made small: blend, likeness, iou or accuracy
     #[arg(long, value_name = "NAME", default_value = "blend")]
     objective: String,
     /// Seed of the search

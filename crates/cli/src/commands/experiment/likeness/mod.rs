@@ -1,0 +1,149 @@
+//! Is likeness a better judge of trees than overlap? Every measure on the same pictures.
+
+mod blobs;
+mod figures;
+mod measures;
+mod pictures;
+mod rates;
+mod report;
+mod walk;
+
+use super::spec::LikenessSpec;
+use super::{Slice, Table, progress};
+use crate::input;
+use measures::{MEASURES, Seen, Values};
+use pictures::Drawn;
+use pleach_silhouette::Bitmap;
+use pleach_tree::Species;
+use rayon::prelude::*;
+use std::path::Path;
+
+/// One number of one question about one set of pictures.
+///
+/// `against` is what another tree of the species had to beat, or the parameter that walked;
+/// `comparisons` how many the value was made from.
+const COLUMNS: [&str; 6] = ["question", "set", "against", "measure", "comparisons", "value"];
+
+/// Pixels to a side of all pictures.
+const SIDE: u32 = 256;
+
+pub(super) fn run(folder: &Path, spec: &LikenessSpec) -> anyhow::Result<String> {
+    let (table, walks) = outcome(folder, spec, Slice::default())?;
+    table.write(&folder.join("results.csv"))?;
+    figures::curves(folder, &walks, spec)?;
+    figures::sheet(folder, spec)?;
+    Ok(report::tables(&table))
+}
+
+pub(super) fn table(folder: &Path, spec: &LikenessSpec, slice: Slice) -> anyhow::Result<Table> {
+    Ok(outcome(folder, spec, slice)?.0)
+}
+
+/// A slice has the reference pictures and the walks of the first species.
+fn outcome(folder: &Path, spec: &LikenessSpec, slice: Slice) -> anyhow::Result<(Table, Vec<walk::Line>)> {
+    let mut rows = Rows(Vec::new());
+    for (set, foliage) in [("reference", true), ("reference, bare", false)] {
+        let drawn = pictures::read(folder, &spec.reference, &spec.species, foliage)?;
+        judge(set, &drawn, &mut rows);
+    }
+    let all = species(&spec.species)?;
+    if slice.repetitions.is_none() {
+        own(spec, &all, &mut rows)?;
+    }
+    let walking = slice.repetitions.map_or(all.len(), |n| all.len().min(n as usize));
+    let walks = walk::lines(&all[..walking], spec)?;
+    walk::rows(&walks, &mut rows);
+    Ok((Table { columns: COLUMNS.to_vec(), rows: rows.0 }, walks))
+}
+
+fn species(names: &[String]) -> anyhow::Result<Vec<Species>> {
+    names.iter().map(|name| Ok(input::species(name)?)).collect()
+}
+
+/// Collects rows.
+struct Rows(Vec<Vec<String>>);
+
+impl Rows {
+    fn add(&mut self, [question, set, against, measure]: [&str; 4], comparisons: u64, value: f64) {
+        let value = format!("{}", (value * 1e6).round() / 1e6);
+        let cells = [question, set, against, measure, &comparisons.to_string(), &value];
+        self.0.push(cells.map(str::to_owned).to_vec());
+    }
+}
+
+/// Own trees, each in its own frame and then in the goal's.
+fn own(spec: &LikenessSpec, species: &[Species], rows: &mut Rows) -> anyhow::Result<()> {
+    let leafy = pictures::draw(species, spec.seeds, true)?;
+    let half = |late: bool| -> Vec<Drawn> {
+        leafy.iter().filter(|d| (d.seed > spec.tuned_seeds) == late).cloned().collect()
+    };
+    judge("own, tuned on", &half(false), rows);
+    judge("own, not tuned on", &half(true), rows);
+    judge("own", &leafy, rows);
+    moved("own", &leafy, rows);
+    judge("own, bare", &pictures::draw(species, spec.seeds, false)?, rows);
+
+    // Species that had no part in the tuning, among all others.
+    let mut more = leafy;
+    more.extend(pictures::draw(&self::species(&spec.unseen_species)?, spec.seeds, true)?);
+    let pairs = pairs(&more);
+    let unseen = |d: &Drawn| spec.unseen_species.contains(&d.species);
+    let asked = rates::species(&more, |g, t| pairs[g][t], unseen);
+    rates::rows("other species", "own, unseen species", &asked, rows);
+
+    let (goals, values) = pictures::at_goal_scale(species, spec.shared_scale_seeds)?;
+    let asked = rates::species(&goals, |g, t| values[t][g], |_| true);
+    rates::rows("other species", "own, goal's scale", &asked, rows);
+    Ok(())
+}
+
+/// Asks a set of pictures of several species whether trees of a goal's species are above others and
+/// above the goal's blobs.
+fn judge(set: &str, drawn: &[Drawn], rows: &mut Rows) {
+    let pairs = pairs(drawn);
+    let asked = rates::species(drawn, |g, t| pairs[g][t], |_| true);
+    rates::rows("other species", set, &asked, rows);
+    for asked in rates::blobs(drawn, |g, t| pairs[g][t]) {
+        rates::rows("blobs", set, &[asked], rows);
+    }
+}
+
+/// What every measure says of goals that are moved aside by a sixteenth of the picture, as far as they
+/// stay in it, and of their mirror images: the mean.
+fn moved(set: &str, drawn: &[Drawn], rows: &mut Rows) {
+    const ASIDE: u32 = SIDE / 16;
+    let aside = |goal: &Bitmap| {
+        let (_, _, right, _) = goal.ink_box()?;
+        (right + ASIDE < SIDE)
+            .then(|| Bitmap::from_fn(SIDE, SIDE, |x, y| x.checked_sub(ASIDE).is_some_and(|x| goal.get(x, y))))
+    };
+    let mirrored = |goal: &Bitmap| Some(Bitmap::from_fn(SIDE, SIDE, |x, y| goal.get(SIDE - 1 - x, y)));
+    let ways: [(&str, &dyn Fn(&Bitmap) -> Option<Bitmap>); 2] =
+        [("aside by 1/16", &aside), ("mirrored", &mirrored)];
+    for (way, change) in ways {
+        let changed = |d: &Drawn| Some(measures::of(&d.seen, &Seen::new(change(&d.seen.bitmap)?)));
+        let values: Vec<Values> = drawn.iter().filter_map(changed).collect();
+        for (m, measure) in MEASURES.iter().enumerate() {
+            let mean = values.iter().map(|v| v[m]).sum::<f64>() / values.len().max(1) as f64;
+            rows.add(["moved", set, way, measure], values.len() as u64, mean);
+        }
+    }
+}
+
+/// Every measure of every two pictures.
+fn pairs(drawn: &[Drawn]) -> Vec<Vec<Values>> {
+    let bar = progress("goals", drawn.len() as u64);
+    // All measures are the same both ways: half of the table is enough.
+    let upper: Vec<Vec<Values>> = drawn
+        .par_iter()
+        .enumerate()
+        .map(|(g, goal)| {
+            let row = drawn[..=g].iter().map(|other| measures::of(&goal.seen, &other.seen)).collect();
+            bar.inc(1);
+            row
+        })
+        .collect();
+    bar.finish_and_clear();
+    let value = |a: usize, b: usize| upper[a.max(b)][a.min(b)];
+    (0..drawn.len()).map(|a| (0..drawn.len()).map(|b| value(a, b)).collect()).collect()
+}

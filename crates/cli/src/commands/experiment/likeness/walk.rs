@@ -1,0 +1,133 @@
+//! Does a measure fall steadily when one parameter walks away from the truth?
+
+use super::measures::{self, MEASURES, Seen, Values};
+use super::pictures::silhouette;
+use super::{LikenessSpec, Rows, SIDE, progress};
+use pleach_silhouette::{Frame, View};
+use pleach_tree::{Growth, Limits, Species};
+use rayon::prelude::*;
+
+/// Step of a walk, as a part of the true value.
+pub(super) const STEP: f64 = 0.1;
+/// Shorter walks say too little about order.
+const LEAST_STEPS: usize = 5;
+/// Seed of all trees: only the parameter changes.
+const SEED: u64 = 1;
+
+/// Values along a walk: how many steps away, and every measure there.
+type Walk = Vec<(u32, Values)>;
+
+/// One walk of one parameter of one species.
+pub(super) struct Line {
+    species: String,
+    pub(super) parameter: String,
+    /// −1 towards smaller values, 1 towards larger ones.
+    pub(super) sign: f64,
+    pub(super) walk: Walk,
+}
+
+/// All walks of `species` that are long enough and change the picture at all.
+pub(super) fn lines(species: &[Species], spec: &LikenessSpec) -> anyhow::Result<Vec<Line>> {
+    let bar = progress("walks", species.len() as u64);
+    let mut lines = Vec::new();
+    for one in species {
+        let goal = Goal::of(one)?;
+        for parameter in &spec.walks {
+            for sign in [-1.0, 1.0] {
+                let walk = goal.walk(one, parameter, sign, spec.walk_steps)?;
+                if walk.len() >= LEAST_STEPS && walk.iter().any(|(_, values)| values[0] < 1.0) {
+                    lines.push(Line { species: one.name.clone(), parameter: parameter.clone(), sign, walk });
+                }
+            }
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(lines)
+}
+
+/// How well each measure keeps the order of distance along each walk: −1 is best.
+pub(super) fn rows(lines: &[Line], rows: &mut Rows) {
+    for line in lines {
+        let against = format!("{} {}", line.parameter, if line.sign < 0.0 { "less" } else { "more" });
+        for (m, measure) in MEASURES.iter().enumerate() {
+            let away = line.walk.iter().map(|(step, values)| (f64::from(*step), values[m]));
+            let points: Vec<(f64, f64)> = std::iter::once((0.0, 1.0)).chain(away).collect();
+            rows.add(["walk", &line.species, &against, measure], line.walk.len() as u64, spearman(&points));
+        }
+    }
+}
+
+/// The tree that walks set out from.
+struct Goal {
+    seen: Seen,
+    frame: Frame,
+}
+
+impl Goal {
+    fn of(species: &Species) -> anyhow::Result<Self> {
+        let tree = species.grow(SEED)?;
+        let frame = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
+        Ok(Self { seen: Seen::new(silhouette(&tree, &frame, true)), frame })
+    }
+
+    /// Up to `steps` steps of `parameter` in the direction of `sign`, seen in the goal's frame.
+    ///
+    /// Steps that the declared range does not allow, that do not change a whole number, and trees of
+    /// more than the usual size are left out; a true value of 0 has nowhere to go.
+    fn walk(&self, species: &Species, parameter: &str, sign: f64, steps: u32) -> anyhow::Result<Walk> {
+        let space = species.generator.space();
+        let slot = space.select(parameter).map_err(|e| anyhow::anyhow!("`{parameter}`: {e}"))?[0];
+        let truth = species.params.values()[slot];
+        let places: Vec<(u32, f64)> = (1..=steps)
+            .map(|step| (step, truth + sign * STEP * f64::from(step) * truth.abs()))
+            .map(|(step, value)| (step, if space.kind_of(slot).is_whole() { value.round() } else { value }))
+            .filter(|(_, value)| *value != truth && space.check_slot(slot, *value).is_ok())
+            .collect();
+        let walked = places.into_par_iter().map(|(step, value)| {
+            let mut values = species.params.values().to_vec();
+            values[slot] = value;
+            let there = Species { params: space.check(values)?, ..species.clone() };
+            let usual = Limits::default();
+            let limits = Limits { stems: usual.stems / 5, leaves: usual.leaves / 5, knots: usual.knots / 5 };
+            let tree = there.grow_with(&Growth { limits, parallel: false, ..Growth::seed(SEED) });
+            let look = |tree| Seen::new(silhouette(&tree, &self.frame, true));
+            Ok(tree.ok().map(|tree| (step, measures::of(&look(tree), &self.seen))))
+        });
+        Ok(walked.collect::<anyhow::Result<Vec<_>>>()?.into_iter().flatten().collect())
+    }
+}
+
+/// Spearman's rank correlation of x and y; equal values share their mean rank (Spearman 1904). 0 where one of
+/// the two never changes.
+fn spearman(points: &[(f64, f64)]) -> f64 {
+    let ranks = |values: Vec<f64>| -> Vec<f64> {
+        let below = |v: f64| values.iter().filter(|w| **w < v).count() as f64;
+        let equal = |v: f64| values.iter().filter(|w| **w == v).count() as f64;
+        values.iter().map(|&v| below(v) + 0.5 * (equal(v) - 1.0)).collect()
+    };
+    let x = ranks(points.iter().map(|p| p.0).collect());
+    let y = ranks(points.iter().map(|p| p.1).collect());
+    let middle = (points.len() as f64 - 1.0) / 2.0;
+    let product =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - middle) * (b - middle)).sum::<f64>();
+    let spread = (product(&x, &x) * product(&y, &y)).sqrt();
+    if spread > 0.0 { product(&x, &y) / spread } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_correlate_as_they_should() {
+        let of = |y: [f64; 5]| spearman(&std::array::from_fn::<_, 5, _>(|i| (i as f64, y[i])));
+        assert_eq!(of([9.0, 7.0, 6.9, 2.0, 1.0]), -1.0);
+        assert_eq!(of([1.0, 2.0, 5.0, 6.0, 100.0]), 1.0);
+        // One exchange of neighbours: 1 − 6 · 2 / (5 · 24).
+        assert!((of([2.0, 1.0, 3.0, 4.0, 5.0]) - 0.9).abs() < 1e-12);
+        // A tie shares its ranks: 9.5 / √(10 · 9.5).
+        assert!((of([1.0, 2.0, 2.0, 3.0, 4.0]) - 0.95_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(of([3.0; 5]), 0.0);
+    }
+}
