@@ -25,6 +25,8 @@ pub struct FreshSeeds {
     pub iou: Spread,
     /// Share of equal pixels.
     pub pixel_accuracy: Spread,
+    /// Likeness.
+    pub likeness: Spread,
     /// What the search made small.
     pub cost: Spread,
 }
@@ -45,18 +47,20 @@ pub fn fresh_seeds(
     genome: &Genome,
     count: usize,
 ) -> Result<Option<FreshSeeds>, ProblemError> {
-    let evaluator = Evaluator::new(problem, objective, limits)?;
     let seeds = (0..count as u64).map(|i| genome.tree_seed.wrapping_add(FIRST + i));
     let trees: Vec<Genome> = seeds.map(|tree_seed| Genome { tree_seed, ..genome.clone() }).collect();
-    let scores = evaluator.scores(&trees, Size::ANY);
+    let scores = Evaluator::new(problem, objective, limits)?.scores(&trees, Size::ANY);
+    let looks = Evaluator::new(problem, Objective::Likeness, limits)?.scores(&trees, Size::ANY);
     if scores.is_empty() || scores.iter().any(|score| !score.cost.is_finite()) {
         return Ok(None);
     }
     let spread = |of: fn(&Score) -> f64| Spread::of(scores.iter().map(of));
+    let likeness = Spread::of(looks.iter().map(|score| 1.0 - score.cost));
     Ok(Some(FreshSeeds {
         count,
         iou: spread(|score| score.iou),
         pixel_accuracy: spread(|score| score.accuracy),
+        likeness,
         cost: spread(|score| score.cost),
     }))
 }

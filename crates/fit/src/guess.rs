@@ -1,11 +1,13 @@
 //! A first guess: which known species a goal looks like, and the lists that a search may start from.
 //!
 //! Trees of all candidates are grown as they are and with their numbers varied, resized to the goal's
-//! height, drawn and scored as a search would. Nothing is stored between runs: growing a few hundred
+//! height, drawn, and compared by likeness, which knows a species by other trees than the goal's.
+//! Nothing is stored between runs: growing a few hundred
 //! trees takes a second or two, and what is grown anew is never out of date.
 
 use crate::evaluator::{Evaluator, FitProblem};
 use crate::genome::{Genome, Score, Size};
+use crate::objective::Objective;
 use crate::run::FitError;
 use crate::search::Evaluate as _;
 use crate::settings::FitSettings;
@@ -66,7 +68,10 @@ pub struct Guess {
 const VARIATION: u32 = 0x6775;
 /// Trees between two calls of the observer: enough to keep the threads busy.
 const BATCH: usize = 32;
-/// By how much worse a candidate's score is when it is e times less likely.
+/// Of the trees that look most like the goal, this many times those that are kept are scored by what
+/// the search makes small.
+const ALIKE: usize = 3;
+/// By how much worse a candidate's likeness is when it is e times less probable.
 const DOUBT: f64 = 0.02;
 
 /// Compares the goals of `problem` with trees of all `candidates`; tells `progress` how many of how
@@ -84,29 +89,42 @@ pub fn first_guess(
     guess: &GuessSettings,
     mut progress: impl FnMut(usize, usize),
 ) -> Result<FirstGuess, FitError> {
-    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?;
-    let evaluator = evaluator.over_seeds(settings.robust).matching_height();
+    let looks = Evaluator::new(problem, Objective::Likeness, settings.limits)?;
+    let looks = looks.over_seeds(settings.robust).matching_height();
     let tries = tries(problem, settings, candidates, guess)?;
     let mut scores = Vec::new();
     for batch in tries.chunks(BATCH) {
         let genomes: Vec<Genome> = batch.iter().map(|attempt| attempt.genome.clone()).collect();
-        scores.extend(evaluator.scores(&genomes, Size::ANY));
+        scores.extend(looks.scores(&genomes, Size::ANY));
         progress(scores.len(), tries.len());
     }
-    let mut nearest = Vec::new();
     let mut costs = vec![f64::INFINITY; candidates.len()];
+    let mut alike = Vec::new();
     for (mut attempt, score) in tries.into_iter().zip(scores) {
-        if !score.cost.is_finite() {
-            continue;
-        }
-        let cost = &mut costs[attempt.candidate];
-        *cost = cost.min(score.cost);
-        if attempt.may_start {
-            problem.generator.resize(&mut attempt.genome.values, score.resized);
-            let name = candidates[attempt.candidate].name.clone();
-            nearest.push(Guess { name, values: attempt.genome.values, score });
+        if score.cost.is_finite() {
+            costs[attempt.candidate] = costs[attempt.candidate].min(score.cost);
+            if attempt.may_start {
+                problem.generator.resize(&mut attempt.genome.values, score.resized);
+                alike.push((score.cost, attempt));
+            }
         }
     }
+    alike.sort_by(|a, b| a.0.total_cmp(&b.0));
+    alike.truncate(guess.keep.max(1) * ALIKE);
+
+    // Whatever looks alike may still stand beside the goal; what the search makes small decides.
+    let exact = Evaluator::new(problem, settings.objective, settings.limits)?.over_seeds(settings.robust);
+    let genomes: Vec<Genome> = alike.iter().map(|(_, attempt)| attempt.genome.clone()).collect();
+    let scores = exact.scores(&genomes, Size::ANY);
+    let mut nearest: Vec<Guess> = alike
+        .into_iter()
+        .zip(scores)
+        .map(|((_, attempt), score)| Guess {
+            name: candidates[attempt.candidate].name.clone(),
+            values: attempt.genome.values,
+            score,
+        })
+        .collect();
     nearest.sort_by(|a, b| a.score.cost.total_cmp(&b.score.cost));
     nearest.truncate(guess.keep.max(1));
     if nearest.is_empty() {

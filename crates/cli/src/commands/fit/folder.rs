@@ -213,8 +213,10 @@ pub(super) fn report(summary: &Summary, folder: &RunFolder, stop: StopReason) ->
     let mut judged = String::new();
     if let Some(fresh) = &summary.fresh_seeds {
         judged += &format!(
-            "{} other seeds: IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels\n",
+            "{} other seeds: likeness {:.3} ± {:.3}, IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels\n",
             fresh.count,
+            fresh.likeness.mean,
+            fresh.likeness.sd,
             fresh.iou.mean,
             fresh.iou.sd,
             100.0 * fresh.pixel_accuracy.mean,
