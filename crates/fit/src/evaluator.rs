@@ -342,12 +342,15 @@ impl PreparedView {
             Objective::Accuracy => accuracy,
             Objective::Iou => iou,
             Objective::Blend => blend(&overlaps),
-            Objective::Likeness => {
-                let descriptor = Descriptor::of(bitmap, &mut memory.likeness);
-                self.descriptor.compare(&descriptor).value()
-            }
+            Objective::Likeness => self.likeness(bitmap, memory),
+            Objective::Balance => f64::midpoint(blend(&overlaps), self.likeness(bitmap, memory)),
         };
         Agreement { accuracy, iou, value }
+    }
+
+    fn likeness(&self, bitmap: &Bitmap, memory: &mut Comparisons) -> f64 {
+        let descriptor = Descriptor::of(bitmap, &mut memory.likeness);
+        self.descriptor.compare(&descriptor).value()
     }
 }
 

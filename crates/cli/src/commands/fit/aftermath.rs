@@ -5,7 +5,7 @@ use pleach_fit::{
     FitError, FitProblem, FitSettings, FreshSeeds, Profile, Scored, Seen, Start, fresh_seeds, profile,
     put_back_unseen,
 };
-use pleach_tree::ParamSpace;
+use pleach_tree::{Limits, ParamSpace};
 
 /// Trees of other seeds that a result is judged by.
 const FRESH: usize = 16;
@@ -24,7 +24,8 @@ pub(super) struct Aftermath {
 
 impl Aftermath {
     pub(super) fn of(problem: &FitProblem, settings: &FitSettings, best: &Scored) -> Result<Self, FitError> {
-        let judge = |genome| fresh_seeds(problem, settings.objective, settings.limits, genome, FRESH);
+        // A search gives up trees that `grow` does not.
+        let judge = |genome| fresh_seeds(problem, settings.objective, Limits::default(), genome, FRESH);
         // Without other seeds there is no spread to compare with; then a hundredth is seen.
         let tolerance = judge(&best.genome)?.map_or(0.01, |fresh| fresh.cost.sd);
         let profiles = profile(problem, settings, best, tolerance)?;

@@ -114,8 +114,8 @@ struct SearchArgs {
     /// A setting of the optimiser, such as population=60; repeatable. `--set help` lists them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
-    /// What is made small: blend, likeness, iou or accuracy
-    #[arg(long, value_name = "NAME", default_value = "blend")]
+    /// What is made small: balance, blend, likeness, iou or accuracy
+    #[arg(long, value_name = "NAME", default_value = Objective::default().name())]
     objective: String,
     /// Seed of the search
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = input::seed)]
