@@ -23,6 +23,11 @@ fn generation_time() {
 }
 
 #[test]
+fn blend() {
+    check("blend", &["--repetitions", "1"]);
+}
+
+#[test]
 fn complexity() {
     check("complexity", &["--repetitions", "3"]);
 }
