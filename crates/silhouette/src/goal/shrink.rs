@@ -2,10 +2,21 @@
 
 use crate::bitmap::Bitmap;
 
-/// The picture at `factor` (0 to 1) times its size, black where at least half of a pixel's area was.
-///
-/// The factor is the same in both directions, so that shapes keep their proportions; the last row
-/// and column take what half a pixel of rounding leaves.
+impl Bitmap {
+    /// The picture at `factor` times its size, black where at least half of a pixel's area was.
+    ///
+    /// The factor is the same in both directions, so that shapes keep their proportions; the last row
+    /// and column take what half a pixel of rounding leaves.
+    ///
+    /// # Panics
+    /// If `factor` is not above 0 and at most 1.
+    #[must_use]
+    pub fn shrunk(&self, factor: f64) -> Self {
+        assert!(factor > 0.0 && factor <= 1.0, "a factor of {factor} makes no smaller picture");
+        shrink(self, factor)
+    }
+}
+
 pub(super) fn shrink(ink: &Bitmap, factor: f64) -> Bitmap {
     let size = |n: u32| ((f64::from(n) * factor).round() as u32).max(1);
     let (width, height) = (size(ink.width()), size(ink.height()));

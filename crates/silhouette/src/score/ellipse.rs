@@ -139,7 +139,9 @@ impl Rows {
 
     /// Intersection over union with an ellipse, cut off at the picture's edges as any picture is.
     fn iou(&self, &[cx, cy, a, b, angle]: &Ellipse) -> f64 {
-        if a < 0.3 || b < 0.3 {
+        // A pole is matched the better the longer the ellipse is, by less and less without end.
+        let longest = 2.0 * (self.width + self.height) as f64;
+        if a.min(b) < 0.3 || a.max(b) > longest {
             return 0.0;
         }
         let (sin, cos) = angle.sin_cos();
@@ -231,6 +233,13 @@ mod tests {
         let square = Bitmap::from_fn(200, 200, |x, y| (50..150).contains(&x) && (50..150).contains(&y));
         let found = best_ellipse_iou(&square);
         assert!((0.834..0.839).contains(&found), "{found}");
+    }
+
+    #[test]
+    fn the_search_for_a_pole_ends() {
+        let pole = Bitmap::from_fn(256, 256, |x, y| (126..130).contains(&x) && y > 20);
+        let found = best_ellipse_iou(&pole);
+        assert!(found > 0.8, "{found}");
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod growth;
 mod likeness;
 mod plot;
 mod spec;
+mod treefit;
 
 use crate::output;
 use anyhow::bail;
@@ -111,6 +112,7 @@ impl Experiment {
                     Spec::Growth(spec) => growth::run(folder, &spec)?,
                     Spec::Blend(spec) => blend::run(folder, &spec)?,
                     Spec::Likeness(spec) => likeness::run(folder, &spec)?,
+                    Spec::Treefit(spec) => treefit::run(folder, &spec)?,
                 };
                 output::line(report)?;
                 output::note(format!("wrote {}", folder.join("results.csv").display()));
@@ -122,6 +124,7 @@ impl Experiment {
                     Spec::Growth(spec) => growth::table(&spec, *slice)?,
                     Spec::Blend(spec) => blend::table(&spec, *slice)?,
                     Spec::Likeness(spec) => likeness::table(folder, &spec, *slice)?,
+                    Spec::Treefit(spec) => treefit::table(folder, &spec, *slice)?,
                 };
                 table.check(&folder.join("results.csv"))?;
                 output::line(format!(

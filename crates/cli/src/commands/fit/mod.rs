@@ -6,6 +6,8 @@ mod options;
 mod progress;
 mod start;
 
+pub(crate) use start::candidates;
+
 use crate::{input, output};
 use aftermath::Aftermath;
 use anyhow::{Context, bail};

@@ -100,7 +100,7 @@ fn guess(problem: &mut FitProblem, settings: &mut FitSettings) -> anyhow::Result
 }
 
 /// The known species that the problem's generator grows.
-fn candidates(problem: &FitProblem) -> Vec<Candidate> {
+pub(crate) fn candidates(problem: &FitProblem) -> Vec<Candidate> {
     let species = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
     species
         .filter(|s| s.generator.family() == problem.generator.family() && s.generator.extra_toml().is_empty())
