@@ -28,6 +28,11 @@ fn blend() {
 }
 
 #[test]
+fn treefit() {
+    check("treefit", &["--repetitions", "2", "--evaluations", "100"]);
+}
+
+#[test]
 fn complexity() {
     check("complexity", &["--repetitions", "3"]);
 }
