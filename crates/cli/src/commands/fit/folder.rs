@@ -3,7 +3,7 @@
 use super::aftermath::Aftermath;
 use super::start::LooksLike;
 use crate::{files, output};
-use anyhow::bail;
+use anyhow::{Context, bail};
 use pleach_fit::{COLUMNS, FitProblem, FitSettings, FreshSeeds, Outcome, Scored, StopReason};
 use pleach_silhouette::goal::Goal;
 use pleach_silhouette::picture;
@@ -78,13 +78,20 @@ struct Counts {
     not_seen: usize,
 }
 
+impl Summary {
+    /// Whether the fit can go on.
+    pub(super) const fn interrupted(&self) -> bool {
+        !self.finished
+    }
+}
+
 impl RunFolder {
     /// Opens or makes the folder. An unfinished fit in it is neither overwritten nor gone on with
     /// unless that was asked for.
     pub(super) fn open(path: PathBuf, resume: bool, overwrite: bool) -> anyhow::Result<Self> {
         files::make_folder(&path)?;
         let folder = Self { path };
-        let unfinished = folder.checkpoint().exists();
+        let unfinished = folder.is_unfinished();
         if unfinished && !resume && !overwrite {
             bail!(
                 "{} holds an unfinished fit; --resume goes on with it, --overwrite starts anew",
@@ -97,8 +104,39 @@ impl RunFolder {
         Ok(folder)
     }
 
+    /// The folder as it is, made or not.
+    pub(super) const fn at(path: PathBuf) -> Self {
+        Self { path }
+    }
+
     pub(super) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Whether there is a fit to go on with.
+    pub(super) fn is_unfinished(&self) -> bool {
+        self.checkpoint().exists()
+    }
+
+    /// The summary of a finished fit, if the folder holds one.
+    pub(super) fn finished(&self) -> Option<Value> {
+        let text = std::fs::read_to_string(self.summary()).ok()?;
+        let summary: Value = serde_json::from_str(&text).ok()?;
+        (!self.is_unfinished() && summary["finished"] == true).then_some(summary)
+    }
+
+    /// Removes the summary of an earlier fit, so that nobody takes it for the next one's.
+    pub(super) fn forget(&self) -> anyhow::Result<()> {
+        match std::fs::remove_file(self.summary()) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(error).with_context(|| format!("cannot remove {}", self.summary().display()))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn summary(&self) -> PathBuf {
+        self.path.join("summary.json")
     }
 
     pub(super) fn checkpoint(&self) -> PathBuf {
@@ -178,15 +216,12 @@ impl RunFolder {
             goal_height: goal.bitmap.height(),
             version: env!("CARGO_PKG_VERSION"),
         };
-        files::write_text(
-            &self.path.join("summary.json"),
-            &(serde_json::to_string_pretty(&summary)? + "\n"),
-        )?;
+        files::write_text(&self.summary(), &(serde_json::to_string_pretty(&summary)? + "\n"))?;
         Ok(summary)
     }
 }
 
-fn write_table(path: &Path, rows: impl IntoIterator<Item = Vec<String>>) -> anyhow::Result<()> {
+pub(super) fn write_table(path: &Path, rows: impl IntoIterator<Item = Vec<String>>) -> anyhow::Result<()> {
     files::write_whole(path, |file| {
         let mut csv = csv::Writer::from_writer(file);
         for row in rows {
@@ -209,7 +244,7 @@ pub(super) fn species(problem: &FitProblem, best: &Scored, name: &str) -> anyhow
 }
 
 /// The score card that ends a fit.
-pub(super) fn report(summary: &Summary, folder: &RunFolder, stop: StopReason) -> String {
+pub(super) fn report(summary: &Summary, folder: &RunFolder) -> String {
     let mut judged = String::new();
     if let Some(fresh) = &summary.fresh_seeds {
         judged += &format!(
@@ -229,13 +264,14 @@ pub(super) fn report(summary: &Summary, folder: &RunFolder, stop: StopReason) ->
         );
     }
     format!(
-        "{}\n\n{judged}{} trees in {:.1} s ({:.0} a second) by `{}`; {stop}\n\n\
+        "{}\n\n{judged}{} trees in {:.1} s ({:.0} a second) by `{}`; {}\n\n\
          overlay  {}\nspecies  {}",
         crate::commands::score::card(&summary.scores),
         summary.evaluations,
         summary.seconds,
         summary.evaluations_per_second,
         summary.optimizer,
+        summary.stopped_by,
         folder.path.join("overlay.png").display(),
         folder.path.join("best.toml").display(),
     )

@@ -1,6 +1,7 @@
-//! `pleach fit`: from a goal image to a run folder.
+//! `pleach fit`: from goal images to run folders.
 
 mod aftermath;
+mod batch;
 mod folder;
 mod options;
 mod progress;
@@ -11,7 +12,7 @@ pub(crate) use start::candidates;
 use crate::{input, output};
 use aftermath::Aftermath;
 use anyhow::{Context, bail};
-use folder::RunFolder;
+use folder::{RunFolder, Summary};
 use options::Settings;
 use pleach_fit::{
     Budget, CheckpointSettings, Control, FitProblem, FitSettings, GoalView, Objective, StopReason,
@@ -21,10 +22,13 @@ use pleach_silhouette::goal::{Goal, GoalOptions, Origin, Polarity, Split};
 use pleach_tree::{Foliage, Growth};
 use progress::Bar;
 use std::num::NonZeroU32;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
+
+/// The folder that run folders are made in if nothing is said.
+const RUNS: &str = "runs";
 
 const EXAMPLES: &str = "Examples:
   pleach fit targets/quaking_aspen.png                a minute of search, results in runs/quaking_aspen
@@ -33,23 +37,32 @@ const EXAMPLES: &str = "Examples:
   pleach fit goal.png --robust 4                      parameters of which every seed looks like the goal
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit goal.png --out DIR --resume              go on after ctrl-C or a crash
+  pleach fit goals/*.png --out runs --timeout 2m      one after the other: runs/STEM, runs/summary.csv
+  pleach fit goals/*.png --out runs --shard 2/8       every eighth goal from the second on, for array jobs
 
 The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png,
 history.csv (a row a generation), parameters.csv (how well the goal determines each parameter) and
-summary.json; and a checkpoint while the fit is unfinished.";
+summary.json; and a checkpoint while the fit is unfinished. With several goals, the budget is for each,
+a goal that fails is named and the others go on, and --resume goes on where a batch stopped: it skips
+what is finished.";
 
 /// Fit a generator's parameters to a goal image
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, args_override_self = true)]
 pub(crate) struct Fit {
-    /// The goal: PNG, JPEG or WebP; black on white, white on black, or by transparency
-    goal: PathBuf,
-    /// The run folder; runs/GOAL by default
+    /// The goal, or several: PNG, JPEG or WebP; black on white, white on black, or by transparency
+    #[arg(value_name = "GOAL", required = true)]
+    goals: Vec<PathBuf>,
+    /// The run folder, runs/GOAL by default; the folder of run folders with several goals, runs by
+    /// default
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Go on from the checkpoint in the run folder, if there is one
+    /// Go on from the checkpoint in the run folder; with several goals, skip those that are finished
     #[arg(long)]
     resume: bool,
+    /// Fit goals I, I + N, I + 2N … only; the summary is then summary-I-of-N.csv
+    #[arg(long, value_name = "I/N")]
+    shard: Option<batch::Shard>,
     /// Start anew over an unfinished fit in the run folder
     #[arg(long, conflicts_with = "resume")]
     overwrite: bool,
@@ -150,34 +163,54 @@ struct BudgetArgs {
 impl Fit {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let settings = self.settings()?;
-        let Settings::Fit(mut settings) = settings else {
+        let Settings::Fit(settings) = settings else {
             return output::line(options::describe(&self.search.optimizer)?);
         };
-        let goal = self.goal()?;
+        match &self.goals[..] {
+            [goal] if self.shard.is_none() => self.single(goal, &settings),
+            _ => batch::run(self, &settings),
+        }
+    }
+
+    /// Fits one goal and shows its score card.
+    fn single(&self, goal: &Path, settings: &FitSettings) -> anyhow::Result<()> {
+        let goals = self.goal(goal)?;
+        let folder = self.folder(goal)?;
+        let summary = self.fit(&goals, &folder, settings, &catch_signals()?, self.resume)?;
+        if self.json {
+            output::json(&summary)?;
+        } else {
+            output::line(folder::report(&summary, &folder))?;
+        }
+        if summary.interrupted() {
+            bail!(
+                "interrupted; `pleach fit {} --out {} --resume` with the same options goes on",
+                goal.display(),
+                folder.path().display()
+            );
+        }
+        folder.remove_checkpoint();
+        Ok(())
+    }
+
+    /// Searches, judges and fills the run folder; the checkpoint stays.
+    fn fit(
+        &self,
+        goal: &Goals,
+        folder: &RunFolder,
+        settings: &FitSettings,
+        stop: &Arc<AtomicBool>,
+        resume: bool,
+    ) -> anyhow::Result<Summary> {
+        let mut settings = settings.clone();
         let mut problem = self.problem(&goal.working)?;
-        let folder = self.folder()?;
-        let checkpoint =
-            CheckpointSettings { resume: self.resume, ..CheckpointSettings::new(folder.checkpoint()) };
-
-        let stop = Arc::new(AtomicBool::new(false));
-        let raised = Arc::clone(&stop);
-        ctrlc::set_handler(move || {
-            // A second signal means now; the checkpoint on disk is at most a second old.
-            if raised.swap(true, Ordering::SeqCst) {
-                std::process::exit(1);
-            }
-        })
-        .context("cannot catch signals")?;
-
+        let checkpoint = CheckpointSettings { resume, ..CheckpointSettings::new(folder.checkpoint()) };
         let started = Instant::now();
         let clock = || started.elapsed();
         let looks_like = self.search.from.begin(&mut problem, &mut settings)?;
         let mut bar = Bar::new(&settings);
-        let control = Control {
-            observers: vec![&mut bar],
-            checkpoint: Some(checkpoint),
-            ..Control::new(&clock, &stop)
-        };
+        let control =
+            Control { observers: vec![&mut bar], checkpoint: Some(checkpoint), ..Control::new(&clock, stop) };
         let outcome = pleach_fit::fit(&problem, &settings, control)?;
         bar.finish();
 
@@ -197,7 +230,7 @@ impl Fit {
             ..Growth::seed(best.genome.tree_seed)
         };
         let tree = species.grow_with(&growth)?;
-        let summary = folder.write(&folder::Results {
+        folder.write(&folder::Results {
             settings: &settings,
             outcome: &outcome,
             best,
@@ -210,24 +243,10 @@ impl Fit {
             foliage: problem.foliage,
             from: self.search.from.to_string(),
             looks_like,
-        })?;
-        if self.json {
-            output::json(&summary)?;
-        } else {
-            output::line(folder::report(&summary, &folder, outcome.stop))?;
-        }
-        if outcome.stop == StopReason::Interrupted {
-            bail!(
-                "interrupted; `pleach fit {} --out {} --resume` with the same options goes on",
-                self.goal.display(),
-                folder.path().display()
-            );
-        }
-        folder.remove_checkpoint();
-        Ok(())
+        })
     }
 
-    fn goal(&self) -> anyhow::Result<Goals> {
+    fn goal(&self, path: &Path) -> anyhow::Result<Goals> {
         let args = &self.goal_options;
         let options = GoalOptions {
             mask: args.mask.clone(),
@@ -240,12 +259,12 @@ impl Fit {
             axis_column: args.axis_column,
             max_side: None,
         };
-        let full = Goal::load(&self.goal, &options)?;
+        let full = Goal::load(path, &options)?;
         if self.verbose {
             output::note(describe(&full));
         }
-        let working = Goal::load(&self.goal, &GoalOptions { max_side: Some(args.size), ..options })?;
-        let name = self.goal.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let working = Goal::load(path, &GoalOptions { max_side: Some(args.size), ..options })?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Goals { working, full, name })
     }
 
@@ -290,12 +309,27 @@ impl Fit {
         })))
     }
 
-    fn folder(&self) -> anyhow::Result<RunFolder> {
-        let path = self.out.clone().unwrap_or_else(|| {
-            std::path::Path::new("runs").join(self.goal.file_stem().unwrap_or_else(|| "goal".as_ref()))
-        });
+    fn folder(&self, goal: &Path) -> anyhow::Result<RunFolder> {
+        let path = self
+            .out
+            .clone()
+            .unwrap_or_else(|| Path::new(RUNS).join(goal.file_stem().unwrap_or_else(|| "goal".as_ref())));
         RunFolder::open(path, self.resume, self.overwrite)
     }
+}
+
+/// A flag that ctrl-C and a request to end raise.
+fn catch_signals() -> anyhow::Result<Arc<AtomicBool>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let raised = Arc::clone(&stop);
+    ctrlc::set_handler(move || {
+        // A second signal means now; the checkpoint on disk is at most a second old.
+        if raised.swap(true, Ordering::SeqCst) {
+            std::process::exit(1);
+        }
+    })
+    .context("cannot catch signals")?;
+    Ok(stop)
 }
 
 /// What was found in a goal.

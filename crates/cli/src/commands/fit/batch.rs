@@ -1,0 +1,287 @@
+//! Many goals, one after the other: a run folder each, and one summary of all.
+
+use super::folder::{self, RunFolder, Summary};
+use super::{Fit, RUNS, catch_signals};
+use crate::{files, output};
+use anyhow::{Context, bail, ensure};
+use pleach_fit::FitSettings;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A part of the goals: the `index`-th of `count`, from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Shard {
+    index: usize,
+    count: usize,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        text.split_once('/')
+            .and_then(|(index, count)| Some(Self { index: index.parse().ok()?, count: count.parse().ok()? }))
+            .filter(|shard| (1..=shard.count).contains(&shard.index))
+            .ok_or_else(|| "expected I/N with I from 1 to N, such as 2/8".to_owned())
+    }
+}
+
+impl Shard {
+    const WHOLE: Self = Self { index: 1, count: 1 };
+
+    /// Goals I, I + N, I + 2N …: neighbours are often alike in effort, so shards share them evenly.
+    fn part<T>(self, of: Vec<T>) -> Vec<T> {
+        of.into_iter().skip(self.index - 1).step_by(self.count).collect()
+    }
+}
+
+/// A goal and what came of it.
+struct Job<'a> {
+    goal: &'a Path,
+    folder: RunFolder,
+    state: State,
+}
+
+enum State {
+    Waiting,
+    Failed,
+    /// With its `summary.json`.
+    Finished(Value),
+}
+
+/// Fits all goals of the shard.
+pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
+    ensure!(fit.goal_options.mask.is_none(), "--mask belongs to one goal, and here are {}", fit.goals.len());
+    // A name that is wrong for all goals is told once.
+    fit.search.from.species()?;
+    let out = fit.out.clone().unwrap_or_else(|| RUNS.into());
+    let shard = fit.shard.unwrap_or(Shard::WHOLE);
+    let table = match fit.shard {
+        None => out.join("summary.csv"),
+        Some(Shard { index, count }) => out.join(format!("summary-{index}-of-{count}.csv")),
+    };
+    let mut jobs = shard.part(jobs(&fit.goals, &out)?);
+    for job in &mut jobs {
+        if fit.resume {
+            job.state = job.folder.finished().map_or(State::Waiting, State::Finished);
+        } else if job.folder.is_unfinished() && !fit.overwrite {
+            bail!(
+                "{} holds an unfinished fit; --resume goes on with it and skips finished ones, \
+                 --overwrite starts all anew",
+                job.folder.path().display()
+            );
+        }
+    }
+    files::make_folder(&out)?;
+    // Before an hour of work, not after it, one learns that a file cannot be written.
+    write(&table, &jobs)?;
+
+    let stop = catch_signals()?;
+    let all = jobs.len();
+    for i in 0..all {
+        let name = format!("[{}/{all}] {}", i + 1, jobs[i].goal.display());
+        let (line, state) = match &jobs[i].state {
+            State::Finished(summary) => (format!("finished before, {}", brief(summary)), None),
+            _ => match one(fit, settings, &jobs[i], &stop) {
+                Err(error) => (format!("failed: {error:#}"), Some(State::Failed)),
+                Ok(None) => {
+                    output::note(format!("{name}: interrupted"));
+                    bail!("interrupted, {i} of {all} goals are done; the same command with --resume goes on");
+                }
+                Ok(Some(summary)) => (brief(&summary), Some(State::Finished(summary))),
+            },
+        };
+        output::note(format!("{name}: {line}"));
+        if let Some(state) = state {
+            jobs[i].state = state;
+            write(&table, &jobs)?;
+        }
+        if let (true, State::Finished(summary)) = (fit.json, &jobs[i].state) {
+            output::json(&with_goal(jobs[i].goal, summary))?;
+        }
+    }
+
+    if !fit.json {
+        output::line(format!("summary  {}", table.display()))?;
+    }
+    let failed: Vec<String> = jobs
+        .iter()
+        .filter(|job| matches!(job.state, State::Failed))
+        .map(|job| job.goal.display().to_string())
+        .collect();
+    ensure!(failed.is_empty(), "{} of {all} goals failed: {}", failed.len(), failed.join(", "));
+    Ok(())
+}
+
+/// A job a goal; an error if two would share a folder.
+fn jobs<'a>(goals: &'a [PathBuf], out: &Path) -> anyhow::Result<Vec<Job<'a>>> {
+    let mut seen = BTreeMap::new();
+    let mut jobs = Vec::new();
+    for goal in goals {
+        let stem = goal
+            .file_stem()
+            .with_context(|| format!("{} has no file name to call its run folder by", goal.display()))?;
+        if let Some(other) = seen.insert(stem, goal) {
+            bail!(
+                "{} and {} would both be fitted into {}: rename one, or fit them in two batches",
+                other.display(),
+                goal.display(),
+                out.join(stem).display()
+            );
+        }
+        jobs.push(Job { goal, folder: RunFolder::at(out.join(stem)), state: State::Waiting });
+    }
+    Ok(jobs)
+}
+
+/// Fits one goal; its summary, or none if it was interrupted.
+fn one(
+    fit: &Fit,
+    settings: &FitSettings,
+    job: &Job<'_>,
+    stop: &Arc<AtomicBool>,
+) -> anyhow::Result<Option<Value>> {
+    if stop.load(Ordering::SeqCst) {
+        return Ok(None);
+    }
+    let goals = fit.goal(job.goal)?;
+    // What was waiting when a batch stopped has no checkpoint, and starts.
+    let resume = fit.resume && job.folder.is_unfinished();
+    let folder = RunFolder::open(job.folder.path().to_owned(), resume, fit.overwrite)?;
+    if !resume {
+        folder.forget()?;
+    }
+    let summary: Summary = match fit.fit(&goals, &folder, settings, stop, resume) {
+        // Asked to stop before there was a tree: no fault of the goal.
+        Err(_) if stop.load(Ordering::SeqCst) => return Ok(None),
+        result => result?,
+    };
+    if summary.interrupted() {
+        return Ok(None);
+    }
+    folder.remove_checkpoint();
+    Ok(Some(serde_json::to_value(summary)?))
+}
+
+/// What is said of a finished goal.
+fn brief(summary: &Value) -> String {
+    let number = |key: &str| summary[key].as_f64().unwrap_or(f64::NAN);
+    let looks = summary["looks_like"][0]["species"].as_str();
+    format!(
+        "likeness {:.3}, IoU {:.3}{}; {} trees in {:.1} s",
+        number("likeness"),
+        number("iou"),
+        looks.map_or_else(String::new, |species| format!(", looks like {species}")),
+        summary["evaluations"],
+        number("seconds"),
+    )
+}
+
+fn with_goal(goal: &Path, summary: &Value) -> Value {
+    let mut value = summary.clone();
+    value["goal"] = goal.display().to_string().into();
+    value
+}
+
+/// Columns of the summary and where in `summary.json` they come from; after them come the two that
+/// depend on the clock.
+const COLUMNS: [(&str, &str); 26] = [
+    ("likeness", "/likeness"),
+    ("iou", "/iou"),
+    ("best_ellipse_iou", "/best_ellipse_iou"),
+    ("pixel_accuracy", "/pixel_accuracy"),
+    ("empty_accuracy", "/empty_accuracy"),
+    ("dice", "/dice"),
+    ("boundary_f", "/boundary_f"),
+    ("blurred_iou_16", "/blurred_iou/16"),
+    ("chamfer", "/chamfer"),
+    ("fresh_likeness_mean", "/fresh_seeds/likeness/mean"),
+    ("fresh_likeness_sd", "/fresh_seeds/likeness/sd"),
+    ("fresh_iou_mean", "/fresh_seeds/iou/mean"),
+    ("fresh_iou_sd", "/fresh_seeds/iou/sd"),
+    ("from", "/from"),
+    ("first_guess", "/looks_like/0/species"),
+    ("first_guess_confidence", "/looks_like/0/confidence"),
+    ("species", "/species"),
+    ("generator", "/generator"),
+    ("tree_seed", "/tree_seed"),
+    ("robust", "/robust"),
+    ("optimizer", "/optimizer"),
+    ("objective", "/objective"),
+    ("seed", "/seed"),
+    ("cost", "/cost"),
+    ("evaluations", "/evaluations"),
+    ("stopped_by", "/stopped_by"),
+];
+const WALL_COLUMNS: [(&str, &str); 2] =
+    [("wall_s", "/seconds"), ("wall_evaluations_per_s", "/evaluations_per_second")];
+
+/// Writes a row a goal that is done, in the order of the goals.
+fn write(path: &Path, jobs: &[Job<'_>]) -> anyhow::Result<()> {
+    let columns = || COLUMNS.iter().chain(&WALL_COLUMNS);
+    let header = ["goal", "state"].into_iter().chain(columns().map(|c| c.0)).map(str::to_owned).collect();
+    let rows = jobs.iter().filter_map(|job| {
+        let (state, summary) = match &job.state {
+            State::Waiting => return None,
+            State::Failed => ("failed", &Value::Null),
+            State::Finished(summary) => ("finished", summary),
+        };
+        let cells = columns().map(|(_, at)| cell(summary.pointer(at)));
+        Some([job.goal.display().to_string(), state.to_owned()].into_iter().chain(cells).collect())
+    });
+    folder::write_table(path, std::iter::once(header).chain(rows))
+}
+
+/// A value as a cell; nothing where there is none. A number that was read back from a file may differ
+/// in its last bit, which six decimals do not show.
+fn cell(value: Option<&Value>) -> String {
+    match value {
+        None | Some(Value::Null) => String::new(),
+        Some(Value::String(text)) => text.clone(),
+        Some(Value::Number(number)) if number.is_f64() => {
+            format!("{:.6}", number.as_f64().unwrap_or(f64::NAN))
+        }
+        Some(other) => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_share_the_goals_without_loss_or_overlap() {
+        let mut all = Vec::new();
+        for index in 1..=3 {
+            let shard: Shard = format!("{index}/3").parse().unwrap();
+            all.extend(shard.part((0..8).collect::<Vec<_>>()));
+        }
+        assert_eq!(all, [0, 3, 6, 1, 4, 7, 2, 5]);
+        assert_eq!(Shard { index: 5, count: 9 }.part(vec![1, 2]), [0; 0]);
+        for wrong in ["", "1", "0/3", "4/3", "1/0", "a/b", "1/2/3", "-1/2", "1/99999999999999999999999"] {
+            assert!(wrong.parse::<Shard>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn two_goals_do_not_share_a_folder() {
+        let goals = ["a/oak.png", "b/ash.png", "c/oak.jpg"].map(PathBuf::from);
+        let Err(error) = jobs(&goals, Path::new("out")) else { panic!("c/oak.jpg is not refused") };
+        let error = error.to_string();
+        assert!(error.contains("a/oak.png") && error.contains("c/oak.jpg") && error.contains("oak"));
+        assert_eq!(jobs(&goals[..2], Path::new("out")).map(|jobs| jobs.len()).unwrap(), 2);
+        assert!(jobs(&["..".into()], Path::new("out")).is_err());
+    }
+
+    #[test]
+    fn cells_are_plain() {
+        assert_eq!(cell(Some(&0.25.into())), "0.250000");
+        assert_eq!(cell(Some(&3.into())), "3");
+        assert_eq!(cell(Some(&"oak".into())), "oak");
+        assert_eq!(cell(Some(&Value::Null)) + &cell(None), "");
+    }
+}
