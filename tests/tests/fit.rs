@@ -154,6 +154,35 @@ fn a_robust_fit_says_so() {
     dir.run(small(&goal, "x", &["--robust", "65"])).fails(2, &["from 1 to 64"]);
 }
 
+/// Two pictures of one tree are fitted, a third one is only scored.
+#[test]
+fn several_views_are_fitted_and_others_held_out() {
+    let dir = Dir::new();
+    for (view, file) in [("0", "front.png"), ("90", "side.png"), ("45", "corner.png")] {
+        let args = ["silhouette", "hill_cherry", "--seed", "4", "--size", "96", "--view", view, "-o", file];
+        let _ = dir.run(args).ok();
+    }
+    let args = ["fit", "front.png", "--from", "hill_cherry", "--evaluations", "60", "--json"];
+    let run = |more: &[&str]| dir.run([&args[..], more].concat());
+    let both = run(&["--out", "both", "--view", "90=side.png", "--holdout-view", "45=corner.png"]).json();
+    assert_eq!((&both["views"][0]["file"], &both["views"][0]["azimuth"]), (&"side.png".into(), &90.0.into()));
+    assert_eq!(both["holdout_views"][0]["file"], "corner.png");
+    assert!(both["holdout_views"][0]["iou"].as_f64().unwrap() > 0.0);
+    let front = run(&["--out", "front"]).json();
+    assert!(front["views"].as_array().unwrap().is_empty());
+    assert_ne!(front["cost"], both["cost"], "the second picture counts");
+    // The direction of the goal itself is a view without a file.
+    let turned = run(&["--out", "turned", "--view", "180"]).json();
+    assert_ne!(front["cost"], turned["cost"]);
+
+    run(&["--view", "90", "--view", "45"]).fails(1, &["one direction", "--view AZ=FILE"]);
+    run(&["--view", "90=none.png"]).fails(1, &["none.png"]);
+    run(&["--holdout-view", "90=none.png"]).fails(1, &["none.png"]);
+    run(&["--holdout-view", "90"]).fails(2, &["90=side.png"]);
+    run(&["--view", "up=side.png"]).fails(2, &["azimuth"]);
+    run(&["side.png", "--view", "90=side.png"]).fails(1, &["2 goals"]);
+}
+
 #[test]
 fn fixed_parameters_keep_their_values() {
     let dir = Dir::new();

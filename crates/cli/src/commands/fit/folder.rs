@@ -2,6 +2,7 @@
 
 use super::aftermath::Aftermath;
 use super::start::LooksLike;
+use super::views::ViewScore;
 use crate::{files, output};
 use anyhow::{Context, bail};
 use pleach_fit::{COLUMNS, FitProblem, FitSettings, FreshSeeds, Outcome, Scored, StopReason};
@@ -31,6 +32,8 @@ pub(super) struct Results<'a> {
     pub(super) tree: &'a Tree,
     pub(super) goal: &'a Goal,
     pub(super) view: &'a View,
+    pub(super) views: Vec<ViewScore>,
+    pub(super) holdout_views: Vec<ViewScore>,
     pub(super) height: f64,
     pub(super) foliage: bool,
     pub(super) from: String,
@@ -61,6 +64,10 @@ pub(super) struct Summary {
     seed: u64,
     from: String,
     looks_like: Vec<LooksLike>,
+    /// Further pictures that were fitted; the scores above are of the goal itself.
+    views: Vec<ViewScore>,
+    /// Pictures that were not.
+    holdout_views: Vec<ViewScore>,
     free: Vec<String>,
     fix: Vec<String>,
     height_m: f64,
@@ -151,8 +158,8 @@ impl RunFolder {
     }
 
     /// Writes everything but the checkpoint.
-    pub(super) fn write(&self, results: &Results<'_>) -> anyhow::Result<Summary> {
-        let Results { settings, outcome, best, species, goal, .. } = *results;
+    pub(super) fn write(&self, results: Results<'_>) -> anyhow::Result<Summary> {
+        let Results { settings, outcome, best, species, goal, .. } = results;
         let frame = goal.frame(results.height);
         let mut bitmap = Bitmap::default();
         Rasteriser::new().draw(results.tree, results.view, &frame, results.foliage, &mut bitmap);
@@ -206,8 +213,10 @@ impl RunFolder {
             stopped_by: outcome.stop,
             finished: outcome.stop != StopReason::Interrupted,
             seed: settings.seed,
-            from: results.from.clone(),
-            looks_like: results.looks_like.clone(),
+            from: results.from,
+            looks_like: results.looks_like,
+            views: results.views,
+            holdout_views: results.holdout_views,
             free: settings.freedom.free.clone(),
             fix: settings.freedom.fix.clone(),
             height_m: results.height,
@@ -246,6 +255,8 @@ pub(super) fn species(problem: &FitProblem, best: &Scored, name: &str) -> anyhow
 /// The score card that ends a fit.
 pub(super) fn report(summary: &Summary, folder: &RunFolder) -> String {
     let mut judged = String::new();
+    judged.extend(summary.views.iter().map(|view| view.line("view")));
+    judged.extend(summary.holdout_views.iter().map(|view| view.line("held out")));
     if let Some(fresh) = &summary.fresh_seeds {
         judged += &format!(
             "{} other seeds: likeness {:.3} ± {:.3}, IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels\n",

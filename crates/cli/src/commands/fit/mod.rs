@@ -6,6 +6,7 @@ mod folder;
 mod options;
 mod progress;
 mod start;
+mod views;
 
 pub(crate) use start::candidates;
 
@@ -17,7 +18,6 @@ use options::Settings;
 use pleach_fit::{
     Budget, CheckpointSettings, Control, FitProblem, FitSettings, GoalView, Objective, StopReason,
 };
-use pleach_silhouette::View;
 use pleach_silhouette::goal::{Goal, GoalOptions, Origin, Polarity, Split};
 use pleach_tree::{Foliage, Growth};
 use progress::Bar;
@@ -36,6 +36,7 @@ const EXAMPLES: &str = "Examples:
   pleach fit goal.png --from random --optimizer hewitt --evaluations 20000 --seed 3
   pleach fit goal.png --robust 4                      parameters of which every seed looks like the goal
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
+  pleach fit front.png --view 90=side.png --holdout-view 45=corner.png
   pleach fit goal.png --out DIR --resume              go on after ctrl-C or a crash
   pleach fit goals/*.png --out runs --timeout 2m      one after the other: runs/STEM, runs/summary.csv
   pleach fit goals/*.png --out runs --shard 2/8       every eighth goal from the second on, for array jobs
@@ -101,9 +102,13 @@ struct GoalArgs {
     /// Column of the trunk's foot, in pixels of the goal from its left; detected by default
     #[arg(long, value_name = "PIXELS")]
     axis_column: Option<f64>,
-    /// Direction of view in degrees: azimuth, and elevation where it is not 0
-    #[arg(long, value_name = "AZ[,EL]", default_value = "0", allow_hyphen_values = true, value_parser = input::view)]
-    view: View,
+    /// Direction of the goal's view in degrees: azimuth, and elevation where it is not 0; with a file,
+    /// a further picture of the same tree, fitted as well; repeatable
+    #[arg(long, value_name = "AZ[,EL][=FILE]", allow_hyphen_values = true)]
+    view: Vec<views::Direction>,
+    /// A further picture of the same tree that is not fitted but scored; repeatable
+    #[arg(long, value_name = "AZ[,EL]=FILE", allow_hyphen_values = true)]
+    holdout_view: Vec<views::Picture>,
     /// The goal is a bare tree: grow no leaves
     #[arg(long)]
     no_leaves: bool,
@@ -166,6 +171,10 @@ impl Fit {
         let Settings::Fit(settings) = settings else {
             return output::line(options::describe(&self.search.optimizer)?);
         };
+        let (_, further) = views::sort(&self.goal_options.view)?;
+        if self.goals.len() > 1 && !(further.is_empty() && self.goal_options.holdout_view.is_empty()) {
+            bail!("further views are of one tree, and there are {} goals", self.goals.len());
+        }
         match &self.goals[..] {
             [goal] if self.shard.is_none() => self.single(goal, &settings),
             _ => batch::run(self, &settings),
@@ -230,7 +239,10 @@ impl Fit {
             ..Growth::seed(best.genome.tree_seed)
         };
         let tree = species.grow_with(&growth)?;
-        folder.write(&folder::Results {
+        let args = &self.goal_options;
+        let (view, further) = views::sort(&args.view)?;
+        let score = |picture: &views::Picture| picture.score(&tree, problem.foliage, args.height);
+        folder.write(folder::Results {
             settings: &settings,
             outcome: &outcome,
             best,
@@ -238,8 +250,10 @@ impl Fit {
             species: &species,
             tree: &tree,
             goal: &goal.full,
-            view: &self.goal_options.view,
-            height: self.goal_options.height,
+            view: &view,
+            views: further.iter().map(score).collect::<anyhow::Result<_>>()?,
+            holdout_views: args.holdout_view.iter().map(score).collect::<anyhow::Result<_>>()?,
+            height: args.height,
             foliage: problem.foliage,
             from: self.search.from.to_string(),
             looks_like,
@@ -270,14 +284,20 @@ impl Fit {
 
     fn problem(&self, goal: &Goal) -> anyhow::Result<FitProblem> {
         let start = self.search.from.species()?;
+        let GoalArgs { height, size, .. } = self.goal_options;
+        let (view, further) = views::sort(&self.goal_options.view)?;
+        let mut goals = vec![GoalView { goal: goal.bitmap.clone(), view, frame: goal.frame(height) }];
+        for picture in further {
+            goals.push(picture.goal_view(height, size)?);
+        }
+        // A picture that cannot be read is told before the search and not after it.
+        for picture in &self.goal_options.holdout_view {
+            picture.goal_view(height, size)?;
+        }
         Ok(FitProblem {
             generator: start.generator,
             base: start.params.values().to_vec(),
-            goals: vec![GoalView {
-                goal: goal.bitmap.clone(),
-                view: self.goal_options.view,
-                frame: goal.frame(self.goal_options.height),
-            }],
+            goals,
             foliage: !self.goal_options.no_leaves,
         })
     }
