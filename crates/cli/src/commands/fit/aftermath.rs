@@ -1,11 +1,14 @@
 //! What is asked of a result once the search has ended: how it does with other seeds, and what of it
 //! the goal determines.
 
+use crate::output;
+use indicatif::ProgressBar;
 use pleach_fit::{
     FitError, FitProblem, FitSettings, FreshSeeds, Profile, Scored, Seen, Start, fresh_seeds, profile,
     put_back_unseen,
 };
 use pleach_tree::{Limits, ParamSpace};
+use std::time::Duration;
 
 /// Trees of other seeds that a result is judged by.
 const FRESH: usize = 16;
@@ -24,16 +27,22 @@ pub(super) struct Aftermath {
 
 impl Aftermath {
     pub(super) fn of(problem: &FitProblem, settings: &FitSettings, best: &Scored) -> Result<Self, FitError> {
+        let bar = if output::is_watched() { ProgressBar::new_spinner() } else { ProgressBar::hidden() };
+        bar.enable_steady_tick(Duration::from_millis(100));
+        bar.set_message("judging the result: other seeds, and every parameter");
         // A search gives up trees that `grow` does not.
         let judge = |genome| fresh_seeds(problem, settings.objective, Limits::default(), genome, FRESH);
         // Without other seeds there is no spread to compare with; then a hundredth is seen.
-        let tolerance = judge(&best.genome)?.map_or(0.01, |fresh| fresh.cost.sd);
+        let fresh = judge(&best.genome)?;
+        let tolerance = fresh.as_ref().map_or(0.01, |fresh| fresh.cost.sd);
         let profiles = profile(problem, settings, best, tolerance)?;
         let (best, put_back) = match &settings.start {
             Start::Random => (best.clone(), Vec::new()),
             Start::Lists(lists) => put_back_unseen(problem, settings, best, &profiles, &lists[0], tolerance)?,
         };
-        Ok(Self { fresh: judge(&best.genome)?, best, profiles, put_back })
+        let fresh = if put_back.is_empty() { fresh } else { judge(&best.genome)? };
+        bar.finish_and_clear();
+        Ok(Self { fresh, best, profiles, put_back })
     }
 
     /// A comment of the species file: what the goal does not show.
