@@ -48,9 +48,9 @@ pub(crate) struct MaskCommand {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Behind {
-    /// Sky and ground if colours step at the sides, else plain
+    /// Sky and ground if colours step clearly at the sides, else plain
     Auto,
-    /// A sky, and perhaps a ground below it
+    /// A sky, probably with a ground below it: a faint step at the sides is enough
     Sky,
     /// One smooth background all around
     Plain,

@@ -23,7 +23,7 @@ const LEAST_SPREAD: f64 = 0.02;
 /// Rounds of reweighting, after which the surface does not move any more.
 const ROUNDS: usize = 20;
 /// Samples with residuals beyond this many medians are no background.
-const OUTLYING: f64 = 4.0;
+const OUTLYING: f64 = 5.0;
 /// How much a term is damped: so little that it matters only where samples do not determine it.
 const FREE: f64 = 1e-4;
 /// So much that the term is zero.
@@ -55,8 +55,8 @@ impl Backdrop {
             }
             surface = least_squares(samples, &weights, HELD)?;
         }
-        // Once by the plane, then by surfaces that know better what is close.
-        for _ in 0..3 {
+        // Once by the plane, then by a surface that knows better what is close.
+        for _ in 0..2 {
             let mut sizes: Vec<f64> = samples.iter().map(|s| norm(residual(&surface, s))).collect();
             let far = OUTLYING * median(&mut sizes).max(LEAST_SPREAD / 2.0);
             for (weight, sample) in weights.iter_mut().zip(samples) {

@@ -2,10 +2,22 @@
 
 use super::oklab::Oklab;
 
-/// Least step of colour between sky and ground, in Oklab: well above what light does to a wall.
-const LEAST_STEP: f64 = 0.08;
-/// Least ratio of the step to how much colours vary on either side of it.
-const LEAST_CLEARNESS: f64 = 4.0;
+/// How clear a horizon must be to be one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clear {
+    /// Least step of colour between sky and ground, in Oklab.
+    step: f64,
+    /// Least ratio of the step to how much colours vary on either side of it.
+    ratio: f64,
+}
+
+impl Clear {
+    /// Well above what light does to a wall.
+    pub(super) const SURELY: Self = Self { step: 0.08, ratio: 4.0 };
+    /// Where a ground is likely: water and mist differ little from the sky.
+    pub(super) const PERHAPS: Self = Self { step: 0.04, ratio: 2.0 };
+}
+
 /// Horizons lie below this part of the picture's height.
 const HIGHEST: f64 = 0.35;
 /// Sides that disagree by more than this part of the height do not see the same horizon.
@@ -24,15 +36,18 @@ impl Horizon {
     /// The line through both sides' horizons. Where they disagree, or one sees none, the lower of the
     /// rows at which both sides change stands for both: a crown that touches a side also ends the sky
     /// there, but only there.
-    pub(super) fn of(left: &[Oklab], right: &[Oklab]) -> Option<Self> {
+    pub(super) fn of(left: &[Oklab], right: &[Oklab], clear: Clear) -> Option<Self> {
         let height = left.len().min(right.len()) as f64;
-        let found = [step(left), step(right)];
+        let found = [step(left, clear), step(right, clear)];
         if let [Some(left), Some(right)] = found
             && (left - right).abs() <= MOST_SLOPE * height
         {
             return Some(Self { left, right });
         }
-        let shared = found.into_iter().flatten().filter(|&row| changes(left, row) && changes(right, row));
+        let shared = found
+            .into_iter()
+            .flatten()
+            .filter(|&row| changes(left, row, clear) && changes(right, row, clear));
         shared.max_by(f64::total_cmp).map(|row| Self { left: row, right: row })
     }
 
@@ -81,7 +96,7 @@ impl Sums {
 
 /// The row before which two straight courses of colour, one above and one below, leave the least
 /// of the squares; none if there is no clear step of colour there.
-fn step(rows: &[Oklab]) -> Option<f64> {
+fn step(rows: &[Oklab], clear: Clear) -> Option<f64> {
     let mut below = vec![Sums::default(); rows.len() + 1];
     for (y, &colour) in rows.iter().enumerate().rev() {
         below[y] = below[y + 1];
@@ -103,18 +118,18 @@ fn step(rows: &[Oklab]) -> Option<f64> {
     }
     let (squares, row, step) = best?;
     let noise = (squares / rows.len() as f64).sqrt();
-    (step >= LEAST_STEP && step >= LEAST_CLEARNESS * noise).then_some(row as f64)
+    (step >= clear.step && step >= clear.ratio * noise).then_some(row as f64)
 }
 
 /// Whether the colours just above a row differ from those just below.
-fn changes(rows: &[Oklab], row: f64) -> bool {
+fn changes(rows: &[Oklab], row: f64, clear: Clear) -> bool {
     let (row, reach) = (row as usize, (rows.len() / 20).max(2));
     let mean = |rows: &[Oklab]| -> [f64; 3] {
         std::array::from_fn(|i| rows.iter().map(|c| f64::from(c[i])).sum::<f64>() / rows.len().max(1) as f64)
     };
     let above = mean(&rows[row.saturating_sub(reach)..row.min(rows.len())]);
     let below = mean(&rows[row.min(rows.len())..(row + reach).min(rows.len())]);
-    above.iter().zip(below).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() >= LEAST_STEP
+    above.iter().zip(below).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() >= clear.step
 }
 
 #[cfg(test)]
@@ -135,10 +150,10 @@ mod tests {
     #[test]
     fn the_row_where_lawn_begins_is_found_and_none_is_made_up() {
         for lawn in [80, 150, 190] {
-            assert_eq!(step(&side(lawn)), Some(lawn as f64));
+            assert_eq!(step(&side(lawn), Clear::SURELY), Some(lawn as f64));
         }
-        assert_eq!(step(&side(200)), None);
-        assert_eq!(step(&[]), None);
+        assert_eq!(step(&side(200), Clear::SURELY), None);
+        assert_eq!(step(&[], Clear::SURELY), None);
     }
 
     #[test]
@@ -147,15 +162,15 @@ mod tests {
         for colour in &mut left[75..120] {
             *colour = [0.2, 0.0, 0.05];
         }
-        let horizon = Horizon::of(&left, &side(160)).unwrap();
+        let horizon = Horizon::of(&left, &side(160), Clear::SURELY).unwrap();
         assert!((horizon.at(50, 100) - 160.0).abs() < 1.0, "{horizon:?}");
         // Without a lawn there is none.
         let mut left = side(200);
         for colour in &mut left[75..120] {
             *colour = [0.2, 0.0, 0.05];
         }
-        assert_eq!(Horizon::of(&left, &side(200)), None);
-        let slope = Horizon::of(&side(140), &side(160)).unwrap();
+        assert_eq!(Horizon::of(&left, &side(200), Clear::PERHAPS), None);
+        let slope = Horizon::of(&side(140), &side(160), Clear::SURELY).unwrap();
         assert_eq!((slope.at(0, 100).round(), slope.at(99, 100).round()), (140.0, 160.0));
     }
 }

@@ -34,10 +34,10 @@ use crate::picture::{MISSED, Picture};
 /// What is behind the tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Background {
-    /// As [`Background::Sky`] if colours step at the sides, else as [`Background::Plain`].
+    /// A sky with a ground below it if colours step clearly at the sides, else one background.
     #[default]
     Auto,
-    /// A sky, and perhaps a ground below it.
+    /// A sky, probably with a ground below it: a faint step at the sides is a horizon, too.
     Sky,
     /// One smooth background all around, as a wall or a cloth.
     Plain,

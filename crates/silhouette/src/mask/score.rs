@@ -1,7 +1,7 @@
 //! How far each pixel is from the background, and how far is tree.
 
 use super::backdrop::{Backdrop, Sample};
-use super::horizon::Horizon;
+use super::horizon::{Clear, Horizon};
 use super::oklab::{Converter, Oklab};
 use super::photo::Photo;
 use super::{Background, MaskError};
@@ -37,11 +37,14 @@ pub(super) struct Standing {
 pub(super) fn standing(photo: &Photo, background: Background) -> Result<Standing, MaskError> {
     let (width, height) = (photo.width(), photo.height());
     let frame = Frame::of(photo);
-    let horizon = match background {
+    let clear = match background {
         Background::Plain => None,
-        Background::Sky | Background::Auto => Horizon::of(&frame.side(0), &frame.side(width - frame.width)),
+        Background::Sky => Some(Clear::PERHAPS),
+        Background::Auto => Some(Clear::SURELY),
     };
-    let (above, below) = frame.samples(background, horizon);
+    let horizon =
+        clear.and_then(|clear| Horizon::of(&frame.side(0), &frame.side(width - frame.width), clear));
+    let (above, below) = frame.samples(horizon);
     let untold = MaskError::NoTree { why: "the frame has too few pixels to tell the background by" };
     let above = Backdrop::fit(&above).ok_or(untold)?;
     let below = Backdrop::fit(&below);
@@ -132,9 +135,8 @@ impl<'a> Frame<'a> {
         (0..self.photo.height()).map(row).collect()
     }
 
-    /// Samples of the background above and below the horizon. Without one, the bottom edge counts
-    /// with a plain background only: below a sky there is something else.
-    fn samples(&self, background: Background, horizon: Option<Horizon>) -> (Vec<Sample>, Vec<Sample>) {
+    /// Samples of the background above and below the horizon; all are above if there is none.
+    fn samples(&self, horizon: Option<Horizon>) -> (Vec<Sample>, Vec<Sample>) {
         let (w, h, f) = (self.photo.width(), self.photo.height(), self.width);
         let gap = 2.0 * (HAZE * f64::from(h)).max(1.0);
         let stride = (2 * (w as usize + h as usize) * f as usize).div_ceil(MOST_SAMPLES).max(1);
@@ -142,9 +144,7 @@ impl<'a> Frame<'a> {
         let mut count = 0_usize;
         for y in 0..h {
             for x in 0..w {
-                let (top, bottom) = (y < f, y >= h - f);
-                let side = x < f || x >= w - f;
-                if !(top || side || bottom) {
+                if x >= f && x < w - f && y >= f && y < h - f {
                     continue;
                 }
                 count += 1;
@@ -161,8 +161,7 @@ impl<'a> Frame<'a> {
                             above.push(sample);
                         }
                     }
-                    None if top || side || background != Background::Sky => above.push(sample),
-                    None => {}
+                    None => above.push(sample),
                 }
             }
         }
