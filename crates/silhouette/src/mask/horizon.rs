@@ -170,6 +170,7 @@ mod tests {
             *colour = [0.2, 0.0, 0.05];
         }
         assert_eq!(Horizon::of(&left, &side(200), Clear::PERHAPS), None);
+        assert_eq!(Horizon::of(&side(200), &left, Clear::PERHAPS), None);
         let slope = Horizon::of(&side(140), &side(160), Clear::SURELY).unwrap();
         assert_eq!((slope.at(0, 100).round(), slope.at(99, 100).round()), (140.0, 160.0));
     }

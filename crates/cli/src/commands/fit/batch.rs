@@ -60,8 +60,6 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
         !matches!(fit.goal_options.mask, Some(MaskSource::File(_))),
         "a --mask file belongs to one goal; --mask auto makes one for each"
     );
-    // A name that is wrong for all goals is told once.
-    fit.search.from.species()?;
     let out = fit.out.clone().unwrap_or_else(|| RUNS.into());
     let shard = fit.shard.unwrap_or(Shard::WHOLE);
     let table = match fit.shard {

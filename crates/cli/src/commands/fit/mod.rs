@@ -169,6 +169,8 @@ impl Fit {
         let Settings::Fit(settings) = settings else {
             return output::line(options::describe(&self.search.optimizer)?);
         };
+        // Before a folder is made.
+        self.search.from.species()?;
         match &self.goals[..] {
             [goal] if self.shard.is_none() => self.single(goal, &settings),
             _ => batch::run(self, &settings),
