@@ -15,8 +15,8 @@ const EXAMPLES: &str = "Examples:
   pleach mask oak.jpg -o oak.png && pleach fit oak.png
   pleach fit oak.jpg --mask auto                      the same in one go
 
-The tree is what differs from the background, and that is what the picture's edges show: a sky, with or
-without a ground below it, or a wall. Houses, hills and other trees behind the tree are taken for tree.
+The tree is what differs from the background, and that is what the picture's edges show: a sky, with
+or without a ground below it, or a wall. Houses, hills, shadows and other trees are taken for tree.
 A picture with an alpha channel is its own mask.";
 
 /// Make a silhouette from a photograph

@@ -39,14 +39,15 @@ const EXAMPLES: &str = "Examples:
   pleach fit goal.png --robust 4                      parameters of which every seed looks like the goal
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit goal.png --out DIR --resume              go on after ctrl-C or a crash
-  pleach fit goals/*.png --out runs --timeout 2m      one after the other: runs/STEM, runs/summary.csv
-  pleach fit goals/*.png --out runs --shard 2/8       every eighth goal from the second on, for array jobs
+  pleach fit goals/*.png --out runs --timeout 2m      a batch: runs/STEM/, runs/summary.csv
+  pleach fit goals/*.png --out runs --shard 2/8       goals 2, 10, 18 … of it, for array jobs
 
 The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png,
 history.csv (a row a generation), parameters.csv (how well the goal determines each parameter) and
-summary.json; and a checkpoint while the fit is unfinished. With several goals, the budget is for each,
-a goal that fails is named and the others go on, and --resume goes on where a batch stopped: it skips
-what is finished.";
+summary.json; and a checkpoint while the fit is unfinished.
+
+With several goals, the budget is for each. A goal that fails is named and the others go on. With
+--resume a batch goes on where it stopped, and skips what is finished.";
 
 /// Fit a generator's parameters to a goal image
 #[derive(Debug, clap::Args)]
