@@ -120,7 +120,7 @@ fn what_cannot_be_a_batch_is_refused_before_work_begins() {
     std::fs::create_dir(dir.path("more")).unwrap();
     let twice = fit(&["goals/acer.png", "more/acer.jpg"], &["--out", "runs"]);
     dir.run(twice).fails(1, &["goals/acer.png", "more/acer.jpg", "runs/acer"]);
-    dir.run(fit(&ALL, &["--mask", "goals/acer.png"])).fails(1, &["--mask", "one goal"]);
+    dir.run(fit(&ALL, &["--mask", "goals/acer.png"])).fails(1, &["--mask", "one goal", "auto"]);
     dir.run(fit(&ALL, &["--from", "acre"])).fails(1, &["acre", "did you mean"]);
     for wrong in ["0/2", "3/2", "x"] {
         dir.run(fit(&ALL, &["--shard", wrong])).fails(2, &["I/N with I from 1 to N"]);

@@ -24,6 +24,11 @@ pub(crate) fn note(text: impl std::fmt::Display) {
 
 /// Tells the user why the program failed: each cause on its own line.
 pub(crate) fn error(error: &anyhow::Error) {
+    eprintln!("error: {}", causes(error, "\n  because: "));
+}
+
+/// What went wrong and why, causes set apart by `because`.
+pub(crate) fn causes(error: &anyhow::Error, because: &str) -> String {
     let mut message = String::new();
     for (i, cause) in error.chain().enumerate() {
         let cause = cause.to_string();
@@ -31,10 +36,12 @@ pub(crate) fn error(error: &anyhow::Error) {
         if i > 0 && message.contains(&cause) {
             continue;
         }
-        message.push_str(if i == 0 { "error: " } else { "\n  because: " });
+        if i > 0 {
+            message.push_str(because);
+        }
         message.push_str(&cause);
     }
-    eprintln!("{message}");
+    message
 }
 
 /// Whether `error` only says that nobody reads standard output any more.

@@ -9,10 +9,12 @@
 //! | [`raster`] | a tree drawn straight into bits |
 //! | [`referee`] | the same by tiny-skia, many times as fine |
 //! | [`goal`] | a picture file becomes ink with a ground and a trunk |
+//! | [`mask`] | a photograph becomes ink |
 
 pub mod bitmap;
 mod encode;
 pub mod goal;
+pub mod mask;
 pub mod picture;
 pub mod raster;
 pub mod referee;

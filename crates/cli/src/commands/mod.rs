@@ -8,6 +8,7 @@ mod gallery;
 mod grow;
 mod landmarks;
 mod map;
+mod mask;
 mod params;
 mod render;
 mod score;
@@ -36,6 +37,7 @@ enum Command {
     Silhouette(silhouette::Silhouette),
     Score(score::Score),
     Map(map::Map),
+    Mask(mask::MaskCommand),
     Blend(Box<blend::BlendCommand>),
     Species(species::SpeciesCommand),
     Params(params::Params),
@@ -55,6 +57,7 @@ impl Arguments {
             Command::Experiment(command) => command.run(),
             Command::Silhouette(command) => command.run(),
             Command::Map(command) => command.run(),
+            Command::Mask(command) => command.run(),
             Command::Blend(command) => command.run(),
             Command::Species(command) => command.run(),
             Command::Params(command) => command.run(),

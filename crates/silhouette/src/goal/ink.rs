@@ -34,7 +34,7 @@ pub enum Split {
 /// Tones closer than this make an even picture.
 const LEAST_CONTRAST: u8 = 16;
 /// Opacities farther apart than this make an alpha channel that says something.
-const LEAST_ALPHA_RANGE: u8 = 128;
+pub(crate) const LEAST_ALPHA_RANGE: u8 = 128;
 
 /// The tree in a picture, and how it was told from the paper.
 pub(super) fn ink_of(tones: &Tones, polarity: Polarity) -> (Bitmap, Split) {
@@ -78,7 +78,7 @@ fn bitmap(tones: &Tones, ink: impl Fn(usize) -> bool) -> Bitmap {
 /// Otsu, "A threshold selection method from gray-level histograms" (1979): the split with the
 /// greatest variance between the parts. Where several are equal, as between pure black and white,
 /// the middle one.
-fn otsu(histogram: &[u64; 256]) -> Option<u8> {
+pub(crate) fn otsu(histogram: &[u64; 256]) -> Option<u8> {
     let darkest = histogram.iter().position(|&n| n > 0)?;
     let lightest = histogram.iter().rposition(|&n| n > 0)?;
     if lightest - darkest < usize::from(LEAST_CONTRAST) {

@@ -9,8 +9,8 @@
 //! How tall the tree is cannot be seen in a silhouette: [`Goal::frame`] takes it in metres.
 
 mod error;
-mod ink;
-mod read;
+pub(crate) mod ink;
+pub(crate) mod read;
 mod shrink;
 mod stand;
 #[cfg(test)]
@@ -100,7 +100,15 @@ impl Goal {
     /// # Errors
     /// [`GoalError::TooSmall`], [`GoalError::NoInk`], [`GoalError::AllInk`].
     pub fn from_bitmap(bitmap: Bitmap) -> Result<Self, GoalError> {
-        Self::build(bitmap, Split::None, "the picture", &GoalOptions::default())
+        Self::from_ink(bitmap, &GoalOptions::default())
+    }
+
+    /// A goal from a picture of ink at hand; of the options, mask and polarity are not looked at.
+    ///
+    /// # Errors
+    /// As [`Goal::from_bitmap`], and for places set by hand that are not in the picture.
+    pub fn from_ink(bitmap: Bitmap, options: &GoalOptions) -> Result<Self, GoalError> {
+        Self::build(bitmap, Split::None, "the picture", options)
     }
 
     fn build(ink: Bitmap, split: Split, name: &str, options: &GoalOptions) -> Result<Self, GoalError> {

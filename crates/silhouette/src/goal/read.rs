@@ -22,8 +22,20 @@ pub(super) struct Tones {
     pub(super) opacity: Vec<u8>,
 }
 
-/// Decodes a file. Its size and the size that its header claims are checked before any pixel is.
+/// Decodes a file to what goals are made of.
 pub(super) fn tones(path: &Path) -> Result<Tones, GoalError> {
+    let both = picture(path)?.into_luma_alpha8();
+    let (width, height) = both.dimensions();
+    let both = both.into_raw();
+    let (pairs, _) = both.as_chunks::<2>();
+    let light = pairs.iter().map(|p| p[0]).collect();
+    let opacity = pairs.iter().map(|p| p[1]).collect();
+    Ok(Tones { width, height, light, opacity })
+}
+
+/// Decodes a file and turns it upright. Its size and the size that its header claims are checked
+/// before any pixel is.
+pub(crate) fn picture(path: &Path) -> Result<DynamicImage, GoalError> {
     let mut decoder = open(path)?;
     checked_dimensions(path, &decoder)?;
     let bytes = decoder.total_bytes();
@@ -40,13 +52,7 @@ pub(super) fn tones(path: &Path) -> Result<Tones, GoalError> {
     let orientation = decoder.orientation().unwrap_or(image::metadata::Orientation::NoTransforms);
     let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
     picture.apply_orientation(orientation);
-    let both = picture.into_luma_alpha8();
-    let (width, height) = both.dimensions();
-    let both = both.into_raw();
-    let (pairs, _) = both.as_chunks::<2>();
-    let light = pairs.iter().map(|p| p[0]).collect();
-    let opacity = pairs.iter().map(|p| p[1]).collect();
-    Ok(Tones { width, height, light, opacity })
+    Ok(picture)
 }
 
 /// Width and height that the header of a file claims, the note on orientation followed.

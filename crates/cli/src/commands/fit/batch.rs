@@ -1,6 +1,7 @@
 //! Many goals, one after the other: a run folder each, and one summary of all.
 
 use super::folder::{self, RunFolder, Summary};
+use super::goal::{Goals, MaskSource};
 use super::{Fit, RUNS, catch_signals};
 use crate::{files, output};
 use anyhow::{Context, bail, ensure};
@@ -55,9 +56,10 @@ enum State {
 
 /// Fits all goals of the shard.
 pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
-    ensure!(fit.goal_options.mask.is_none(), "--mask belongs to one goal, and here are {}", fit.goals.len());
-    // A name that is wrong for all goals is told once.
-    fit.search.from.species()?;
+    ensure!(
+        !matches!(fit.goal_options.mask, Some(MaskSource::File(_))),
+        "a --mask file belongs to one goal; --mask auto makes one for each"
+    );
     let out = fit.out.clone().unwrap_or_else(|| RUNS.into());
     let shard = fit.shard.unwrap_or(Shard::WHOLE);
     let table = match fit.shard {
@@ -87,7 +89,7 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
         let (line, state) = match &jobs[i].state {
             State::Finished(summary) => (format!("finished before, {}", brief(summary)), None),
             _ => match one(fit, settings, &jobs[i], &stop) {
-                Err(error) => (format!("failed: {error:#}"), Some(State::Failed)),
+                Err(error) => (format!("failed: {}", output::causes(&error, ": ")), Some(State::Failed)),
                 Ok(None) => {
                     output::note(format!("{name}: interrupted"));
                     bail!("interrupted, {i} of {all} goals are done; the same command with --resume goes on");
@@ -148,7 +150,7 @@ fn one(
     if stop.load(Ordering::SeqCst) {
         return Ok(None);
     }
-    let goals = fit.goal(job.goal)?;
+    let goals = Goals::load(job.goal, &fit.goal_options, fit.verbose)?;
     // What was waiting when a batch stopped has no checkpoint, and starts.
     let resume = fit.resume && job.folder.is_unfinished();
     let folder = RunFolder::open(job.folder.path().to_owned(), resume, fit.overwrite)?;

@@ -3,6 +3,7 @@
 mod aftermath;
 mod batch;
 mod folder;
+mod goal;
 mod options;
 mod progress;
 mod start;
@@ -14,11 +15,13 @@ use crate::{input, output};
 use aftermath::Aftermath;
 use anyhow::{Context, bail};
 use folder::{RunFolder, Summary};
+pub(super) use goal::places;
+use goal::{Goals, MaskSource};
 use options::Settings;
 use pleach_fit::{
     Budget, CheckpointSettings, Control, FitProblem, FitSettings, GoalView, Objective, StopReason,
 };
-use pleach_silhouette::goal::{Goal, GoalOptions, Origin, Polarity, Split};
+use pleach_silhouette::goal::Goal;
 use pleach_tree::{Foliage, Growth};
 use progress::Bar;
 use std::num::NonZeroU32;
@@ -32,20 +35,22 @@ const RUNS: &str = "runs";
 
 const EXAMPLES: &str = "Examples:
   pleach fit targets/quaking_aspen.png                a minute of search, results in runs/quaking_aspen
+  pleach fit photo.jpg --mask auto -v                 a photograph of a tree before sky or a wall
   pleach fit oak.jpg --height 18 --timeout 5m         a tree of 18 m, five minutes
   pleach fit goal.png --from random --optimizer hewitt --evaluations 20000 --seed 3
   pleach fit goal.png --robust 4                      parameters of which every seed looks like the goal
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit front.png --view 90=side.png --holdout-view 45=corner.png
   pleach fit goal.png --out DIR --resume              go on after ctrl-C or a crash
-  pleach fit goals/*.png --out runs --timeout 2m      one after the other: runs/STEM, runs/summary.csv
-  pleach fit goals/*.png --out runs --shard 2/8       every eighth goal from the second on, for array jobs
+  pleach fit goals/*.png --out runs --timeout 2m      a batch: runs/STEM/, runs/summary.csv
+  pleach fit goals/*.png --out runs --shard 2/8       goals 2, 10, 18 … of it, for array jobs
 
 The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png,
 history.csv (a row a generation), parameters.csv (how well the goal determines each parameter) and
-summary.json; and a checkpoint while the fit is unfinished. With several goals, the budget is for each,
-a goal that fails is named and the others go on, and --resume goes on where a batch stopped: it skips
-what is finished.";
+summary.json; and a checkpoint while the fit is unfinished.
+
+With several goals, the budget is for each. A goal that fails is named and the others go on. With
+--resume a batch goes on where it stopped, and skips what is finished.";
 
 /// Fit a generator's parameters to a goal image
 #[derive(Debug, clap::Args)]
@@ -90,9 +95,10 @@ struct GoalArgs {
     /// Longer side of the pictures that are compared, in pixels; larger goals are reduced
     #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(16..=2048))]
     size: u32,
-    /// A picture of the goal's size that says what is tree: white on black
-    #[arg(long, value_name = "FILE")]
-    mask: Option<PathBuf>,
+    /// A picture of the goal's size that says what is tree: white on black. With `auto` the goal is a
+    /// photograph, and its mask is made as by `pleach mask`
+    #[arg(long, value_name = "FILE|auto")]
+    mask: Option<MaskSource>,
     /// Which of the two tones is the tree
     #[arg(long, value_enum, default_value_t = options::Tone::Auto)]
     tree: options::Tone,
@@ -175,6 +181,8 @@ impl Fit {
         if self.goals.len() > 1 && !(further.is_empty() && self.goal_options.holdout_view.is_empty()) {
             bail!("further views are of one tree, and there are {} goals", self.goals.len());
         }
+        // Before a folder is made.
+        self.search.from.species()?;
         match &self.goals[..] {
             [goal] if self.shard.is_none() => self.single(goal, &settings),
             _ => batch::run(self, &settings),
@@ -183,7 +191,7 @@ impl Fit {
 
     /// Fits one goal and shows its score card.
     fn single(&self, goal: &Path, settings: &FitSettings) -> anyhow::Result<()> {
-        let goals = self.goal(goal)?;
+        let goals = Goals::load(goal, &self.goal_options, self.verbose)?;
         let folder = self.folder(goal)?;
         let summary = self.fit(&goals, &folder, settings, &catch_signals()?, self.resume)?;
         if self.json {
@@ -260,28 +268,6 @@ impl Fit {
         })
     }
 
-    fn goal(&self, path: &Path) -> anyhow::Result<Goals> {
-        let args = &self.goal_options;
-        let options = GoalOptions {
-            mask: args.mask.clone(),
-            polarity: match args.tree {
-                options::Tone::Auto => Polarity::Auto,
-                options::Tone::Dark => Polarity::DarkTree,
-                options::Tone::Light => Polarity::LightTree,
-            },
-            ground_row: args.ground_row,
-            axis_column: args.axis_column,
-            max_side: None,
-        };
-        let full = Goal::load(path, &options)?;
-        if self.verbose {
-            output::note(describe(&full));
-        }
-        let working = Goal::load(path, &GoalOptions { max_side: Some(args.size), ..options })?;
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Goals { working, full, name })
-    }
-
     fn problem(&self, goal: &Goal) -> anyhow::Result<FitProblem> {
         let start = self.search.from.species()?;
         let GoalArgs { height, size, .. } = self.goal_options;
@@ -350,41 +336,4 @@ fn catch_signals() -> anyhow::Result<Arc<AtomicBool>> {
     })
     .context("cannot catch signals")?;
     Ok(stop)
-}
-
-/// What was found in a goal.
-fn describe(goal: &Goal) -> String {
-    let found = &goal.findings;
-    let how = match found.split {
-        Split::Opacity => "the tree is what is opaque".to_owned(),
-        Split::Brightness { threshold, dark_tree } => {
-            let side = if dark_tree { "up to" } else { "above" };
-            format!("the tree is what is {side} brightness {threshold} of 255")
-        }
-        Split::None => "the picture has one bit a pixel".to_owned(),
-    };
-    let origin = |origin: Origin| match origin {
-        Origin::Detected => "detected",
-        Origin::Snapped => "detected and snapped to the picture's edge or middle",
-        Origin::Given => "given",
-    };
-    let (width, height) = found.original_size;
-    let ink = 100.0 * goal.bitmap.ink() as f64 / goal.bitmap.area() as f64;
-    format!(
-        "goal of {width} × {height} pixels: {how}{}; {ink:.1} % ink\n\
-         ground at row {:.1} ({}), trunk at column {:.1} ({}), top at row {:.1}",
-        if found.masked { ", in the mask" } else { "" },
-        goal.ground_row,
-        origin(found.ground),
-        goal.axis_column,
-        origin(found.axis),
-        goal.top_row,
-    )
-}
-
-/// The goal as it was given, and as it is compared with.
-struct Goals {
-    full: Goal,
-    working: Goal,
-    name: String,
 }

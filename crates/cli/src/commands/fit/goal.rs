@@ -1,0 +1,103 @@
+//! The picture that is fitted to.
+
+use super::{GoalArgs, options};
+use crate::commands::mask;
+use crate::output;
+use anyhow::Context;
+use pleach_silhouette::goal::{Goal, GoalOptions, Origin, Polarity, Split};
+use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// What says where in a picture the tree is.
+#[derive(Clone, Debug)]
+pub(super) enum MaskSource {
+    /// A picture of the same size.
+    File(PathBuf),
+    /// The colours of the picture, a photograph.
+    Auto,
+}
+
+impl FromStr for MaskSource {
+    type Err = std::convert::Infallible;
+
+    fn from_str(given: &str) -> Result<Self, Self::Err> {
+        Ok(if given == "auto" { Self::Auto } else { Self::File(given.into()) })
+    }
+}
+
+/// A goal as it was given, and as it is compared with.
+pub(super) struct Goals {
+    pub(super) full: Goal,
+    pub(super) working: Goal,
+    pub(super) name: String,
+}
+
+impl Goals {
+    /// Reads a goal, and says what was found in it if `verbose`.
+    pub(super) fn load(path: &Path, args: &GoalArgs, verbose: bool) -> anyhow::Result<Self> {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let options = GoalOptions {
+            mask: match &args.mask {
+                Some(MaskSource::File(file)) => Some(file.clone()),
+                Some(MaskSource::Auto) | None => None,
+            },
+            polarity: match args.tree {
+                options::Tone::Auto => Polarity::Auto,
+                options::Tone::Dark => Polarity::DarkTree,
+                options::Tone::Light => Polarity::LightTree,
+            },
+            ground_row: args.ground_row,
+            axis_column: args.axis_column,
+            max_side: None,
+        };
+        let small = GoalOptions { max_side: Some(args.size), ..options.clone() };
+        let (full, working, how) = if matches!(args.mask, Some(MaskSource::Auto)) {
+            let found =
+                Mask::of(&Photo::load(path)?, &MaskOptions::default()).with_context(|| mask::cannot(path))?;
+            let how = mask::means(&found);
+            let full = Goal::from_ink(found.bitmap.clone(), &options)?;
+            (full, Goal::from_ink(found.bitmap, &small)?, how)
+        } else {
+            let full = Goal::load(path, &options)?;
+            let how = means(&full);
+            (full, Goal::load(path, &small)?, how)
+        };
+        if verbose {
+            let (width, height) = full.findings.original_size;
+            output::note(format!("goal of {width} × {height} pixels: {how}; {}", places(&full)));
+        }
+        Ok(Self { full, working, name })
+    }
+}
+
+/// How the tree was told from the paper.
+fn means(goal: &Goal) -> String {
+    let how = match goal.findings.split {
+        Split::Opacity => "the tree is what is opaque".to_owned(),
+        Split::Brightness { threshold, dark_tree } => {
+            let side = if dark_tree { "up to" } else { "above" };
+            format!("the tree is what is {side} brightness {threshold} of 255")
+        }
+        Split::None => "the picture has one bit a pixel".to_owned(),
+    };
+    how + if goal.findings.masked { ", in the mask" } else { "" }
+}
+
+/// How much is tree, and where it stands.
+pub(in crate::commands) fn places(goal: &Goal) -> String {
+    let origin = |origin: Origin| match origin {
+        Origin::Detected => "detected",
+        Origin::Snapped => "detected and snapped to the picture's edge or middle",
+        Origin::Given => "given",
+    };
+    let ink = 100.0 * goal.bitmap.ink() as f64 / goal.bitmap.area() as f64;
+    format!(
+        "{ink:.1} % ink\nground at row {:.1} ({}), trunk at column {:.1} ({}), top at row {:.1}",
+        goal.ground_row,
+        origin(goal.findings.ground),
+        goal.axis_column,
+        origin(goal.findings.axis),
+        goal.top_row,
+    )
+}

@@ -1,0 +1,206 @@
+//! From a photograph of a tree to its silhouette, by classical means.
+//!
+//! 1. A picture with an alpha channel that says something is its own mask.
+//! 2. The horizon is where colours step at the picture's sides, if they do.
+//! 3. What the background looks like is read off the picture's frame, above and below the horizon,
+//!    and continued behind the tree; colours are compared in Oklab.
+//! 4. What is farther from it than Otsu's threshold on that distance, and than half of what is usual
+//!    for the tree around, stands out.
+//! 5. Specks go. Of the pieces that are left, those near to each other belong together: leaves that
+//!    hang apart from the crown are tree. The largest is the tree, or the one at the seed point.
+//! 6. Small holes are filled, such as glints on leaves; the sky between leaves stays.
+//!
+//! It takes an even background: sky, clouds, haze, a wall. Houses and other trees behind the tree
+//! are beyond it.
+
+mod backdrop;
+mod error;
+mod horizon;
+mod oklab;
+mod photo;
+mod pieces;
+mod score;
+#[cfg(test)]
+mod tests;
+
+pub use error::MaskError;
+pub use horizon::Horizon;
+pub use photo::Photo;
+
+use crate::bitmap::Bitmap;
+use crate::goal::ink::LEAST_ALPHA_RANGE;
+use crate::picture::{MISSED, Picture};
+
+/// What is behind the tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Background {
+    /// A sky with a ground below it if colours step clearly at the sides, else one background.
+    #[default]
+    Auto,
+    /// A sky, probably with a ground below it: a faint step at the sides is a horizon, too.
+    Sky,
+    /// One smooth background all around, as a wall or a cloth.
+    Plain,
+}
+
+/// How a mask is made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MaskOptions {
+    /// What is behind the tree.
+    pub background: Background,
+    /// A pixel on the tree: column from the left and row from the top, from 0. The largest piece is
+    /// the tree if it is not given.
+    pub seed_point: Option<(u32, u32)>,
+    /// Most pixels of a hole that is filled; 1 of 100,000 of the picture's if it is not given.
+    pub fill_holes: Option<u64>,
+}
+
+/// How the tree was told from the background.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Means {
+    /// The tree is what is at least half opaque.
+    Opacity,
+    /// The tree is what differs in colour.
+    Colour {
+        /// Distance that all of the tree has from the background, in spreads of that.
+        threshold: f64,
+        /// Where the ground begins, if it was seen.
+        horizon: Option<Horizon>,
+    },
+}
+
+/// The picture's sides that a tree's crown touches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Touches {
+    /// The left edge.
+    pub left: bool,
+    /// The top edge.
+    pub top: bool,
+    /// The right edge.
+    pub right: bool,
+}
+
+/// A tree in a photograph.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mask {
+    /// The tree as ink, of the photograph's size.
+    pub bitmap: Bitmap,
+    /// How it was told.
+    pub means: Means,
+    /// Pixels that stood out and were not taken for tree.
+    pub dropped: u64,
+    /// Pixels of holes that were filled.
+    pub filled: u64,
+    /// Where the crown is cut off by the picture's edge.
+    pub touches: Touches,
+}
+
+/// Pixels of the picture to one of the smallest piece that is kept.
+const SPECK: u64 = 200_000;
+/// Pixels of the picture to one of the largest hole that is filled.
+const HOLE: u64 = 100_000;
+/// Pieces nearer than this part of the shorter side belong together.
+const NEAR: f64 = 0.015;
+/// Pixels of the picture to one of the smallest tree.
+const SMALLEST: u64 = 1_000;
+/// Trees are at least this part of the picture's height.
+const LOWEST: f64 = 0.1;
+/// What covers more than this part of the picture is no tree on a background.
+const MOST_INK: f64 = 0.9;
+
+impl Mask {
+    /// Finds the tree.
+    ///
+    /// # Errors
+    /// See [`MaskError`]: no tree, or a seed point that is not on one.
+    pub fn of(photo: &Photo, options: &MaskOptions) -> Result<Self, MaskError> {
+        let (width, height) = (photo.width(), photo.height());
+        if let Some((x, y)) = options.seed_point
+            && (x >= width || y >= height)
+        {
+            return Err(MaskError::SeedOutside { x, y, width, height });
+        }
+        let (least, most) = photo.opacities();
+        if most.saturating_sub(least) >= LEAST_ALPHA_RANGE {
+            let bitmap = Bitmap::from_fn(width, height, |x, y| photo.opacity(x, y) >= 128);
+            return Ok(Self {
+                touches: touches(&bitmap),
+                bitmap,
+                means: Means::Opacity,
+                dropped: 0,
+                filled: 0,
+            });
+        }
+        let standing = score::standing(photo, options.background)?;
+        let ink = pieces::without_specks(&standing.ink, standing.ink.area() / SPECK);
+        let near = (NEAR * f64::from(width.min(height)) / 2.0).round() as u32;
+        let grounds = pieces::widened(&ink, near);
+        let tree = pieces::piece(&ink, &grounds, options.seed_point);
+        let mut bitmap = match (tree, options.seed_point) {
+            (Some(tree), _) => tree,
+            (None, Some((x, y))) => return Err(MaskError::SeedOnBackground { x, y }),
+            (None, None) => return Err(MaskError::NoTree { why: "nothing stands out from the background" }),
+        };
+        let dropped = standing.ink.ink() - bitmap.ink();
+        check(&bitmap)?;
+        let largest = options.fill_holes.unwrap_or(bitmap.area() / HOLE);
+        let filled = pieces::fill_holes(&mut bitmap, largest);
+        Ok(Self {
+            touches: touches(&bitmap),
+            bitmap,
+            means: Means::Colour { threshold: standing.threshold, horizon: standing.horizon },
+            dropped,
+            filled,
+        })
+    }
+
+    /// The photograph with all but the tree faded, and the tree's outline drawn in.
+    #[must_use]
+    pub fn overlay(&self, photo: &Photo) -> Picture {
+        let mut out = Picture::new(photo.width(), photo.height());
+        for y in 0..photo.height() {
+            for x in 0..photo.width() {
+                let colour = photo.rgb(x, y);
+                let ink = |dx, dy| match (x.checked_add_signed(dx), y.checked_add_signed(dy)) {
+                    (Some(x), Some(y)) => self.bitmap.get(x, y),
+                    _ => false,
+                };
+                let beside = || ink(-1, 0) || ink(1, 0) || ink(0, -1) || ink(0, 1);
+                let shown = if self.bitmap.get(x, y) {
+                    colour
+                } else if beside() {
+                    MISSED
+                } else {
+                    colour.map(|v| 170 + v / 3)
+                };
+                out.set(x, y, shown);
+            }
+        }
+        out
+    }
+}
+
+/// Whether it can be a tree at all.
+fn check(ink: &Bitmap) -> Result<(), MaskError> {
+    let no_tree = |why| Err(MaskError::NoTree { why });
+    let Some((_, top, _, bottom)) = ink.ink_box() else {
+        return no_tree("nothing stands out from the background");
+    };
+    let tall = f64::from(bottom + 1 - top) / f64::from(ink.height());
+    if ink.ink() * SMALLEST < ink.area() || tall < LOWEST {
+        return no_tree("what stands out from the background is too small");
+    }
+    if ink.ink() as f64 > MOST_INK * ink.area() as f64 {
+        return no_tree("nearly all of the picture differs from its frame");
+    }
+    Ok(())
+}
+
+fn touches(ink: &Bitmap) -> Touches {
+    let column = |x| (0..ink.height()).any(|y| ink.get(x, y));
+    Touches {
+        left: column(0),
+        top: ink.ink_in_row(0).next().is_some(),
+        right: column(ink.width().saturating_sub(1)),
+    }
+}

@@ -1,0 +1,200 @@
+//! Pieces of ink, and holes in them.
+
+use crate::bitmap::Bitmap;
+
+/// Visits the pixels of the piece that holds `start`, and marks them in `seen`; diagonal neighbours
+/// belong together if `diagonal`.
+fn flood(
+    inside: impl Fn(u32, u32) -> bool,
+    start: (u32, u32),
+    diagonal: bool,
+    seen: &mut Bitmap,
+    mut visit: impl FnMut(u32, u32),
+) {
+    let mut stack = vec![start];
+    seen.set(start.0, start.1, true);
+    while let Some((x, y)) = stack.pop() {
+        visit(x, y);
+        for (dx, dy) in [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (-1, 1), (1, -1), (1, 1)]
+            .into_iter()
+            .take(if diagonal { 8 } else { 4 })
+        {
+            let (Some(x), Some(y)) = (x.checked_add_signed(dx), y.checked_add_signed(dy)) else { continue };
+            if x < seen.width() && y < seen.height() && !seen.get(x, y) && inside(x, y) {
+                seen.set(x, y, true);
+                stack.push((x, y));
+            }
+        }
+    }
+}
+
+/// The ink without pieces of fewer than `least` pixels.
+pub(super) fn without_specks(ink: &Bitmap, least: u64) -> Bitmap {
+    let mut seen = Bitmap::new(ink.width(), ink.height());
+    let mut out = ink.clone();
+    let mut piece = Vec::new();
+    for y in 0..ink.height() {
+        for x in ink.ink_in_row(y) {
+            if seen.get(x, y) {
+                continue;
+            }
+            piece.clear();
+            flood(|x, y| ink.get(x, y), (x, y), true, &mut seen, |x, y| piece.push((x, y)));
+            if (piece.len() as u64) < least {
+                piece.iter().for_each(|&(x, y)| out.set(x, y, false));
+            }
+        }
+    }
+    out
+}
+
+/// Ink with all that lies within `reach` pixels of it, in rows and columns.
+pub(super) fn widened(ink: &Bitmap, reach: u32) -> Bitmap {
+    let (width, height) = (ink.width(), ink.height());
+    let mut across = Bitmap::new(width, height);
+    for y in 0..height {
+        let mut free = 0;
+        for x in ink.ink_in_row(y) {
+            for x in free.max(x.saturating_sub(reach))..width.min(x + reach + 1) {
+                across.set(x, y, true);
+            }
+            free = x + reach + 1;
+        }
+    }
+    let mut out = Bitmap::new(width, height);
+    // The lowest row that a column is set up to.
+    let mut free = vec![0; width as usize];
+    for y in 0..height {
+        for x in across.ink_in_row(y) {
+            let set = &mut free[x as usize];
+            for y in (*set).max(y.saturating_sub(reach))..height.min(y + reach + 1) {
+                out.set(x, y, true);
+            }
+            *set = y + reach + 1;
+        }
+    }
+    out
+}
+
+/// Of the pieces of `grounds`, the one that holds `start`, or else the one with the most ink: its
+/// ink. None if `start` lies outside `grounds`, or there is no ink.
+pub(super) fn piece(ink: &Bitmap, grounds: &Bitmap, start: Option<(u32, u32)>) -> Option<Bitmap> {
+    let size = || Bitmap::new(ink.width(), ink.height());
+    let start = match start {
+        Some((x, y)) => grounds.get(x, y).then_some((x, y))?,
+        None => {
+            let mut seen = size();
+            let mut best = (0_u64, None);
+            for y in 0..ink.height() {
+                for x in ink.ink_in_row(y) {
+                    if seen.get(x, y) {
+                        continue;
+                    }
+                    let mut count = 0;
+                    flood(
+                        |x, y| grounds.get(x, y),
+                        (x, y),
+                        true,
+                        &mut seen,
+                        |x, y| {
+                            count += u64::from(ink.get(x, y));
+                        },
+                    );
+                    if count > best.0 {
+                        best = (count, Some((x, y)));
+                    }
+                }
+            }
+            best.1?
+        }
+    };
+    let (mut seen, mut out) = (size(), size());
+    flood(|x, y| grounds.get(x, y), start, true, &mut seen, |x, y| out.set(x, y, ink.get(x, y)));
+    Some(out)
+}
+
+/// Makes ink of paper that ink surrounds, where that is at most `most` pixels; returns how many.
+pub(super) fn fill_holes(ink: &mut Bitmap, most: u64) -> u64 {
+    if most == 0 {
+        return 0;
+    }
+    let (width, height) = (ink.width(), ink.height());
+    let mut seen = ink.clone();
+    let mut hole = Vec::new();
+    let mut filled = 0;
+    for y in 0..height {
+        for x in 0..width {
+            if seen.get(x, y) {
+                continue;
+            }
+            hole.clear();
+            let (mut size, mut open) = (0_u64, false);
+            flood(
+                |_, _| true,
+                (x, y),
+                false,
+                &mut seen,
+                |x, y| {
+                    size += 1;
+                    open |= x == 0 || y == 0 || x + 1 == width || y + 1 == height;
+                    if size <= most {
+                        hole.push((x, y));
+                    }
+                },
+            );
+            if !open && size <= most {
+                hole.iter().for_each(|&(x, y)| ink.set(x, y, true));
+                filled += size;
+            }
+        }
+    }
+    filled
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn specks_go_and_twigs_stay() {
+        let ink = Bitmap::from_ascii("#..#.....\n.#.......\n..#...##.\n......##.");
+        let expected = Bitmap::from_ascii("#........\n.#.......\n..#...##.\n......##.");
+        assert_eq!(without_specks(&ink, 3), expected);
+        assert_eq!(without_specks(&ink, 1), ink);
+    }
+
+    #[test]
+    fn widening_reaches_as_far_as_it_says() {
+        for (reach, spots) in [(0, vec![(3, 4)]), (2, vec![(0, 0), (9, 9), (5, 4)]), (20, vec![(1, 1)])] {
+            let ink = Bitmap::from_fn(10, 10, |x, y| spots.contains(&(x, y)));
+            let expected = Bitmap::from_fn(10, 10, |x, y| {
+                spots.iter().any(|s| s.0.abs_diff(x) <= reach && s.1.abs_diff(y) <= reach)
+            });
+            assert_eq!(widened(&ink, reach), expected);
+        }
+    }
+
+    #[test]
+    fn near_pieces_belong_together_and_far_ones_do_not() {
+        let ink = Bitmap::from_ascii("##.##....#\n##.##.....\n.........#");
+        let grounds = widened(&ink, 1);
+        let big = Bitmap::from_ascii("##.##.....\n##.##.....\n..........");
+        assert_eq!(piece(&ink, &grounds, None), Some(big.clone()));
+        assert_eq!(piece(&ink, &grounds, Some((3, 0))), Some(big));
+        let small = Bitmap::from_ascii(".........#\n..........\n.........#");
+        assert_eq!(piece(&ink, &grounds, Some((9, 2))), Some(small));
+        assert_eq!(piece(&ink, &grounds, Some((6, 2))), None);
+        assert_eq!(piece(&Bitmap::new(9, 9), &Bitmap::new(9, 9), None), None);
+    }
+
+    #[test]
+    fn small_holes_are_filled_and_the_sky_is_not() {
+        let mut ink = Bitmap::from_ascii("######\n#.##.#\n####.#\n####..\n.#####");
+        assert_eq!(fill_holes(&mut ink, 2), 1);
+        assert_eq!(ink, Bitmap::from_ascii("######\n####.#\n####.#\n####..\n.#####"));
+        let mut ring = Bitmap::from_ascii("####\n#..#\n####");
+        assert_eq!(fill_holes(&mut ring, 1), 0);
+        assert_eq!(fill_holes(&mut ring, 0), 0);
+        assert_eq!(fill_holes(&mut ring, 2), 2);
+    }
+}
