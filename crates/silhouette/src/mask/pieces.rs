@@ -39,7 +39,18 @@ pub(super) fn without_specks(ink: &Bitmap, least: u64) -> Bitmap {
                 continue;
             }
             piece.clear();
-            flood(|x, y| ink.get(x, y), (x, y), true, &mut seen, |x, y| piece.push((x, y)));
+            flood(
+                |x, y| ink.get(x, y),
+                (x, y),
+                true,
+                &mut seen,
+                |x, y| {
+                    // Large ones stay, and need not be remembered.
+                    if (piece.len() as u64) < least {
+                        piece.push((x, y));
+                    }
+                },
+            );
             if (piece.len() as u64) < least {
                 piece.iter().for_each(|&(x, y)| out.set(x, y, false));
             }
