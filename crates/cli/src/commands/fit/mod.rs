@@ -224,7 +224,7 @@ impl Fit {
         let checkpoint = CheckpointSettings { resume, ..CheckpointSettings::new(folder.checkpoint()) };
         let started = Instant::now();
         let clock = || started.elapsed();
-        let looks_like = self.search.from.begin(&mut problem, &mut settings)?;
+        let looks_like = self.search.from.begin(self.goals.len() > 1, &mut problem, &mut settings)?;
         let mut bar = Bar::new(&settings);
         let control =
             Control { observers: vec![&mut bar], checkpoint: Some(checkpoint), ..Control::new(&clock, stop) };

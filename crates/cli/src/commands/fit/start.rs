@@ -63,22 +63,28 @@ impl From {
         }
     }
 
-    /// Sets where the search begins; returns what the goal looks like, if that was asked for.
+    /// Sets where the search begins; returns, and says unless `quiet`, what the goal looks like, if
+    /// that was asked for.
     pub(super) fn begin(
         &self,
+        quiet: bool,
         problem: &mut FitProblem,
         settings: &mut FitSettings,
     ) -> anyhow::Result<Vec<LooksLike>> {
         match self {
             Self::Random => settings.start = Start::Random,
             Self::Species(_) => settings.start = Start::Lists(vec![problem.base.clone()]),
-            Self::Auto => return guess(problem, settings),
+            Self::Auto => return guess(quiet, problem, settings),
         }
         Ok(Vec::new())
     }
 }
 
-fn guess(problem: &mut FitProblem, settings: &mut FitSettings) -> anyhow::Result<Vec<LooksLike>> {
+fn guess(
+    quiet: bool,
+    problem: &mut FitProblem,
+    settings: &mut FitSettings,
+) -> anyhow::Result<Vec<LooksLike>> {
     let bar = if output::is_watched() { ProgressBar::new(1) } else { ProgressBar::hidden() };
     if let Ok(style) = ProgressStyle::with_template("first guess {wide_bar} {pos} of {len} trees") {
         bar.set_style(style);
@@ -91,9 +97,11 @@ fn guess(problem: &mut FitProblem, settings: &mut FitSettings) -> anyhow::Result
     bar.finish_and_clear();
     let mut names = guess.names;
     names.retain(|(_, confidence)| *confidence >= LEAST_CONFIDENCE);
-    let said: Vec<String> =
-        names.iter().take(3).map(|(name, c)| format!("{name} ({:.0} %)", 100.0 * c)).collect();
-    output::note(format!("looks like {}", said.join(", ")));
+    if !quiet {
+        let said: Vec<String> =
+            names.iter().take(3).map(|(name, c)| format!("{name} ({:.0} %)", 100.0 * c)).collect();
+        output::note(format!("looks like {}", said.join(", ")));
+    }
     problem.base = guess.nearest[0].values.clone();
     settings.start = Start::Lists(guess.nearest.into_iter().map(|guess| guess.values).collect());
     Ok(names.into_iter().map(|(species, confidence)| LooksLike { species, confidence }).collect())
