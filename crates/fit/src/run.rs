@@ -356,10 +356,10 @@ impl<O: Evaluate> Solver<O, FitState> for Driver<'_> {
     }
 }
 
-/// How many individuals make a batch of about a tenth of a second.
+/// How many individuals make a batch of about a third of a second.
 ///
 /// Small enough for ctrl-C, timeouts and checkpoints to be prompt, large enough to keep the threads
-/// busy. The clock decides it, and nothing but promptness depends on it.
+/// busy: at the end of a batch all wait for the slowest tree. The clock decides it, and nothing but promptness depends on it.
 #[derive(Clone, Copy, Debug)]
 struct Pace {
     batch: usize,
@@ -367,7 +367,7 @@ struct Pace {
 }
 
 impl Pace {
-    const TARGET: f64 = 0.1;
+    const TARGET: f64 = 0.3;
 
     fn new(now: Duration) -> Self {
         Self { batch: 2 * rayon::current_num_threads(), last: now }
