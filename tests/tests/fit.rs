@@ -81,6 +81,9 @@ fn the_run_folder_holds_what_it_should() {
     assert_eq!(summary["determined"]["determined"], count("determined"));
     assert_eq!(summary["determined"]["not_seen"], count("not-seen"));
     assert!(count("determined") > 0 && count("not-seen") > 0, "{parameters}");
+    // A variation of size is not seen in one tree, so other seeds keep the size of the goal.
+    let best = String::from_utf8(read(&folder.join("best.toml"))).unwrap();
+    assert!(best.contains("0 are g_scale_v, length_v[0]") && best.contains("\ng_scale_v = 0\n"), "{best}");
 
     // The picture has the goal's size, the card is that of `score`, and the species grows the picture.
     let best = folder.join("best.png");

@@ -150,14 +150,16 @@ fn tries(
     let mut list = Vec::new();
     for (candidate, Candidate { values, .. }) in candidates.iter().enumerate() {
         let generator = Arc::clone(&problem.generator);
-        let space = SearchSpace::new(generator, values, &Freedom::default(), TreeSeed::Any)?;
+        let space = SearchSpace::new(generator, values, &Freedom::default(), TreeSeed::Any)?.settling(true);
         let first = match settings.tree_seed {
             TreeSeed::Fixed(seed) => seed,
             TreeSeed::Any => settings.seed,
         };
         for i in 0..u64::from(guess.seeds.max(1)) {
             let may_start = i == 0 || settings.tree_seed == TreeSeed::Any;
-            list.push(Try { candidate, may_start, genome: space.individual(values, first.wrapping_add(i)) });
+            let mut genome = space.individual(values, first.wrapping_add(i));
+            space.settle(&mut genome);
+            list.push(Try { candidate, may_start, genome });
         }
         for i in 0..guess.variants {
             let mut draws = Stream::at(settings.seed, VARIATION, candidate as u64, i);
@@ -168,6 +170,7 @@ fn tries(
                 let value = &mut genome.values[gene.slot];
                 *value = gene.clamp(*value * (1.0 + guess.spread * draws.normal()));
             }
+            space.settle(&mut genome);
             list.push(Try { candidate, may_start: true, genome });
         }
     }

@@ -53,7 +53,7 @@ pub use history::{COLUMNS, Column, Observer, Progress, Row};
 pub use method::{Method, Start};
 pub use objective::Objective;
 pub use profile::{Profile, Seen, profile, put_back_unseen};
-pub use run::{CheckpointSettings, Control, FitError, Outcome, fit};
+pub use run::{CheckpointSettings, Control, FitError, Outcome, fit, settled};
 pub use search::{Evaluate, Search, SearchState};
 pub use settings::{AnyMethod, FitSettings, Optimizer};
 pub use space::{Freedom, SearchSpace, TreeSeed};

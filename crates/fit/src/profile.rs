@@ -52,9 +52,11 @@ pub fn profile(
     let (space, evaluator) = prepare(problem, settings)?;
     let mut moves: Vec<Genome> = Vec::new();
     let mut plan: Vec<(usize, Vec<Move>)> = Vec::new();
+    // They move this tree, and its size can make up for it: a picture does not tell them.
+    let hidden = space.size_variations(&best.genome.values);
     for gene in space.genes() {
         let mut of_gene = Vec::new();
-        if space.is_read(&best.genome.values, gene) {
+        if !hidden.contains(&gene.slot) && space.is_read(&best.genome.values, gene) {
             for (place, value) in alternatives(gene, best.genome.values[gene.slot]) {
                 of_gene.push(Move { place, number: moves.len() });
                 let mut genome = best.genome.clone();
@@ -128,13 +130,14 @@ pub fn put_back_unseen(
     start: &[f64],
     tolerance: f64,
 ) -> Result<(Scored, Vec<usize>), FitError> {
-    let (_, evaluator) = prepare(problem, settings)?;
+    let (space, evaluator) = prepare(problem, settings)?;
+    let hidden = space.size_variations(&best.genome.values);
     let mut memory = evaluator.workspace();
     let most = best.score.cost + SPENT_ON_RETURN * tolerance;
     let mut kept = best.clone();
     let mut slots = Vec::new();
     for slot in profiles.iter().filter(|profile| profile.seen == Seen::NotSeen).map(|profile| profile.slot) {
-        if kept.genome.values[slot] == start[slot] {
+        if kept.genome.values[slot] == start[slot] || hidden.contains(&slot) {
             continue;
         }
         let mut genome = kept.genome.clone();

@@ -4,7 +4,7 @@ use crate::budget::{Budget, Clock, Spent, StopReason};
 use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::evaluator::{Evaluator, FitProblem, ProblemError};
 use crate::fingerprint::Fingerprint;
-use crate::genome::Scored;
+use crate::genome::{Genome, Scored};
 use crate::history::{Observer, Progress, Row};
 use crate::method::Start;
 use crate::search::{Evaluate, FitState, Search, SearchState};
@@ -134,7 +134,23 @@ pub(crate) fn search_space(problem: &FitProblem, settings: &FitSettings) -> Resu
     for list in settings.start.lists() {
         space.widen(list)?;
     }
-    Ok(space)
+    let settles = settings.optimizer.matches_height() && space.sizes_are_free();
+    Ok(space.settling(settles))
+}
+
+/// The slots of `genome` that the fit of `problem` has set to zero because one tree cannot show them:
+/// see [`SearchSpace::settle`].
+///
+/// # Errors
+/// Those of [`fit`] on the same problem and settings.
+pub fn settled(
+    problem: &FitProblem,
+    settings: &FitSettings,
+    genome: &Genome,
+) -> Result<Vec<usize>, FitError> {
+    let mut slots = search_space(problem, settings)?.size_variations(&genome.values);
+    slots.retain(|&slot| genome.values[slot] == 0.0);
+    Ok(slots)
 }
 
 /// [`fit`] on anything that can be scored.

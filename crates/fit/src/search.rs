@@ -135,6 +135,10 @@ impl<M: Method> Search<M> {
         let state = &mut self.state;
         if state.members.is_empty() {
             state.method.ask(&self.space, &mut state.members);
+            // What a search starts from is the caller's; the exact truth may be among it.
+            if state.generation > 0 {
+                state.members.iter_mut().for_each(|member| self.space.settle(member));
+            }
         }
         let first = state.scores.len();
         let room = usize::try_from(self.evaluation_limit - state.evaluations).unwrap_or(usize::MAX);

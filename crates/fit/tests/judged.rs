@@ -7,8 +7,8 @@ mod common;
 use common::goal_of;
 use pleach_fit::settings::LIMITS;
 use pleach_fit::{
-    EvalWorkspace, Evaluator, FitProblem, FitSettings, Genome, Objective, Score, Scored, Seen, fresh_seeds,
-    profile, put_back_unseen,
+    Budget, Control, EvalWorkspace, Evaluator, FitProblem, FitSettings, Freedom, Genome, Objective, Score,
+    Scored, Seen, Start, fit, fresh_seeds, profile, put_back_unseen, settled,
 };
 use std::num::NonZeroU32;
 
@@ -72,4 +72,40 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     assert_eq!(kept.genome.values[slot("length[3]")], 0.123);
     assert_eq!(kept.genome.values[slot("g_scale")], problem.base[slot("g_scale")]);
     assert_eq!(kept.score.cost, 0.0);
+}
+
+#[test]
+fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
+    let problem = goal_of("acer", 2, 64);
+    let slots = problem.generator.size_variations(&problem.base);
+    assert!(slots.iter().any(|&slot| problem.base[slot] != 0.0), "the species has them");
+    let result = |freedom: Freedom, optimizer: &str| {
+        let settings = FitSettings {
+            optimizer: optimizer.parse().unwrap(),
+            budget: Budget::evaluations(60),
+            start: Start::Lists(vec![problem.base.clone()]),
+            freedom,
+            ..FitSettings::default()
+        };
+        let clock = || std::time::Duration::ZERO;
+        let stop = std::sync::atomic::AtomicBool::new(false);
+        let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
+        let kept: Vec<f64> = slots.iter().map(|&slot| best.genome.values[slot]).collect();
+        (kept, settled(&problem, &settings, &best.genome).unwrap(), settings, best)
+    };
+    let (kept, told, settings, best) = result(Freedom::default(), "evolution");
+    assert!(kept.iter().all(|value| *value == 0.0) && told == slots, "{kept:?} {told:?}");
+    let profiles = profile(&problem, &settings, &best, 0.01).unwrap();
+    let unseen = |slot| profiles.iter().any(|p| p.slot == slot && p.seen == Seen::NotSeen);
+    assert!(slots.iter().all(|&slot| unseen(slot)));
+    // Nor do they go back to the start.
+    let (kept, _) = put_back_unseen(&problem, &settings, &best, &profiles, &problem.base, 0.01).unwrap();
+    assert!(slots.iter().all(|&slot| kept.genome.values[slot] == 0.0));
+
+    // The dissertation's algorithm searches them, and what is fixed stays.
+    assert!(result(Freedom::default(), "hewitt").1.is_empty());
+    let fixed = Freedom { free: Vec::new(), fix: vec!["g_scale_v".to_owned()] };
+    let (kept, told, ..) = result(fixed, "evolution");
+    assert_eq!(kept[0], problem.base[slots[0]]);
+    assert!(!told.contains(&slots[0]), "{told:?}");
 }

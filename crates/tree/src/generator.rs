@@ -182,6 +182,15 @@ pub trait Generator: Send + Sync + fmt::Debug {
         fits
     }
 
+    /// The slots whose numbers make trees of other seeds larger or smaller and show in no single
+    /// tree, where a size can make up for them; none unless a generator says so.
+    ///
+    /// A search that has one tree's picture sets them to zero, within their allowed range.
+    fn size_variations(&self, values: &[f64]) -> Vec<usize> {
+        let _ = values;
+        Vec::new()
+    }
+
     /// The parts of a species file beside the numbers (solids, a grammar), as TOML lines that
     /// follow the parameters; empty if there are none.
     fn extra_toml(&self) -> String {

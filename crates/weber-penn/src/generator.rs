@@ -53,6 +53,15 @@ impl Generator for WeberPenn {
         param.kind.is_whole() || feeds_counts || param.name == "rotate"
     }
 
+    fn size_variations(&self, values: &[f64]) -> Vec<usize> {
+        // Several trunks show them: no two are of one size.
+        if Model::new(values).trunks > 1 {
+            return Vec::new();
+        }
+        let first = |name| Some(space().slots_of(space().find(name)?.0).start);
+        ["g_scale_v", "length_v"].into_iter().filter_map(first).collect()
+    }
+
     fn extra_toml(&self) -> String {
         let mut text = String::new();
         if let Some(inside) = &self.surroundings.inside {

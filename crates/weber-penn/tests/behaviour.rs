@@ -358,3 +358,28 @@ fn monsters_end_in_errors_within_the_limit() {
     let leafy = "leaf_blos_num = 100000\nbranches = [1, 5000, 30, 1]";
     assert!(read(leafy).unwrap().grow(1).unwrap_err().to_string().contains("leaves"));
 }
+
+/// What a search sets to zero is what makes one tree of a species larger than another.
+#[test]
+fn without_variations_of_size_trunks_of_all_seeds_are_alike() {
+    for name in ["quaking_aspen", "balsam_fir"] {
+        let path = format!("{}/../../species/weber-penn/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let species = read(&std::fs::read_to_string(path).unwrap()).unwrap();
+        let space = species.generator.space();
+        let lengths = |values: &[f64]| -> Vec<f64> {
+            let params = space.check(values.to_vec()).unwrap();
+            let of = |seed| Species { params: params.clone(), ..species.clone() }.grow(seed).unwrap();
+            (1..5).map(|seed| stems(&of(seed), 0)[0].length).collect()
+        };
+        let mut values = species.params.values().to_vec();
+        let spread = |lengths: &[f64]| lengths.iter().any(|l| (l - lengths[0]).abs() > 1e-9);
+        assert!(spread(&lengths(&values)), "{name}");
+        let slots = species.generator.size_variations(&values);
+        assert_eq!(slots.len(), 2, "{name}");
+        slots.into_iter().for_each(|slot| values[slot] = 0.0);
+        assert!(!spread(&lengths(&values)), "{name}");
+        // Several trunks show how much they differ.
+        values[space.select("branches[0]").unwrap()[0]] = 3.0;
+        assert!(species.generator.size_variations(&values).is_empty(), "{name}");
+    }
+}

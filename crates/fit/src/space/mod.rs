@@ -57,6 +57,7 @@ pub struct SearchSpace {
     genes: Vec<Gene>,
     base: Vec<f64>,
     tree_seed: TreeSeed,
+    settles: bool,
 }
 
 impl SearchSpace {
@@ -118,7 +119,7 @@ impl SearchSpace {
         if genes.is_empty() && tree_seed != TreeSeed::Any {
             return Err(SpaceError::NothingFree);
         }
-        Ok(Self { params, generator: None, genes, base: base.to_vec(), tree_seed })
+        Ok(Self { params, generator: None, genes, base: base.to_vec(), tree_seed, settles: false })
     }
 
     /// Widens the ranges to hold `values`, one a slot: another start.
@@ -185,6 +186,30 @@ impl SearchSpace {
         if let (true, Some(generator)) = (factor != 1.0, &self.generator) {
             generator.resize(&mut genome.values, factor);
         }
+    }
+
+    /// Whether [`SearchSpace::settle`] does anything.
+    #[must_use]
+    pub fn settling(self, settles: bool) -> Self {
+        Self { settles, ..self }
+    }
+
+    /// Takes from `genome` the variations of size that no single tree shows, where they are free.
+    ///
+    /// The first tree that a search likes stands at one end of such a variation or the other, and
+    /// trees of other seeds would be larger or smaller than the goal without anyone having asked.
+    pub fn settle(&self, genome: &mut Genome) {
+        for slot in self.size_variations(&genome.values) {
+            genome.values[slot] = 0.0;
+        }
+    }
+
+    /// The slots that [`SearchSpace::settle`] sets to zero in an individual with these values.
+    pub(crate) fn size_variations(&self, values: &[f64]) -> Vec<usize> {
+        let generator = self.generator.as_ref().filter(|_| self.settles);
+        let mut slots = generator.map_or_else(Vec::new, |generator| generator.size_variations(values));
+        slots.retain(|&slot| self.genes.iter().any(|gene| gene.slot == slot && gene.clamp(0.0) == 0.0));
+        slots
     }
 
     /// A random parameter list: every free number drawn as [`Gene::random`] says.

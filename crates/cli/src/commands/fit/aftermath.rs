@@ -5,7 +5,7 @@ use crate::output;
 use indicatif::ProgressBar;
 use pleach_fit::{
     FitError, FitProblem, FitSettings, FreshSeeds, Profile, Scored, Seen, Start, fresh_seeds, profile,
-    put_back_unseen,
+    put_back_unseen, settled,
 };
 use pleach_tree::{Limits, ParamSpace};
 use std::time::Duration;
@@ -23,6 +23,8 @@ pub(super) struct Aftermath {
     pub(super) profiles: Vec<Profile>,
     /// Slots that went back to the start's value.
     pub(super) put_back: Vec<usize>,
+    /// Slots of variations of size, which are 0.
+    settled: Vec<usize>,
 }
 
 impl Aftermath {
@@ -42,14 +44,21 @@ impl Aftermath {
         };
         let fresh = if put_back.is_empty() { fresh } else { judge(&best.genome)? };
         bar.finish_and_clear();
-        Ok(Self { fresh, best, profiles, put_back })
+        let settled = settled(problem, settings, &best.genome)?;
+        Ok(Self { fresh, best, profiles, put_back, settled })
     }
 
-    /// A comment of the species file: what the goal does not show.
-    pub(super) fn comment(&self, space: &ParamSpace) -> Option<String> {
-        let names: Vec<String> = self.put_back.iter().map(|&slot| space.slot_name(slot)).collect();
-        (!names.is_empty())
-            .then(|| format!("Not seen in the goal, so as where the search started: {}.", names.join(", ")))
+    /// Comments of the species file: what the goal does not show.
+    pub(super) fn comments(&self, space: &ParamSpace) -> Vec<String> {
+        let sentences = [
+            ("One picture shows one size, so no other is grown: 0 are", &self.settled),
+            ("Not seen in the goal, so as where the search started:", &self.put_back),
+        ];
+        let of = |(start, slots): (&str, &Vec<usize>)| {
+            let names: Vec<String> = slots.iter().map(|&slot| space.slot_name(slot)).collect();
+            (!names.is_empty()).then(|| format!("{start} {}.", names.join(", ")))
+        };
+        sentences.into_iter().filter_map(of).collect()
     }
 
     /// How many numbers are determined, loosely determined, and not seen.

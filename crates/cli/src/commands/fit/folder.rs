@@ -178,7 +178,7 @@ impl RunFolder {
             ),
         ];
         if let Some(aftermath) = results.aftermath {
-            comments.extend(aftermath.comment(species.generator.space()));
+            comments.extend(aftermath.comments(species.generator.space()));
             write_table(&self.path.join("parameters.csv"), aftermath.table(species.generator.space()))?;
         }
         files::write_text(&self.path.join("best.toml"), &species.to_toml(&comments))?;
