@@ -12,12 +12,13 @@ mod spec;
 mod treefit;
 
 use crate::output;
-use anyhow::bail;
+use anyhow::{Context, bail};
 use spec::Spec;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
   pleach experiment run experiments/hewitt-ga                     all of it: results.csv, plots, pictures
+  pleach experiment run experiments/treefit --method default     one method of a benchmark again
   pleach experiment check experiments/hewitt-ga --repetitions 1 --evaluations 500
                                                                   rerun a slice and compare with results.csv";
 
@@ -35,6 +36,8 @@ enum Action {
     Run {
         /// A folder with an experiment.toml
         folder: PathBuf,
+        #[command(flatten)]
+        part: Part,
     },
     /// Rerun a slice and compare it with results.csv, time columns apart
     Check {
@@ -45,7 +48,28 @@ enum Action {
     },
 }
 
-/// Which part of an experiment is run.
+/// What of an experiment is run; only fits by several methods take parts.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub(crate) struct Part {
+    /// Only this method, again for further ones; rows of the others stay as they are
+    #[arg(long = "method", value_name = "NAME")]
+    methods: Vec<String>,
+    /// Go on with a run that was killed: rows that it had finished are kept
+    #[arg(long)]
+    resume: bool,
+}
+
+impl Part {
+    /// Fails if a part is asked for.
+    fn is_all(&self) -> anyhow::Result<()> {
+        if self.methods.is_empty() && !self.resume {
+            return Ok(());
+        }
+        bail!("--method and --resume are for experiments of kind treefit");
+    }
+}
+
+/// Which part of an experiment is checked.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub(crate) struct Slice {
     /// Only the first so many repetitions
@@ -73,28 +97,34 @@ impl Table {
         })
     }
 
+    /// Reads a table that has these columns.
+    fn read(path: &Path, columns: &[&'static str]) -> anyhow::Result<Self> {
+        let mut csv =
+            csv::Reader::from_path(path).with_context(|| format!("cannot read {}", path.display()))?;
+        let heading: Vec<String> = csv.headers()?.iter().map(str::to_owned).collect();
+        if heading != columns {
+            bail!("{} has the columns {}, expected {}", path.display(), heading.join(","), columns.join(","));
+        }
+        let record = |record: csv::Result<csv::StringRecord>| -> anyhow::Result<Vec<String>> {
+            Ok(record?.iter().map(str::to_owned).collect())
+        };
+        Ok(Self {
+            columns: columns.to_vec(),
+            rows: csv.records().map(record).collect::<anyhow::Result<_>>()?,
+        })
+    }
+
     /// Compares with the committed results: every row here must stand there, time columns apart.
     fn check(&self, path: &Path) -> anyhow::Result<()> {
-        let mut csv = csv::Reader::from_path(path)?;
-        let heading: Vec<String> = csv.headers()?.iter().map(str::to_owned).collect();
-        if heading != self.columns {
-            bail!(
-                "{} has the columns {}, expected {}",
-                path.display(),
-                heading.join(","),
-                self.columns.join(",")
-            );
-        }
-        let timeless = |row: &mut dyn Iterator<Item = &str>| -> Vec<String> {
-            let kept = row.zip(&self.columns).filter(|(_, column)| !column.starts_with("wall_"));
-            kept.map(|(cell, _)| cell.to_owned()).collect()
+        let timeless = |row: &[String]| -> Vec<String> {
+            let kept = row.iter().zip(&self.columns).filter(|(_, column)| !column.starts_with("wall_"));
+            kept.map(|(cell, _)| cell.clone()).collect()
         };
-        let mut committed = std::collections::BTreeSet::new();
-        for record in csv.records() {
-            committed.insert(timeless(&mut record?.iter()));
-        }
+        let committed = Self::read(path, &self.columns)?;
+        let committed: std::collections::BTreeSet<_> =
+            committed.rows.iter().map(|row| timeless(row)).collect();
         for row in &self.rows {
-            let row = timeless(&mut row.iter().map(String::as_str));
+            let row = timeless(row);
             if !committed.contains(&row) {
                 bail!("{} has no row like what came out now: {}", path.display(), row.join(","));
             }
@@ -106,13 +136,17 @@ impl Table {
 impl Experiment {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         match &self.action {
-            Action::Run { folder } => {
-                let report = match Spec::read(folder)? {
+            Action::Run { folder, part } => {
+                let spec = Spec::read(folder)?;
+                if !matches!(spec, Spec::Treefit(_)) {
+                    part.is_all()?;
+                }
+                let report = match spec {
                     Spec::Fits(spec) => fits::run(folder, &spec)?,
                     Spec::Growth(spec) => growth::run(folder, &spec)?,
                     Spec::Blend(spec) => blend::run(folder, &spec)?,
                     Spec::Likeness(spec) => likeness::run(folder, &spec)?,
-                    Spec::Treefit(spec) => treefit::run(folder, &spec)?,
+                    Spec::Treefit(spec) => treefit::run(folder, &spec, part)?,
                 };
                 output::line(report)?;
                 output::note(format!("wrote {}", folder.join("results.csv").display()));

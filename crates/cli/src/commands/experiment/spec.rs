@@ -1,5 +1,6 @@
 //! `experiment.toml`.
 
+use super::treefit::TreefitSpec;
 use anyhow::Context;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -89,64 +90,6 @@ pub(super) struct LikenessSpec {
     pub(super) walk_steps: u32,
     /// Species whose first tree that the weights have not seen is the goal of a row of the sheet.
     pub(super) sheet: Vec<String>,
-}
-
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TreefitSpec {
-    /// The goals.
-    pub(super) goals: Vec<TreefitGoal>,
-    /// Ways to fit them.
-    pub(super) methods: Vec<MethodSpec>,
-    /// Fits of each method of each goal, seeded 1, 2, ….
-    pub(super) repetitions: u64,
-}
-
-/// A goal: a tree of ours, or a picture.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
-pub(super) enum TreefitGoal {
-    Own {
-        /// The species by name.
-        species: String,
-        /// Seed of its tree.
-        seed: u64,
-        /// Whether its leaves are left out.
-        #[serde(default)]
-        bare: bool,
-    },
-    File {
-        /// The picture, from the experiment's folder.
-        file: PathBuf,
-        /// Height of its tree in metres.
-        height: f64,
-        /// Whether it shows no leaves.
-        #[serde(default)]
-        bare: bool,
-    },
-}
-
-impl TreefitGoal {
-    pub(super) const fn is_bare(&self) -> bool {
-        match self {
-            Self::Own { bare, .. } | Self::File { bare, .. } => *bare,
-        }
-    }
-}
-
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct MethodSpec {
-    /// What it is called in the results.
-    pub(super) name: String,
-    /// The optimiser, at its default settings.
-    pub(super) optimizer: String,
-    /// Where it starts: auto or random.
-    pub(super) from: String,
-    /// Evaluations of a fit.
-    pub(super) evaluations: u64,
-    /// What is made small; the default objective if it is not said.
-    pub(super) objective: Option<String>,
 }
 
 impl Spec {

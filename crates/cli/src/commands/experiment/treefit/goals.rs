@@ -1,0 +1,191 @@
+//! The goals, with all that is known of the trees that they show.
+
+use super::spec::{Degraded, FileGoal, GoalSpec, OwnGoal};
+use super::{FRESH, SIZE};
+use anyhow::Context;
+use pleach_fit::{FitProblem, Genome, GoalView, Objective, fresh_seeds};
+use pleach_silhouette::goal::{Goal, GoalOptions};
+use pleach_silhouette::score::likeness::Likeness;
+use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_tree::{Foliage, Growth, Key, Limits, Tree, Workspace};
+use std::path::Path;
+
+/// A goal with what is known of it.
+pub(super) struct Problem {
+    pub(super) spec: GoalSpec,
+    pub(super) name: String,
+    /// What is fitted.
+    pub(super) fit: FitProblem,
+    /// What a result is judged by where the goal is spoilt: the same picture unspoilt.
+    pub(super) clean: Option<FitProblem>,
+    /// A picture that the search does not see.
+    pub(super) held_out: Option<GoalView>,
+    /// What other trees of the goal's kind score.
+    pub(super) ceiling: Option<Ceiling>,
+}
+
+/// Mean scores of other trees of the goal's kind.
+#[derive(Clone, Copy)]
+pub(super) struct Ceiling {
+    pub(super) likeness: f64,
+    pub(super) iou: f64,
+}
+
+impl Problem {
+    /// Without a ceiling.
+    pub(super) fn of(folder: &Path, spec: &GoalSpec) -> anyhow::Result<Self> {
+        match spec {
+            GoalSpec::Own(goal) => Self::own(spec, goal),
+            GoalSpec::File(goal) => Self::file(folder, spec, goal),
+        }
+    }
+
+    /// The same with what other trees of its kind score, which takes a while.
+    pub(super) fn with_ceiling(folder: &Path, spec: &GoalSpec) -> anyhow::Result<Self> {
+        let problem = Self::of(folder, spec)?;
+        let ceiling = match spec {
+            GoalSpec::Own(goal) => seeds_of(goal)?,
+            GoalSpec::File(FileGoal { like: Some(species), bare, .. }) => seeds_of(&OwnGoal {
+                species: species.clone(),
+                seed: LIKE_SEED,
+                bare: *bare,
+                second_view: None,
+                held_out: None,
+                degraded: None,
+            })?,
+            GoalSpec::File(goal) => others(folder, goal, &problem.fit.goals[0].goal)?,
+        };
+        Ok(Self { ceiling, ..problem })
+    }
+
+    fn own(spec: &GoalSpec, goal: &OwnGoal) -> anyhow::Result<Self> {
+        let species = pleach_generators::species(&goal.species)?;
+        let foliage = !goal.bare;
+        let tree = species.grow(goal.seed)?;
+        let front = pictured(&tree, View::FRONT, foliage);
+        let side = |azimuth: f64| pictured(&tree, View::degrees(azimuth, 0.0), foliage);
+        let whole: Vec<GoalView> = std::iter::once(front).chain(goal.second_view.map(side)).collect();
+        let (goals, clean) = match goal.degraded {
+            None => (whole, None),
+            Some(degraded) => {
+                let (spoilt, clean) = spoil(&whole[0], degraded)?;
+                (vec![spoilt], Some(problem(vec![clean], foliage)?))
+            }
+        };
+        Ok(Self {
+            spec: spec.clone(),
+            name: spec.name(),
+            fit: problem(goals, foliage)?,
+            clean,
+            held_out: goal.held_out.map(side),
+            ceiling: None,
+        })
+    }
+
+    fn file(folder: &Path, spec: &GoalSpec, goal: &FileGoal) -> anyhow::Result<Self> {
+        let picture = load(folder, &goal.file)?;
+        let frame = picture.frame(goal.height);
+        let view = GoalView { frame, goal: picture.bitmap, view: View::FRONT };
+        Ok(Self {
+            spec: spec.clone(),
+            name: spec.name(),
+            fit: problem(vec![view], !goal.bare)?,
+            clean: None,
+            held_out: None,
+            ceiling: None,
+        })
+    }
+}
+
+fn load(folder: &Path, file: &Path) -> anyhow::Result<Goal> {
+    let options = GoalOptions { max_side: Some(SIZE), ..GoalOptions::default() };
+    let path = folder.join(file);
+    Goal::load(&path, &options).with_context(|| format!("cannot use {}", path.display()))
+}
+
+/// Seed of the own tree that stands for a foreign one when its kind's ceiling is taken.
+const LIKE_SEED: u64 = 11;
+
+/// A problem of the default generator, from the default species.
+fn problem(goals: Vec<GoalView>, foliage: bool) -> anyhow::Result<FitProblem> {
+    let base = pleach_generators::preset("quaking_aspen").context("the default species is built in")?;
+    Ok(FitProblem { base: base.params.values().to_vec(), generator: base.generator, goals, foliage })
+}
+
+/// A picture of a whole tree in the frame that suits it.
+fn pictured(tree: &Tree, view: View, foliage: bool) -> GoalView {
+    let frame = Frame::automatic(tree, &view, foliage, SIZE, SIZE);
+    let mut goal = Bitmap::default();
+    Rasteriser::new().draw(tree, &view, &frame, foliage, &mut goal);
+    GoalView { goal, view, frame }
+}
+
+/// How trees of other seeds of the true parameters do, against the whole picture.
+fn seeds_of(goal: &OwnGoal) -> anyhow::Result<Option<Ceiling>> {
+    let whole = OwnGoal { degraded: None, ..goal.clone() };
+    let problem = Problem::own(&GoalSpec::Own(whole.clone()), &whole)?;
+    let species = pleach_generators::species(&goal.species)?;
+    let truth = Genome { values: species.params.values().to_vec(), tree_seed: goal.seed };
+    let fresh = fresh_seeds(&problem.fit, Objective::default(), Limits::default(), &truth, FRESH)?;
+    Ok(fresh.map(|fresh| Ceiling { likeness: fresh.likeness.mean, iou: fresh.iou.mean }))
+}
+
+/// How the other pictures by the same program do.
+fn others(folder: &Path, goal: &FileGoal, picture: &Bitmap) -> anyhow::Result<Option<Ceiling>> {
+    let mut sum = Ceiling { likeness: 0.0, iou: 0.0 };
+    for file in &goal.others {
+        let other = load(folder, file)?.bitmap;
+        sum.likeness += Likeness::of(&other, picture).value();
+        sum.iou += iou(&other, picture);
+    }
+    let n = goal.others.len() as f64;
+    Ok((n > 0.0).then(|| Ceiling { likeness: sum.likeness / n, iou: sum.iou / n }))
+}
+
+/// The picture with something wrong with it, understood as a user's picture would be, and the whole
+/// picture in the frame that it is believed to have.
+fn spoil(whole: &GoalView, how: Degraded) -> anyhow::Result<(GoalView, GoalView)> {
+    let ink = &whole.goal;
+    let (_, top, right, bottom) = ink.ink_box().context("a tree leaves ink")?;
+    let axis = f64::from(ink.width()) / 2.0;
+    let spoilt = match how {
+        Degraded::CutOff => {
+            // Half of the way from the trunk to the crown's edge.
+            let width = u32::midpoint(axis as u32, right);
+            Bitmap::from_fn(width, ink.height(), |x, y| ink.get(x, y))
+        }
+        Degraded::NoTrunk => {
+            let hidden = bottom - (bottom - top) / 6;
+            Bitmap::from_fn(ink.width(), ink.height(), |x, y| y < hidden && ink.get(x, y))
+        }
+        Degraded::Noise => {
+            let flips = |x: u32, y: u32| Key::root(NOISE).child(0, y).bits(0, x) % 50 == 0;
+            Bitmap::from_fn(ink.width(), ink.height(), |x, y| ink.get(x, y) != flips(x, y))
+        }
+    };
+    let understood = Goal::from_ink(spoilt, &GoalOptions::default())?;
+    let frame = understood.frame(10.0);
+    let clean = GoalView { frame: Frame { width: ink.width(), ..frame }, ..whole.clone() };
+    Ok((GoalView { frame, goal: understood.bitmap, view: whole.view }, clean))
+}
+
+/// Seed of the wrong pixels.
+const NOISE: u64 = 7;
+
+/// Intersection over union.
+pub(super) fn iou(a: &Bitmap, b: &Bitmap) -> f64 {
+    let both = a.intersection(b) as f64;
+    both / ((a.ink() + b.ink()) as f64 - both).max(1.0)
+}
+
+/// The silhouette of an individual as `view` sees it.
+pub(super) fn draw(problem: &FitProblem, genome: &Genome, view: &GoalView) -> anyhow::Result<Bitmap> {
+    let params = problem.generator.space().check(genome.values.clone())?;
+    let mut tree = Tree::default();
+    let foliage = if problem.foliage { Foliage::All } else { Foliage::None };
+    let growth = Growth { foliage, ..Growth::seed(genome.tree_seed) };
+    problem.generator.grow(&params, &growth, &mut Workspace::default(), &mut tree)?;
+    let mut bitmap = Bitmap::default();
+    Rasteriser::new().draw(&tree, &view.view, &view.frame, problem.foliage, &mut bitmap);
+    Ok(bitmap)
+}
