@@ -285,6 +285,36 @@ fn an_interrupted_run_resumes_to_the_same_bits() {
     dir.run(small(&goal, "parts", &resume)).fails(1, &["no checkpoint to resume from"]);
 }
 
+/// Asked to stop while the result is judged: what the search found is there, and judged when resumed.
+#[test]
+#[cfg(unix)]
+fn judging_can_be_interrupted() {
+    let dir = Dir::new();
+    let goal = goal("quaking_aspen.png");
+    let args = |out: &'static str| {
+        ["fit", &goal, "--out", out, "--size", "64", "--from", "black_tupelo", "--evaluations", "4"].to_vec()
+    };
+    let mut stopped = spawn(&dir, &args("parts"));
+    // With so few evaluations, the second checkpoint is the end of the search.
+    wait_for_progress(&dir.path("parts/checkpoint"));
+    signal(&stopped, "-TERM");
+    let asked = Instant::now();
+    let status = stopped.wait().unwrap();
+    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+    assert_eq!(status.code(), Some(1));
+    let summary: serde_json::Value = serde_json::from_slice(&read(&dir.path("parts/summary.json"))).unwrap();
+    assert_eq!((&summary["finished"], &summary["stopped_by"]), (&false.into(), &"interrupted".into()));
+    assert_eq!(summary["evaluations"], 4);
+    assert!(summary["fresh_seeds"].is_null() && dir.path("parts/checkpoint").exists());
+
+    let _ = dir.run([args("parts"), vec!["--resume"]].concat()).ok();
+    let _ = dir.run(args("whole")).ok();
+    assert!(results(&dir.path("whole")) == results(&dir.path("parts")));
+    let table = |run: &str| read(&dir.path(run).join("parameters.csv"));
+    assert!(table("whole") == table("parts"));
+    assert!(!dir.path("parts/checkpoint").exists());
+}
+
 #[test]
 #[cfg(unix)]
 fn a_checkpoint_cut_in_half_is_told() {
@@ -307,6 +337,11 @@ fn a_time_budget_ends_a_fit_and_a_target_ends_it_sooner() {
     let goal = goal("acer.png");
     let timed = dir.run(small(&goal, "timed", &["--timeout", "1s", "--json"])).json();
     assert_eq!(timed["stopped_by"], "timeout");
+    // The first guess takes longer than this, and what it found is tried.
+    let short = ["fit", &goal, "--out", "short", "--size", "64", "--timeout", "1ms", "--json"];
+    let short = dir.run(short).json();
+    assert_eq!(short["stopped_by"], "timeout");
+    assert!(short["evaluations"].as_u64().unwrap() > 0);
     let reached =
         dir.run(small(&goal, "target", &["--target-iou", "0.05", "--evaluations", "5000", "--json"])).json();
     assert_eq!(reached["stopped_by"], "target-iou");

@@ -138,6 +138,7 @@ fn problem(folder: &Path, spec: &TreefitGoal) -> anyhow::Result<Problem> {
 
 fn fit(problem: &Problem, method: &MethodSpec, seed: u64) -> anyhow::Result<(Vec<String>, Finished)> {
     let started = Instant::now();
+    let stop = AtomicBool::new(false);
     let mut fit = problem.fit.clone();
     let mut settings = FitSettings {
         optimizer: method.optimizer.parse()?,
@@ -152,7 +153,8 @@ fn fit(problem: &Problem, method: &MethodSpec, seed: u64) -> anyhow::Result<(Vec
     let mut named = (String::new(), String::new());
     let mut guess = None;
     if method.from == "auto" {
-        let found = first_guess(&fit, &settings, &candidates(&fit), &GuessSettings::default(), |_, _| ())?;
+        let found =
+            first_guess(&fit, &settings, &candidates(&fit), &GuessSettings::default(), &stop, |_, _| ())?;
         named = (found.names[0].0.clone(), number(found.names[0].1));
         fit.base = found.nearest[0].values.clone();
         guess = Some(Genome { values: fit.base.clone(), tree_seed: TREE_SEED });
@@ -161,7 +163,7 @@ fn fit(problem: &Problem, method: &MethodSpec, seed: u64) -> anyhow::Result<(Vec
         bail!("`from = \"{}\"`: expected auto or random", method.from);
     }
     let clock = || started.elapsed();
-    let outcome = pleach_fit::fit(&fit, &settings, Control::new(&clock, &AtomicBool::new(false)))?;
+    let outcome = pleach_fit::fit(&fit, &settings, Control::new(&clock, &stop))?;
     let best = outcome.best.filter(|best| best.score.cost.is_finite());
     let best = best.with_context(|| format!("{}: nothing grew", problem.name))?.genome;
 
@@ -171,7 +173,8 @@ fn fit(problem: &Problem, method: &MethodSpec, seed: u64) -> anyhow::Result<(Vec
     let card = ScoreCard::of(&picture, goal)?;
     let guess = guess.map(|genome| draw(&genome)).transpose()?;
     let guessed = guess.as_ref().map(|picture| ScoreCard::of(picture, goal)).transpose()?;
-    let judge = |genome: &Genome| fresh_seeds(&fit, settings.objective, Limits::default(), genome, FRESH);
+    let judge =
+        |genome: &Genome| fresh_seeds(&fit, settings.objective, Limits::default(), genome, FRESH, &stop);
     let fresh = judge(&best)?;
     let ceiling = problem.truth.as_ref().map(judge).transpose()?.flatten();
     let fresh_number = |of: fn(&FreshSeeds) -> f64| fresh.as_ref().map(of).map_or_else(String::new, number);

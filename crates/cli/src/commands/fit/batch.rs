@@ -2,7 +2,7 @@
 
 use super::folder::{self, RunFolder, Summary};
 use super::goal::{Goals, MaskSource};
-use super::{Fit, RUNS, catch_signals};
+use super::{Fit, RUNS, catch_signals, is_interruption};
 use crate::{files, output};
 use anyhow::{Context, bail, ensure};
 use pleach_fit::FitSettings;
@@ -159,7 +159,7 @@ fn one(
     }
     let summary: Summary = match fit.fit(&goals, &folder, settings, stop, resume) {
         // Asked to stop before there was a tree: no fault of the goal.
-        Err(_) if stop.load(Ordering::SeqCst) => return Ok(None),
+        Err(error) if is_interruption(&error) => return Ok(None),
         result => result?,
     };
     if summary.interrupted() {

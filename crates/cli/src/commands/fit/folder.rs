@@ -106,7 +106,15 @@ impl RunFolder {
             );
         }
         if resume && !unfinished {
-            bail!("{} holds no checkpoint to resume from", folder.path.display());
+            if folder.finished().is_some() {
+                bail!("{} holds a finished fit, and no checkpoint to resume from", folder.path.display());
+            }
+            output::note(format!("{} holds no checkpoint yet: the fit starts", folder.path.display()));
+        }
+        if overwrite && unfinished {
+            // Else a new fit that is killed before its first checkpoint would go on as the old one.
+            std::fs::remove_file(folder.checkpoint())
+                .with_context(|| format!("cannot remove {}", folder.checkpoint().display()))?;
         }
         Ok(folder)
     }

@@ -13,13 +13,13 @@ pub(crate) use start::candidates;
 
 use crate::{input, output};
 use aftermath::Aftermath;
-use anyhow::{Context, bail};
+use anyhow::{Context, anyhow, bail};
 use folder::{RunFolder, Summary};
 pub(super) use goal::places;
 use goal::{Goals, MaskSource};
 use options::Settings;
 use pleach_fit::{
-    Budget, CheckpointSettings, Control, FitProblem, FitSettings, GoalView, Objective, StopReason,
+    Budget, CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, Objective, StopReason,
 };
 use pleach_silhouette::goal::Goal;
 use pleach_tree::{Foliage, Growth};
@@ -49,6 +49,10 @@ The run folder holds best.toml (a species file that `pleach grow` takes), best.p
 history.csv (a row a generation), parameters.csv (how well the goal determines each parameter) and
 summary.json; and a checkpoint while the fit is unfinished.
 
+Asked to stop (ctrl-C), a fit writes what it has found and ends with an error; --resume goes on with
+it and comes to what it would have come to. The first guess and the judging of the result, which need
+some seconds before and after the search, are then made again.
+
 With several goals, the budget is for each. A goal that fails is named and the others go on. With
 --resume a batch goes on where it stopped, and skips what is finished.";
 
@@ -63,7 +67,8 @@ pub(crate) struct Fit {
     /// default
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Go on from the checkpoint in the run folder; with several goals, skip those that are finished
+    /// Go on from the checkpoint in the run folder, or start if the fit was stopped before there was
+    /// one; with several goals, skip those that are finished
     #[arg(long)]
     resume: bool,
     /// Fit goals I, I + N, I + 2N … only; the summary is then summary-I-of-N.csv
@@ -157,7 +162,8 @@ struct SearchArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "When to stop (whatever comes first; after a minute if nothing is said)")]
 struct BudgetArgs {
-    /// After this time, such as 90s, 10m or 2h
+    /// After this time, such as 90s, 10m or 2h. The first guess counts; it is made in full, and a first
+    /// few trees are tried whatever time is left. Judging the result comes after it
     #[arg(long, value_name = "TIME", value_parser = options::duration)]
     timeout: Option<Duration>,
     /// After this many trees were grown and compared
@@ -193,18 +199,28 @@ impl Fit {
     fn single(&self, goal: &Path, settings: &FitSettings) -> anyhow::Result<()> {
         let goals = Goals::load(goal, &self.goal_options, self.verbose)?;
         let folder = self.folder(goal)?;
-        let summary = self.fit(&goals, &folder, settings, &catch_signals()?, self.resume)?;
+        let resume = self.resume && folder.is_unfinished();
+        if !resume {
+            folder.forget()?;
+        }
+        let interrupted = || {
+            anyhow!(
+                "interrupted; `pleach fit {} --out {} --resume` with the same options goes on",
+                goal.display(),
+                folder.path().display()
+            )
+        };
+        let summary = match self.fit(&goals, &folder, settings, &catch_signals()?, resume) {
+            Err(error) if is_interruption(&error) => return Err(interrupted()),
+            result => result?,
+        };
         if self.json {
             output::json(&summary)?;
         } else {
             output::line(folder::report(&summary, &folder))?;
         }
         if summary.interrupted() {
-            bail!(
-                "interrupted; `pleach fit {} --out {} --resume` with the same options goes on",
-                goal.display(),
-                folder.path().display()
-            );
+            return Err(interrupted());
         }
         folder.remove_checkpoint();
         Ok(())
@@ -222,24 +238,38 @@ impl Fit {
         let mut settings = settings.clone();
         let mut problem = self.problem(&goal.working)?;
         let checkpoint = CheckpointSettings { resume, ..CheckpointSettings::new(folder.checkpoint()) };
-        let started = Instant::now();
+        let mut started = Instant::now();
+        let looks_like = self.search.from.begin(self.goals.len() > 1, &mut problem, &mut settings, stop)?;
+        if resume {
+            // The first guess is made again, but its time has been counted.
+            started = Instant::now();
+        }
         let clock = || started.elapsed();
-        let looks_like = self.search.from.begin(self.goals.len() > 1, &mut problem, &mut settings)?;
         let mut bar = Bar::new(&settings);
         let control =
             Control { observers: vec![&mut bar], checkpoint: Some(checkpoint), ..Control::new(&clock, stop) };
-        let outcome = pleach_fit::fit(&problem, &settings, control)?;
+        let mut outcome = pleach_fit::fit(&problem, &settings, control)?;
         bar.finish();
 
-        let Some(best) = outcome.best.as_ref().filter(|best| best.score.cost.is_finite()) else {
+        let Some(best) = outcome.best.clone().filter(|best| best.score.cost.is_finite()) else {
+            if outcome.stop == StopReason::Interrupted {
+                return Err(FitError::Interrupted.into());
+            }
             bail!("no parameter list that grows a tree was found in {} evaluations", outcome.evaluations);
         };
         let aftermath = match outcome.stop {
             // Whoever waits for the prompt has it at once.
             StopReason::Interrupted => None,
-            _ => Some(Aftermath::of(&problem, &settings, best)?),
+            _ => match Aftermath::of(&problem, &settings, &best, stop) {
+                Err(FitError::Interrupted) => None,
+                result => Some(result?),
+            },
         };
-        let best = aftermath.as_ref().map_or(best, |aftermath| &aftermath.best);
+        if aftermath.is_none() {
+            // The search may have come to its end, the fit has not.
+            outcome.stop = StopReason::Interrupted;
+        }
+        let best = aftermath.as_ref().map_or(&best, |aftermath| &aftermath.best);
         let species = folder::species(&problem, best, &goal.name)?;
         let growth = Growth {
             limits: settings.limits,
@@ -322,6 +352,11 @@ impl Fit {
             .unwrap_or_else(|| Path::new(RUNS).join(goal.file_stem().unwrap_or_else(|| "goal".as_ref())));
         RunFolder::open(path, self.resume, self.overwrite)
     }
+}
+
+/// Whether this is a fit that was asked to stop before it had anything to show.
+fn is_interruption(error: &anyhow::Error) -> bool {
+    matches!(error.downcast_ref(), Some(FitError::Interrupted))
 }
 
 /// A flag that ctrl-C and a request to end raise.
