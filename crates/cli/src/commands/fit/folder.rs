@@ -1,6 +1,7 @@
 //! The run folder.
 
 use super::aftermath::Aftermath;
+use super::asked::Asked;
 use super::start::LooksLike;
 use super::views::ViewScore;
 use crate::{files, output};
@@ -38,6 +39,7 @@ pub(super) struct Results<'a> {
     pub(super) foliage: bool,
     pub(super) from: String,
     pub(super) looks_like: Vec<LooksLike>,
+    pub(super) options: Asked,
 }
 
 /// `summary.json`.
@@ -74,6 +76,8 @@ pub(super) struct Summary {
     metres_per_pixel: f64,
     goal_width: u32,
     goal_height: u32,
+    /// What was asked for; a batch that is resumed compares it.
+    options: Asked,
     version: &'static str,
 }
 
@@ -231,6 +235,7 @@ impl RunFolder {
             metres_per_pixel: frame.metres_per_pixel,
             goal_width: goal.bitmap.width(),
             goal_height: goal.bitmap.height(),
+            options: results.options,
             version: env!("CARGO_PKG_VERSION"),
         };
         files::write_text(&self.summary(), &(serde_json::to_string_pretty(&summary)? + "\n"))?;

@@ -1,6 +1,7 @@
 //! `pleach fit`: from goal images to run folders.
 
 mod aftermath;
+mod asked;
 mod batch;
 mod folder;
 mod goal;
@@ -54,7 +55,8 @@ it and comes to what it would have come to. The first guess and the judging of t
 some seconds before and after the search, are then made again.
 
 With several goals, the budget is for each. A goal that fails is named and the others go on. With
---resume a batch goes on where it stopped, and skips what is finished.";
+--resume a batch goes on where it stopped, and skips what was finished with the same options; with
+others it is refused.";
 
 /// Fit a generator's parameters to a goal image
 #[derive(Debug, clap::Args)]
@@ -74,6 +76,9 @@ pub(crate) struct Fit {
     /// Fit goals I, I + N, I + 2N … only; the summary is then summary-I-of-N.csv
     #[arg(long, value_name = "I/N")]
     shard: Option<batch::Shard>,
+    /// How often the state of the search is saved: what a crash may cost
+    #[arg(long, value_name = "TIME", default_value = "1s", value_parser = options::duration)]
+    checkpoint_every: Duration,
     /// Start anew over an unfinished fit in the run folder
     #[arg(long, conflicts_with = "resume")]
     overwrite: bool,
@@ -231,13 +236,14 @@ impl Fit {
         &self,
         goal: &Goals,
         folder: &RunFolder,
-        settings: &FitSettings,
+        asked_for: &FitSettings,
         stop: &Arc<AtomicBool>,
         resume: bool,
     ) -> anyhow::Result<Summary> {
-        let mut settings = settings.clone();
+        let mut settings = asked_for.clone();
         let mut problem = self.problem(&goal.working)?;
-        let checkpoint = CheckpointSettings { resume, ..CheckpointSettings::new(folder.checkpoint()) };
+        let checkpoint =
+            CheckpointSettings { path: folder.checkpoint(), interval: self.checkpoint_every, resume };
         let mut started = Instant::now();
         let looks_like = self.search.from.begin(self.goals.len() > 1, &mut problem, &mut settings, stop)?;
         if resume {
@@ -295,6 +301,7 @@ impl Fit {
             foliage: problem.foliage,
             from: self.search.from.to_string(),
             looks_like,
+            options: asked::asked(self, asked_for)?,
         })
     }
 
@@ -364,7 +371,7 @@ fn catch_signals() -> anyhow::Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&stop);
     ctrlc::set_handler(move || {
-        // A second signal means now; the checkpoint on disk is at most a second old.
+        // A second signal means now; the checkpoint on disk is as old as it may be.
         if raised.swap(true, Ordering::SeqCst) {
             std::process::exit(1);
         }
