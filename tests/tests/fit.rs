@@ -74,6 +74,15 @@ fn the_run_folder_holds_what_it_should() {
     let expected = ["best.png", "best.toml", "history.csv", "overlay.png", "parameters.csv", "summary.json"];
     assert_eq!(names(&folder), expected);
 
+    // The card is of the goal's own size; what the search saw at 64 pixels stands beside it.
+    let search = &summary["search"];
+    assert_eq!((&search["goal_width"], &summary["goal_width"]), (&64.into(), &256.into()));
+    let history = String::from_utf8(read(&folder.join("history.csv"))).unwrap();
+    let last: f64 = history.lines().last().unwrap().split(',').nth(4).unwrap().parse().unwrap();
+    // Numbers that went back to the start may have cost a little, and the last generation is cut off.
+    assert!((search["iou"].as_f64().unwrap() - last).abs() < 0.05, "{search} {last}");
+    assert_ne!(search["iou"], summary["iou"]);
+
     // How it does with other seeds, and what of it the goal determines.
     assert_eq!(summary["fresh_seeds"]["count"], 16);
     assert!(summary["fresh_seeds"]["iou"]["sd"].as_f64().unwrap() > 0.0);
@@ -353,8 +362,9 @@ fn the_first_guess_can_be_interrupted() {
     let dir = Dir::new();
     let goal = goal("treegen_small_pine.png");
     let args = |out: &'static str, more: &[&'static str]| {
-        let args = ["fit", &goal, "--no-leaves", "--size", "64", "--evaluations", "30", "--out", out];
-        [&args[..], more].concat().into_iter().map(str::to_owned).collect::<Vec<_>>()
+        let args = ["fit", &goal, "--no-leaves", "--size", "64", "--evaluations", "12", "--out", out];
+        // Few numbers are free, so that judging them takes little.
+        [&args[..], &["--free", "ratio"], more].concat().into_iter().map(str::to_owned).collect::<Vec<_>>()
     };
     let _ = dir.run(args("whole", &[])).ok();
     // The folder is made before the guess, and the checkpoint after it.

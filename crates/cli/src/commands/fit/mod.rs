@@ -102,7 +102,8 @@ struct GoalArgs {
     /// Height of the tree in metres: a silhouette does not show it
     #[arg(long, value_name = "METRES", default_value_t = 10.0, value_parser = options::positive)]
     height: f64,
-    /// Longer side of the pictures that are compared, in pixels; larger goals are reduced
+    /// Longer side of the pictures that the search compares, in pixels; larger goals are reduced. The
+    /// score card and best.png have the goal's own size
     #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(16..=2048))]
     size: u32,
     /// A picture of the goal's size that says what is tree: white on black. With `auto` the goal is a
@@ -294,6 +295,7 @@ impl Fit {
             species: &species,
             tree: &tree,
             goal: &goal.full,
+            working: &goal.working,
             view: &view,
             views: further.iter().map(score).collect::<anyhow::Result<_>>()?,
             holdout_views: args.holdout_view.iter().map(score).collect::<anyhow::Result<_>>()?,
