@@ -72,6 +72,35 @@ fn each_goal_has_a_folder_and_a_row() {
     assert_eq!(table(&dir.path("runs/summary.csv")), rows);
 }
 
+/// What is finished counts only for a batch that asks for the same.
+#[test]
+fn a_batch_is_not_resumed_with_other_options() {
+    let dir = Dir::new();
+    goals(&dir);
+    let _ = dir.run(fit(&ALL[..1], &["--out", "runs", "--shard", "1/1"])).ok();
+    let before = std::fs::read(dir.path("runs/acer/summary.json")).unwrap();
+    let resume = |more: &[&'static str]| {
+        dir.run([fit(&ALL[..2], &["--out", "runs", "--resume"]), more.to_vec()].concat())
+    };
+    let cases: [(&[&str], &str); 6] = [
+        (&["--seed", "2"], "--seed was 1 and is 2"),
+        (&["--evaluations", "30"], "--evaluations was 20 and is 30"),
+        (&["--objective", "iou"], "--objective was balance and is iou"),
+        (&["--optimizer", "hewitt"], "--optimizer was evolution and is hewitt"),
+        (&["--free", "leaves"], "--free was crown and is crown leaves"),
+        (&["--timeout", "1m"], "--timeout was nothing and is 60s"),
+    ];
+    for (more, difference) in cases {
+        resume(more).fails(1, &["runs/acer", difference, "--overwrite", "--out"]);
+    }
+    assert!(!dir.path("runs/palm").exists(), "nothing is begun");
+    assert!(before == std::fs::read(dir.path("runs/acer/summary.json")).unwrap());
+    // Those that decide nothing are free, and defaults that are spelled out are the same.
+    let run = resume(&["--threads", "1", "--verbose", "--seed", "1", "--objective", "balance"]);
+    let _ = run.ok();
+    assert_eq!(run.stderr().matches("finished before").count(), 1, "{run}");
+}
+
 #[test]
 fn a_goal_that_fails_is_named_and_the_others_go_on() {
     let dir = Dir::new();

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use pleach_tests::Dir;
+use std::io::{BufRead as _, BufReader, Read as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
@@ -72,6 +73,15 @@ fn the_run_folder_holds_what_it_should() {
     };
     let expected = ["best.png", "best.toml", "history.csv", "overlay.png", "parameters.csv", "summary.json"];
     assert_eq!(names(&folder), expected);
+
+    // The card is of the goal's own size; what the search saw at 64 pixels stands beside it.
+    let search = &summary["search"];
+    assert_eq!((&search["goal_width"], &summary["goal_width"]), (&64.into(), &256.into()));
+    let history = String::from_utf8(read(&folder.join("history.csv"))).unwrap();
+    let last: f64 = history.lines().last().unwrap().split(',').nth(4).unwrap().parse().unwrap();
+    // Numbers that went back to the start may have cost a little, and the last generation is cut off.
+    assert!((search["iou"].as_f64().unwrap() - last).abs() < 0.05, "{search} {last}");
+    assert_ne!(search["iou"], summary["iou"]);
 
     // How it does with other seeds, and what of it the goal determines.
     assert_eq!(summary["fresh_seeds"]["count"], 16);
@@ -285,6 +295,141 @@ fn an_interrupted_run_resumes_to_the_same_bits() {
     dir.run(small(&goal, "parts", &resume)).fails(1, &["no checkpoint to resume from"]);
 }
 
+/// Runs the program and kills it without warning after `life`; whether it came to its end before.
+#[cfg(unix)]
+fn live(dir: &Dir, args: &[&str], life: Duration) -> bool {
+    let mut child = spawn(dir, args);
+    std::thread::sleep(life);
+    let ended = child.try_wait().unwrap();
+    if ended.is_none() {
+        signal(&child, "-KILL");
+    }
+    let output = child.wait_with_output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(ended.is_none_or(|status| status.success()), "{message}");
+    ended.is_some()
+}
+
+/// Killed twenty times, before the first checkpoint, in the search and while files are written, and
+/// resumed on other numbers of threads: the end is that of a run that was left alone.
+#[test]
+#[cfg(unix)]
+fn twenty_kills_change_no_bit() {
+    let dir = Dir::new();
+    let goal = goal("hill_cherry.png");
+    let args = |out: &'static str, threads: &'static str| {
+        let more = ["--evaluations", "1500", "--checkpoint-every", "1ms", "--threads", threads];
+        small(&goal, out, &more).into_iter().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let args = |out, threads, resume: bool| {
+        let mut args = args(out, threads);
+        args.extend(resume.then(|| "--resume".to_owned()));
+        args
+    };
+    let started = Instant::now();
+    let _ = dir.run(args("whole", "2", false)).ok();
+    let whole = started.elapsed();
+
+    // A linear congruence: moments that nobody chose, and the same ones every time.
+    let mut moment = 0x2545_f491_u32;
+    let mut kills = 0;
+    for (i, threads) in ["1", "2", "8"].into_iter().cycle().take(20).enumerate() {
+        moment = moment.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        // All lives together are a little shorter than the run; some end before it has begun.
+        let share = f64::from(moment >> 8) / f64::from(1 << 24);
+        let args = args("parts", threads, i > 0);
+        let args: Vec<&str> = args.iter().map(String::as_str).collect();
+        if live(&dir, &args, whole.mul_f64(share / 12.0)) {
+            break;
+        }
+        kills += 1;
+        // Killed after all was done.
+        if dir.path("parts/summary.json").exists() && !dir.path("parts/checkpoint").exists() {
+            break;
+        }
+    }
+    assert!(kills >= 10, "the run was over after {kills} kills");
+    if dir.path("parts/checkpoint").exists() {
+        let _ = dir.run(args("parts", "8", true)).ok();
+    }
+    assert!(results(&dir.path("whole")) == results(&dir.path("parts")), "after {kills} kills");
+}
+
+/// Killed or asked to stop in the first guess, a fit starts when it is resumed.
+#[test]
+#[cfg(unix)]
+fn the_first_guess_can_be_interrupted() {
+    let dir = Dir::new();
+    let goal = goal("treegen_small_pine.png");
+    let args = |out: &'static str, more: &[&'static str]| {
+        let args = ["fit", &goal, "--no-leaves", "--size", "64", "--evaluations", "12", "--out", out];
+        // Few numbers are free, so that judging them takes little.
+        [&args[..], &["--free", "ratio"], more].concat().into_iter().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let _ = dir.run(args("whole", &[])).ok();
+    // The folder is made before the guess, and the checkpoint after it.
+    let begin = |more: &[&'static str]| {
+        let child = spawn(&dir, &args("parts", more).iter().map(String::as_str).collect::<Vec<_>>());
+        while !dir.path("parts").exists() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        child
+    };
+    for (wait, more) in [(5, &[][..]), (60, &["--resume", "--threads", "1"]), (20, &["--resume"])] {
+        let mut killed = begin(more);
+        std::thread::sleep(Duration::from_millis(wait));
+        signal(&killed, "-KILL");
+        let _ = killed.wait();
+    }
+    let mut stopped = begin(&["--resume"]);
+    // It says that it starts; then it catches signals.
+    let mut lines = BufReader::new(stopped.stderr.take().unwrap());
+    let mut message = String::new();
+    let _ = lines.read_line(&mut message).unwrap();
+    assert!(message.contains("no checkpoint yet"), "{message}");
+    std::thread::sleep(Duration::from_millis(100));
+    signal(&stopped, "-TERM");
+    let asked = Instant::now();
+    let _ = lines.read_to_string(&mut message).unwrap();
+    let status = stopped.wait().unwrap();
+    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+    assert_eq!(status.code(), Some(1), "{message}");
+    assert!(message.contains("interrupted") && message.contains("--resume"), "{message}");
+    assert!(!dir.path("parts/checkpoint").exists(), "the guess takes longer than these moments");
+    let _ = dir.run(args("parts", &["--resume"])).ok();
+    assert!(results(&dir.path("whole")) == results(&dir.path("parts")));
+}
+
+/// Asked to stop while the result is judged: what the search found is there, and judged when resumed.
+#[test]
+#[cfg(unix)]
+fn judging_can_be_interrupted() {
+    let dir = Dir::new();
+    let goal = goal("quaking_aspen.png");
+    let args = |out: &'static str| {
+        ["fit", &goal, "--out", out, "--size", "64", "--from", "black_tupelo", "--evaluations", "4"].to_vec()
+    };
+    let mut stopped = spawn(&dir, &args("parts"));
+    // With so few evaluations, the second checkpoint is the end of the search.
+    wait_for_progress(&dir.path("parts/checkpoint"));
+    signal(&stopped, "-TERM");
+    let asked = Instant::now();
+    let status = stopped.wait().unwrap();
+    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+    assert_eq!(status.code(), Some(1));
+    let summary: serde_json::Value = serde_json::from_slice(&read(&dir.path("parts/summary.json"))).unwrap();
+    assert_eq!((&summary["finished"], &summary["stopped_by"]), (&false.into(), &"interrupted".into()));
+    assert_eq!(summary["evaluations"], 4);
+    assert!(summary["fresh_seeds"].is_null() && dir.path("parts/checkpoint").exists());
+
+    let _ = dir.run([args("parts"), vec!["--resume"]].concat()).ok();
+    let _ = dir.run(args("whole")).ok();
+    assert!(results(&dir.path("whole")) == results(&dir.path("parts")));
+    let table = |run: &str| read(&dir.path(run).join("parameters.csv"));
+    assert!(table("whole") == table("parts"));
+    assert!(!dir.path("parts/checkpoint").exists());
+}
+
 #[test]
 #[cfg(unix)]
 fn a_checkpoint_cut_in_half_is_told() {
@@ -307,6 +452,11 @@ fn a_time_budget_ends_a_fit_and_a_target_ends_it_sooner() {
     let goal = goal("acer.png");
     let timed = dir.run(small(&goal, "timed", &["--timeout", "1s", "--json"])).json();
     assert_eq!(timed["stopped_by"], "timeout");
+    // The first guess takes longer than this, and what it found is tried.
+    let short = ["fit", &goal, "--out", "short", "--size", "64", "--timeout", "1ms", "--json"];
+    let short = dir.run(short).json();
+    assert_eq!(short["stopped_by"], "timeout");
+    assert!(short["evaluations"].as_u64().unwrap() > 0);
     let reached =
         dir.run(small(&goal, "target", &["--target-iou", "0.05", "--evaluations", "5000", "--json"])).json();
     assert_eq!(reached["stopped_by"], "target-iou");

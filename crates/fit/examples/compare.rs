@@ -73,7 +73,14 @@ fn known(problem: &FitProblem, settings: &FitSettings, except: &str) -> Result<S
     };
     let names = FIFTEEN.iter().filter(|name| **name != except);
     let candidates: Vec<Candidate> = names.filter_map(|name| candidate(name)).collect();
-    let guess = first_guess(problem, settings, &candidates, &GuessSettings::default(), |_, _| ())?;
+    let guess = first_guess(
+        problem,
+        settings,
+        &candidates,
+        &GuessSettings::default(),
+        &AtomicBool::new(false),
+        |_, _| (),
+    )?;
     Ok(Start::Lists(guess.nearest.into_iter().map(|guess| guess.values).collect()))
 }
 

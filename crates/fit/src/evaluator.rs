@@ -230,11 +230,38 @@ impl Evaluator {
     ///
     /// Allocates nothing once `memory` has held a tree as large as this one.
     pub fn evaluate(&self, genome: &Genome, memory: &mut EvalWorkspace) -> Score {
-        let Limits { stems, leaves, knots } = self.limits;
-        self.evaluate_within(genome, Size { stems, leaves, knots }, memory)
+        self.evaluate_within(genome, Size::ANY, memory, None)
     }
 
-    fn evaluate_within(&self, genome: &Genome, most: Size, memory: &mut EvalWorkspace) -> Score {
+    /// The score of `genome` and its likeness, whatever the objective is: of one and the same tree.
+    pub(crate) fn evaluate_and_look(&self, genome: &Genome) -> (Score, f64) {
+        let mut looks = 0.0;
+        let score =
+            self.with_memory(|memory| self.evaluate_within(genome, Size::ANY, memory, Some(&mut looks)));
+        (score, looks)
+    }
+
+    /// [`Evaluator::evaluate`] in memory that is kept from call to call.
+    pub(crate) fn score(&self, genome: &Genome) -> Score {
+        self.with_memory(|memory| self.evaluate(genome, memory))
+    }
+
+    fn with_memory<T>(&self, work: impl FnOnce(&mut EvalWorkspace) -> T) -> T {
+        let pool = || self.pool.lock().unwrap_or_else(PoisonError::into_inner);
+        let taken = pool().pop();
+        let mut memory = taken.unwrap_or_else(|| self.workspace());
+        let result = work(&mut memory);
+        pool().push(memory);
+        result
+    }
+
+    fn evaluate_within(
+        &self,
+        genome: &Genome,
+        most: Size,
+        memory: &mut EvalWorkspace,
+        looks: Option<&mut f64>,
+    ) -> Score {
         let EvalWorkspace { params, values, tree, workspace, rasteriser, bitmap, comparisons } = memory;
         let mut growth = Growth {
             seed: genome.tree_seed,
@@ -255,6 +282,7 @@ impl Evaluator {
             return Score::FAILED;
         }
         let mut sum = Score::of_cost(0.0);
+        let mut unlike = 0.0;
         if let Some(factor) = self.factor(tree)
             && self.generator.resize(values, factor)
         {
@@ -278,12 +306,18 @@ impl Evaluator {
             for view in &self.views {
                 rasteriser.draw(tree, &view.view, &view.frame, self.foliage, bitmap);
                 let agreement = view.compare(bitmap, self.objective, comparisons);
+                if looks.is_some() {
+                    unlike += 1.0 - view.likeness(bitmap, comparisons);
+                }
                 sum.cost += 1.0 - agreement.value;
                 sum.iou += agreement.iou;
                 sum.accuracy += agreement.accuracy;
             }
         }
         let pictures = f64::from(self.seeds) * self.views.len() as f64;
+        if let Some(looks) = looks {
+            *looks = 1.0 - unlike / pictures;
+        }
         Score { cost: sum.cost / pictures, iou: sum.iou / pictures, accuracy: sum.accuracy / pictures, ..sum }
     }
 
@@ -368,18 +402,11 @@ fn blend(overlaps: &Overlaps) -> f64 {
 
 impl Evaluate for Evaluator {
     fn scores(&self, genomes: &[Genome], most: Size) -> Vec<Score> {
-        let pool = || self.pool.lock().unwrap_or_else(PoisonError::into_inner);
         genomes
             .par_iter()
             // Trees differ a hundredfold in cost: each is a piece of work of its own.
             .with_max_len(1)
-            .map(|genome| {
-                let taken = pool().pop();
-                let mut memory = taken.unwrap_or_else(|| self.workspace());
-                let score = self.evaluate_within(genome, most, &mut memory);
-                pool().push(memory);
-                score
-            })
+            .map(|genome| self.with_memory(|memory| self.evaluate_within(genome, most, memory, None)))
             .collect()
     }
 }

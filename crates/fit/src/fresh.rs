@@ -1,11 +1,13 @@
 //! What parameters are worth with other seeds than the one that was fitted.
 
-use crate::evaluator::{Evaluator, FitProblem, ProblemError};
-use crate::genome::{Genome, Score, Size};
+use crate::evaluator::{Evaluator, FitProblem};
+use crate::genome::{Genome, Score};
 use crate::objective::Objective;
-use crate::search::Evaluate as _;
+use crate::run::FitError;
+use crate::stoppable;
 use pleach_tree::Limits;
 use serde::Serialize;
+use std::sync::atomic::AtomicBool;
 
 /// Mean and spread of a score over seeds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -39,23 +41,24 @@ const FIRST: u64 = 1000;
 /// `None` if one of them does not grow within `limits`.
 ///
 /// # Errors
-/// A problem that [`Evaluator::new`] refuses.
+/// A problem that [`Evaluator::new`] refuses, or [`FitError::Interrupted`] once `stop` is raised.
 pub fn fresh_seeds(
     problem: &FitProblem,
     objective: Objective,
     limits: Limits,
     genome: &Genome,
     count: usize,
-) -> Result<Option<FreshSeeds>, ProblemError> {
+    stop: &AtomicBool,
+) -> Result<Option<FreshSeeds>, FitError> {
     let seeds = (0..count as u64).map(|i| genome.tree_seed.wrapping_add(FIRST + i));
     let trees: Vec<Genome> = seeds.map(|tree_seed| Genome { tree_seed, ..genome.clone() }).collect();
-    let scores = Evaluator::new(problem, objective, limits)?.scores(&trees, Size::ANY);
-    let looks = Evaluator::new(problem, Objective::Likeness, limits)?.scores(&trees, Size::ANY);
-    if scores.is_empty() || scores.iter().any(|score| !score.cost.is_finite()) {
+    let evaluator = Evaluator::new(problem, objective, limits)?;
+    let scores = stoppable::map(&trees, stop, |tree| evaluator.evaluate_and_look(tree))?;
+    if scores.is_empty() || scores.iter().any(|(score, _)| !score.cost.is_finite()) {
         return Ok(None);
     }
-    let spread = |of: fn(&Score) -> f64| Spread::of(scores.iter().map(of));
-    let likeness = Spread::of(looks.iter().map(|score| 1.0 - score.cost));
+    let spread = |of: fn(&Score) -> f64| Spread::of(scores.iter().map(|(score, _)| of(score)));
+    let likeness = Spread::of(scores.iter().map(|(_, looks)| *looks));
     Ok(Some(FreshSeeds {
         count,
         iou: spread(|score| score.iou),

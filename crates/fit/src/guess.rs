@@ -6,14 +6,15 @@
 //! trees takes a second or two, and what is grown anew is never out of date.
 
 use crate::evaluator::{Evaluator, FitProblem};
-use crate::genome::{Genome, Score, Size};
+use crate::genome::{Genome, Score};
 use crate::objective::Objective;
 use crate::run::FitError;
-use crate::search::Evaluate as _;
 use crate::settings::FitSettings;
 use crate::space::{Freedom, SearchSpace, TreeSeed};
+use crate::stoppable;
 use crate::stream::Stream;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// A species that a goal may be of.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,13 +81,14 @@ const DOUBT: f64 = 0.02;
 /// Of `settings` the seed, tree seed, objective and limits are used. `problem.base` is not.
 ///
 /// # Errors
-/// A problem that [`Evaluator::new`] refuses, candidates that are not the generator's, or
-/// [`FitError::NoStart`] if none of them grows.
+/// A problem that [`Evaluator::new`] refuses, candidates that are not the generator's,
+/// [`FitError::NoStart`] if none of them grows, or [`FitError::Interrupted`] once `stop` is raised.
 pub fn first_guess(
     problem: &FitProblem,
     settings: &FitSettings,
     candidates: &[Candidate],
     guess: &GuessSettings,
+    stop: &AtomicBool,
     mut progress: impl FnMut(usize, usize),
 ) -> Result<FirstGuess, FitError> {
     let looks = Evaluator::new(problem, Objective::Likeness, settings.limits)?;
@@ -94,8 +96,7 @@ pub fn first_guess(
     let tries = tries(problem, settings, candidates, guess)?;
     let mut scores = Vec::new();
     for batch in tries.chunks(BATCH) {
-        let genomes: Vec<Genome> = batch.iter().map(|attempt| attempt.genome.clone()).collect();
-        scores.extend(looks.scores(&genomes, Size::ANY));
+        scores.extend(stoppable::map(batch, stop, |attempt| looks.score(&attempt.genome))?);
         progress(scores.len(), tries.len());
     }
     let mut costs = vec![f64::INFINITY; candidates.len()];
@@ -114,8 +115,7 @@ pub fn first_guess(
 
     // Whatever looks alike may still stand beside the goal; what the search makes small decides.
     let exact = Evaluator::new(problem, settings.objective, settings.limits)?.over_seeds(settings.robust);
-    let genomes: Vec<Genome> = alike.iter().map(|(_, attempt)| attempt.genome.clone()).collect();
-    let scores = exact.scores(&genomes, Size::ANY);
+    let scores = stoppable::map(&alike, stop, |(_, attempt)| exact.score(&attempt.genome))?;
     let mut nearest: Vec<Guess> = alike
         .into_iter()
         .zip(scores)

@@ -39,6 +39,7 @@ pub mod run;
 pub mod search;
 pub mod settings;
 pub mod space;
+mod stoppable;
 pub mod stream;
 #[cfg(test)]
 mod testing;

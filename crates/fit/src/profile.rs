@@ -1,12 +1,14 @@
 //! What a picture cannot tell: how far each number can move before anyone sees it.
 
 use crate::evaluator::{Evaluator, FitProblem};
-use crate::genome::{Genome, Scored, Size};
+use crate::genome::{Genome, Scored};
 use crate::run::{FitError, search_space};
-use crate::search::Evaluate as _;
 use crate::settings::FitSettings;
 use crate::space::{Gene, SearchSpace};
+use crate::stoppable;
 use serde::Serialize;
+use std::collections::VecDeque;
+use std::sync::atomic::AtomicBool;
 
 /// How well a goal determines a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -42,12 +44,14 @@ const SPENT_ON_RETURN: f64 = 0.1;
 /// by more than `tolerance`, best the spread of one seed's cost.
 ///
 /// # Errors
-/// Those of [`crate::fit`] on the same problem and settings.
+/// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once `stop`
+/// is raised.
 pub fn profile(
     problem: &FitProblem,
     settings: &FitSettings,
     best: &Scored,
     tolerance: f64,
+    stop: &AtomicBool,
 ) -> Result<Vec<Profile>, FitError> {
     let (space, evaluator) = prepare(problem, settings)?;
     let mut moves: Vec<Genome> = Vec::new();
@@ -66,7 +70,7 @@ pub fn profile(
         }
         plan.push((gene.slot, of_gene));
     }
-    let scores = evaluator.scores(&moves, Size::ANY);
+    let scores = stoppable::map(&moves, stop, |genome| evaluator.score(genome))?;
     Ok(plan
         .into_iter()
         .map(|(slot, of_gene)| {
@@ -121,7 +125,8 @@ fn alternatives(gene: &Gene, value: f64) -> Vec<((usize, usize), f64)> {
 /// a tree's. Returns the individual, with its score, and the slots that went back.
 ///
 /// # Errors
-/// Those of [`crate::fit`] on the same problem and settings.
+/// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once `stop`
+/// is raised.
 pub fn put_back_unseen(
     problem: &FitProblem,
     settings: &FitSettings,
@@ -129,26 +134,67 @@ pub fn put_back_unseen(
     profiles: &[Profile],
     start: &[f64],
     tolerance: f64,
+    stop: &AtomicBool,
 ) -> Result<(Scored, Vec<usize>), FitError> {
     let (space, evaluator) = prepare(problem, settings)?;
     let hidden = space.size_variations(&best.genome.values);
-    let mut memory = evaluator.workspace();
     let most = best.score.cost + SPENT_ON_RETURN * tolerance;
+    let mut waiting: VecDeque<usize> = profiles
+        .iter()
+        .filter(|profile| profile.seen == Seen::NotSeen)
+        .map(|profile| profile.slot)
+        .filter(|slot| best.genome.values[*slot] != start[*slot] && !hidden.contains(slot))
+        .collect();
     let mut kept = best.clone();
     let mut slots = Vec::new();
-    for slot in profiles.iter().filter(|profile| profile.seen == Seen::NotSeen).map(|profile| profile.slot) {
-        if kept.genome.values[slot] == start[slot] || hidden.contains(&slot) {
-            continue;
-        }
-        let mut genome = kept.genome.clone();
-        genome.values[slot] = start[slot];
-        let score = evaluator.evaluate(&genome, &mut memory);
-        if score.cost <= most {
-            kept = Scored { genome, score };
-            slots.push(slot);
+    while !waiting.is_empty() {
+        let steps = steps_back(&space, &kept.genome, &waiting, start);
+        let trials: Vec<&Genome> =
+            steps.iter().filter(|step| step.is_read).map(|step| &step.genome).collect();
+        let mut scores = stoppable::map(&trials, stop, |genome| evaluator.score(genome))?.into_iter();
+        for Step { slot, genome, is_read } in steps {
+            waiting.pop_front();
+            // What is not read leaves the tree and its score as they are.
+            let score = if is_read { scores.next() } else { Some(kept.score) };
+            match score.filter(|score| score.cost <= most) {
+                Some(score) => {
+                    kept = Scored { genome, score };
+                    slots.push(slot);
+                }
+                // Those after it were tried together with it.
+                None => break,
+            }
         }
     }
     Ok((kept, slots))
+}
+
+/// A number that goes back, after all those before it in a list have.
+struct Step {
+    slot: usize,
+    genome: Genome,
+    is_read: bool,
+}
+
+/// The next steps from `from`: as many as there are threads to grow their trees.
+///
+/// Most numbers that are not seen do go back, so a step is tried before the one before it is known to
+/// be allowed. How many are tried together decides what is done in vain, not what comes of it.
+fn steps_back(space: &SearchSpace, from: &Genome, waiting: &VecDeque<usize>, start: &[f64]) -> Vec<Step> {
+    let mut genome = from.clone();
+    let mut trials = rayon::current_num_threads();
+    let mut steps = Vec::new();
+    for &slot in waiting {
+        let gene = space.genes().iter().find(|gene| gene.slot == slot);
+        let is_read = gene.is_none_or(|gene| space.is_read(&genome.values, gene));
+        if is_read && trials == 0 {
+            break;
+        }
+        trials -= usize::from(is_read);
+        genome.values[slot] = start[slot];
+        steps.push(Step { slot, genome: genome.clone(), is_read });
+    }
+    steps
 }
 
 fn prepare(problem: &FitProblem, settings: &FitSettings) -> Result<(SearchSpace, Evaluator), FitError> {

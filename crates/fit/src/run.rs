@@ -88,6 +88,9 @@ pub enum FitError {
     /// `Start::Lists` without a list.
     #[error("the list of starts is empty")]
     NoStart,
+    /// The caller's stop flag was raised during a first guess or while a result was judged.
+    #[error("interrupted")]
+    Interrupted,
     /// The executor failed: a mistake in this crate.
     #[error("the search failed: {0}")]
     Search(String),
@@ -252,7 +255,9 @@ impl<'a> Driver<'a> {
     }
 
     fn verdict(&self) -> Option<StopReason> {
-        self.budget.verdict(&self.spent())
+        let verdict = self.budget.verdict(&self.spent());
+        // Whatever came before may have used all the time; there is a result all the same.
+        verdict.filter(|reason| *reason != StopReason::Timeout || self.search.state.evaluations > 0)
     }
 
     /// Replays the rows of earlier parts and tells where things stand.

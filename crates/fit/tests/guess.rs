@@ -8,6 +8,10 @@ use common::goal_of;
 use pleach_fit::{
     Candidate, FirstGuess, FitError, FitProblem, FitSettings, GuessSettings, TreeSeed, first_guess,
 };
+use std::sync::atomic::AtomicBool;
+
+/// Nobody asks these to stop.
+static GO: AtomicBool = AtomicBool::new(false);
 
 const NAMES: [&str; 5] = ["acer", "bamboo", "lombardy_poplar", "palm", "small_pine"];
 
@@ -18,7 +22,7 @@ fn candidates() -> Vec<Candidate> {
 
 fn guess(problem: &FitProblem, settings: &FitSettings) -> FirstGuess {
     let few = GuessSettings { variants: 3, ..GuessSettings::default() };
-    first_guess(problem, settings, &candidates(), &few, |_, _| ()).unwrap()
+    first_guess(problem, settings, &candidates(), &few, &GO, |_, _| ()).unwrap()
 }
 
 #[test]
@@ -53,7 +57,7 @@ fn threads_change_nothing_and_progress_is_told() {
         let mut told = Vec::new();
         let few = GuessSettings { variants: 5, ..GuessSettings::default() };
         let found = pool.install(|| {
-            first_guess(&problem, &settings, &candidates(), &few, |done, all| told.push((done, all)))
+            first_guess(&problem, &settings, &candidates(), &few, &GO, |done, all| told.push((done, all)))
         });
         (found.unwrap(), told)
     };
@@ -65,10 +69,27 @@ fn threads_change_nothing_and_progress_is_told() {
 #[test]
 fn nothing_to_guess_from_is_an_error() {
     let problem = goal_of("palm", 3, 64);
-    let none = first_guess(&problem, &FitSettings::default(), &[], &GuessSettings::default(), |_, _| ());
+    let none = first_guess(&problem, &FitSettings::default(), &[], &GuessSettings::default(), &GO, |_, _| ());
     assert!(matches!(none, Err(FitError::NoStart)));
     let foreign = [Candidate { name: "of another generator".to_owned(), values: vec![1.0] }];
     let wrong =
-        first_guess(&problem, &FitSettings::default(), &foreign, &GuessSettings::default(), |_, _| ());
+        first_guess(&problem, &FitSettings::default(), &foreign, &GuessSettings::default(), &GO, |_, _| ());
     assert!(matches!(wrong, Err(FitError::Space(_))));
+}
+
+#[test]
+fn asked_to_stop_there_is_no_guess() {
+    let problem = goal_of("palm", 3, 64);
+    let stop = AtomicBool::new(false);
+    // Raised once the first batch is done.
+    let raise = |_, _| stop.store(true, std::sync::atomic::Ordering::Relaxed);
+    let stopped = first_guess(
+        &problem,
+        &FitSettings::default(),
+        &candidates(),
+        &GuessSettings::default(),
+        &stop,
+        raise,
+    );
+    assert!(matches!(stopped, Err(FitError::Interrupted)));
 }

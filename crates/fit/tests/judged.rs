@@ -7,10 +7,14 @@ mod common;
 use common::goal_of;
 use pleach_fit::settings::LIMITS;
 use pleach_fit::{
-    Budget, Control, EvalWorkspace, Evaluator, FitProblem, FitSettings, Freedom, Genome, Objective, Score,
-    Scored, Seen, Start, fit, fresh_seeds, profile, put_back_unseen, settled,
+    Budget, Control, EvalWorkspace, Evaluator, FitError, FitProblem, FitSettings, Freedom, Genome, Objective,
+    Score, Scored, Seen, Start, fit, fresh_seeds, profile, put_back_unseen, settled,
 };
 use std::num::NonZeroU32;
+use std::sync::atomic::AtomicBool;
+
+/// Nobody asks these to stop.
+static GO: AtomicBool = AtomicBool::new(false);
 
 fn truth(problem: &FitProblem) -> Genome {
     Genome { values: problem.base.clone(), tree_seed: 1 }
@@ -36,14 +40,14 @@ fn several_seeds_are_judged_by_their_mean() {
 #[test]
 fn other_seeds_of_the_truth_are_alike_but_not_the_same() {
     let problem = goal_of("lombardy_poplar", 1, 96);
-    let fresh = fresh_seeds(&problem, Objective::Iou, LIMITS, &truth(&problem), 8).unwrap().unwrap();
+    let fresh = fresh_seeds(&problem, Objective::Iou, LIMITS, &truth(&problem), 8, &GO).unwrap().unwrap();
     assert_eq!(fresh.count, 8);
     assert!((0.6..0.95).contains(&fresh.iou.mean), "{fresh:?}");
     assert!(fresh.iou.sd > 0.001 && fresh.iou.sd < 0.1, "{fresh:?}");
     assert!((fresh.iou.mean + fresh.cost.mean - 1.0).abs() < 1e-12);
     // Trees that do not grow have no mean.
     let none = pleach_tree::Limits { stems: 3, ..LIMITS };
-    assert_eq!(fresh_seeds(&problem, Objective::Iou, none, &truth(&problem), 8).unwrap(), None);
+    assert_eq!(fresh_seeds(&problem, Objective::Iou, none, &truth(&problem), 8, &GO).unwrap(), None);
 }
 
 #[test]
@@ -51,7 +55,7 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     let problem = goal_of("palm", 1, 96);
     let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
     let best = Scored { genome: truth(&problem), score: Score::of_cost(0.0) };
-    let profiles = profile(&problem, &settings, &best, 0.05).unwrap();
+    let profiles = profile(&problem, &settings, &best, 0.05, &GO).unwrap();
     let space = problem.generator.space();
     let seen = |name: &str| {
         let slot = space.select(name).unwrap()[0];
@@ -67,7 +71,7 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     let slot = |name: &str| space.select(name).unwrap()[0];
     start[slot("length[3]")] = 0.123;
     start[slot("g_scale")] = 5.0;
-    let (kept, slots) = put_back_unseen(&problem, &settings, &best, &profiles, &start, 0.05).unwrap();
+    let (kept, slots) = put_back_unseen(&problem, &settings, &best, &profiles, &start, 0.05, &GO).unwrap();
     assert_eq!(slots, [slot("length[3]")]);
     assert_eq!(kept.genome.values[slot("length[3]")], 0.123);
     assert_eq!(kept.genome.values[slot("g_scale")], problem.base[slot("g_scale")]);
@@ -95,11 +99,11 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
     };
     let (kept, told, settings, best) = result(Freedom::default(), "evolution");
     assert!(kept.iter().all(|value| *value == 0.0) && told == slots, "{kept:?} {told:?}");
-    let profiles = profile(&problem, &settings, &best, 0.01).unwrap();
+    let profiles = profile(&problem, &settings, &best, 0.01, &GO).unwrap();
     let unseen = |slot| profiles.iter().any(|p| p.slot == slot && p.seen == Seen::NotSeen);
     assert!(slots.iter().all(|&slot| unseen(slot)));
     // Nor do they go back to the start.
-    let (kept, _) = put_back_unseen(&problem, &settings, &best, &profiles, &problem.base, 0.01).unwrap();
+    let (kept, _) = put_back_unseen(&problem, &settings, &best, &profiles, &problem.base, 0.01, &GO).unwrap();
     assert!(slots.iter().all(|&slot| kept.genome.values[slot] == 0.0));
 
     // The dissertation's algorithm searches them, and what is fixed stays.
@@ -108,4 +112,48 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
     let (kept, told, ..) = result(fixed, "evolution");
     assert_eq!(kept[0], problem.base[slots[0]]);
     assert!(!told.contains(&slots[0]), "{told:?}");
+}
+
+#[test]
+fn asked_to_stop_nothing_is_judged() {
+    let problem = goal_of("palm", 1, 64);
+    let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
+    let best = Scored { genome: truth(&problem), score: Score::of_cost(0.0) };
+    let stop = AtomicBool::new(true);
+    let fresh = fresh_seeds(&problem, Objective::Iou, LIMITS, &truth(&problem), 8, &stop);
+    assert!(matches!(fresh, Err(FitError::Interrupted)));
+    let profiled = profile(&problem, &settings, &best, 0.05, &stop);
+    assert!(matches!(profiled, Err(FitError::Interrupted)));
+    let profiles = profile(&problem, &settings, &best, 0.05, &GO).unwrap();
+    // Something that is read but not seen: the tolerance is large.
+    let all: Vec<_> =
+        profiles.into_iter().map(|p| pleach_fit::Profile { seen: Seen::NotSeen, ..p }).collect();
+    let start = pleach_generators::preset("acer").unwrap().params.values().to_vec();
+    let back = put_back_unseen(&problem, &settings, &best, &all, &start, 0.05, &stop);
+    assert!(matches!(back, Err(FitError::Interrupted)));
+}
+
+/// Steps back are tried together, and come to the same on any number of threads.
+#[test]
+fn going_back_step_by_step_is_the_same_on_any_number_of_threads() {
+    let problem = goal_of("acer", 1, 64);
+    let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
+    let best = Scored { genome: truth(&problem), score: Score::of_cost(0.0) };
+    let space = problem.generator.space();
+    let all: Vec<_> = (0..space.len())
+        .map(|slot| pleach_fit::Profile { slot, seen: Seen::NotSeen, rises: [[None; 2]; 2] })
+        .collect();
+    let start = pleach_generators::preset("hill_cherry").unwrap().params.values().to_vec();
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        // Room for some of the numbers and not for others.
+        pool.install(|| put_back_unseen(&problem, &settings, &best, &all, &start, 2.0, &GO).unwrap())
+    };
+    let (kept, slots) = run(1);
+    let differing = (0..space.len()).filter(|&slot| problem.base[slot] != start[slot]).count();
+    assert!(!slots.is_empty() && slots.len() < differing, "{} of {differing}", slots.len());
+    assert!(kept.score.cost <= 0.2 + 1e-12);
+    let evaluator = Evaluator::new(&problem, Objective::Iou, LIMITS).unwrap();
+    assert_eq!(evaluate(&evaluator, &kept.genome).cost, kept.score.cost);
+    assert!((kept.clone(), slots.clone()) == run(2) && (kept, slots) == run(8));
 }

@@ -8,6 +8,7 @@ use pleach_fit::{
     put_back_unseen, settled,
 };
 use pleach_tree::{Limits, ParamSpace};
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// Trees of other seeds that a result is judged by.
@@ -28,21 +29,35 @@ pub(super) struct Aftermath {
 }
 
 impl Aftermath {
-    pub(super) fn of(problem: &FitProblem, settings: &FitSettings, best: &Scored) -> Result<Self, FitError> {
+    /// Judges `best`; [`FitError::Interrupted`] once `stop` is raised.
+    pub(super) fn of(
+        problem: &FitProblem,
+        settings: &FitSettings,
+        best: &Scored,
+        stop: &AtomicBool,
+    ) -> Result<Self, FitError> {
         let bar = if output::is_watched() { ProgressBar::new_spinner() } else { ProgressBar::hidden() };
         bar.enable_steady_tick(Duration::from_millis(100));
         bar.set_message("judging the result: other seeds, and every parameter");
         // A search gives up trees that `grow` does not.
-        let judge = |genome| fresh_seeds(problem, settings.objective, Limits::default(), genome, FRESH);
+        let judge = |genome| fresh_seeds(problem, settings.objective, Limits::default(), genome, FRESH, stop);
         // Without other seeds there is no spread to compare with; then a hundredth is seen.
         let fresh = judge(&best.genome)?;
         let tolerance = fresh.as_ref().map_or(0.01, |fresh| fresh.cost.sd);
-        let profiles = profile(problem, settings, best, tolerance)?;
+        let profiles = profile(problem, settings, best, tolerance, stop)?;
+        let before = &best.genome.values;
         let (best, put_back) = match &settings.start {
             Start::Random => (best.clone(), Vec::new()),
-            Start::Lists(lists) => put_back_unseen(problem, settings, best, &profiles, &lists[0], tolerance)?,
+            Start::Lists(lists) => {
+                put_back_unseen(problem, settings, best, &profiles, &lists[0], tolerance, stop)?
+            }
         };
-        let fresh = if put_back.is_empty() { fresh } else { judge(&best.genome)? };
+        // Numbers that no tree reads went back for the reader of the file; the trees are the same.
+        let fresh = if same_trees(problem, before, &best.genome.values, &put_back) {
+            fresh
+        } else {
+            judge(&best.genome)?
+        };
         bar.finish_and_clear();
         let settled = settled(problem, settings, &best.genome)?;
         Ok(Self { fresh, best, profiles, put_back, settled })
@@ -97,4 +112,14 @@ impl Aftermath {
         });
         std::iter::once(header).chain(rows).collect()
     }
+}
+
+/// Whether lists that differ in `slots` only, one after the other, grow the same trees from any seed.
+fn same_trees(problem: &FitProblem, before: &[f64], after: &[f64], slots: &[usize]) -> bool {
+    let mut values = before.to_vec();
+    slots.iter().all(|&slot| {
+        let is_read = problem.generator.reads(&values, slot);
+        values[slot] = after[slot];
+        !is_read
+    })
 }

@@ -1,8 +1,9 @@
 //! Many goals, one after the other: a run folder each, and one summary of all.
 
+use super::asked;
 use super::folder::{self, RunFolder, Summary};
 use super::goal::{Goals, MaskSource};
-use super::{Fit, RUNS, catch_signals};
+use super::{Fit, RUNS, catch_signals, is_interruption};
 use crate::{files, output};
 use anyhow::{Context, bail, ensure};
 use pleach_fit::FitSettings;
@@ -67,9 +68,20 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
         Some(Shard { index, count }) => out.join(format!("summary-{index}-of-{count}.csv")),
     };
     let mut jobs = shard.part(jobs(&fit.goals, &out)?);
+    let asked = asked::asked(fit, settings)?;
     for job in &mut jobs {
         if fit.resume {
             job.state = job.folder.finished().map_or(State::Waiting, State::Finished);
+            if let State::Finished(summary) = &job.state {
+                let differences = asked::differences(summary, &asked);
+                ensure!(
+                    differences.is_empty(),
+                    "{} was fitted with other options: {}; --resume skips it with the same ones, \
+                     --overwrite instead of --resume fits all goals anew, and another --out keeps both",
+                    job.folder.path().display(),
+                    differences.join(", ")
+                );
+            }
         } else if job.folder.is_unfinished() && !fit.overwrite {
             bail!(
                 "{} holds an unfinished fit; --resume goes on with it and skips finished ones, \
@@ -159,7 +171,7 @@ fn one(
     }
     let summary: Summary = match fit.fit(&goals, &folder, settings, stop, resume) {
         // Asked to stop before there was a tree: no fault of the goal.
-        Err(_) if stop.load(Ordering::SeqCst) => return Ok(None),
+        Err(error) if is_interruption(&error) => return Ok(None),
         result => result?,
     };
     if summary.interrupted() {

@@ -1,6 +1,7 @@
 //! The run folder.
 
 use super::aftermath::Aftermath;
+use super::asked::Asked;
 use super::start::LooksLike;
 use super::views::ViewScore;
 use crate::{files, output};
@@ -30,7 +31,10 @@ pub(super) struct Results<'a> {
     pub(super) aftermath: Option<&'a Aftermath>,
     pub(super) species: &'a Species,
     pub(super) tree: &'a Tree,
+    /// As it was given: what the score card is of.
     pub(super) goal: &'a Goal,
+    /// As the search compared with it.
+    pub(super) working: &'a Goal,
     pub(super) view: &'a View,
     pub(super) views: Vec<ViewScore>,
     pub(super) holdout_views: Vec<ViewScore>,
@@ -38,6 +42,7 @@ pub(super) struct Results<'a> {
     pub(super) foliage: bool,
     pub(super) from: String,
     pub(super) looks_like: Vec<LooksLike>,
+    pub(super) options: Asked,
 }
 
 /// `summary.json`.
@@ -74,7 +79,22 @@ pub(super) struct Summary {
     metres_per_pixel: f64,
     goal_width: u32,
     goal_height: u32,
+    search: SearchScores,
+    /// What was asked for; a batch that is resumed compares it.
+    options: Asked,
     version: &'static str,
+}
+
+/// The result as the search and its history saw it: against the goal at its working size, the mean
+/// over views and over the seeds of a robust fit.
+#[derive(Debug, Serialize)]
+struct SearchScores {
+    goal_width: u32,
+    goal_height: u32,
+    /// Share of inked pixels. Fine twigs and leaves get thicker or thinner as a goal is reduced.
+    goal_ink: f64,
+    iou: f64,
+    pixel_accuracy: f64,
 }
 
 /// How many of the free parameters the goal determines.
@@ -106,7 +126,15 @@ impl RunFolder {
             );
         }
         if resume && !unfinished {
-            bail!("{} holds no checkpoint to resume from", folder.path.display());
+            if folder.finished().is_some() {
+                bail!("{} holds a finished fit, and no checkpoint to resume from", folder.path.display());
+            }
+            output::note(format!("{} holds no checkpoint yet: the fit starts", folder.path.display()));
+        }
+        if overwrite && unfinished {
+            // Else a new fit that is killed before its first checkpoint would go on as the old one.
+            std::fs::remove_file(folder.checkpoint())
+                .with_context(|| format!("cannot remove {}", folder.checkpoint().display()))?;
         }
         Ok(folder)
     }
@@ -223,6 +251,14 @@ impl RunFolder {
             metres_per_pixel: frame.metres_per_pixel,
             goal_width: goal.bitmap.width(),
             goal_height: goal.bitmap.height(),
+            search: SearchScores {
+                goal_width: results.working.bitmap.width(),
+                goal_height: results.working.bitmap.height(),
+                goal_ink: results.working.bitmap.ink() as f64 / results.working.bitmap.area() as f64,
+                iou: best.score.iou,
+                pixel_accuracy: best.score.accuracy,
+            },
+            options: results.options,
             version: env!("CARGO_PKG_VERSION"),
         };
         files::write_text(&self.summary(), &(serde_json::to_string_pretty(&summary)? + "\n"))?;
@@ -252,6 +288,24 @@ pub(super) fn species(problem: &FitProblem, best: &Scored, name: &str) -> anyhow
     })
 }
 
+/// At what size the score card compares, and what the search saw at its own if that is another: the
+/// numbers of a sparse crown differ by as much as a tenth, though the tree is the same.
+fn sizes(summary: &Summary) -> String {
+    let Summary { goal_width, goal_height, search, .. } = summary;
+    if (*goal_width, *goal_height) == (search.goal_width, search.goal_height) {
+        return format!("compared at {goal_width} × {goal_height} pixels, as in the search\n");
+    }
+    format!(
+        "compared at {goal_width} × {goal_height} pixels, the goal {:.1} % ink; searched, and other seeds \
+         compared,\nat {} × {} (--size), the goal {:.1} % ink: there the IoU is {:.4}\n",
+        100.0 * summary.scores.goal_crown.ink,
+        search.goal_width,
+        search.goal_height,
+        100.0 * search.goal_ink,
+        search.iou,
+    )
+}
+
 /// The score card that ends a fit.
 pub(super) fn report(summary: &Summary, folder: &RunFolder) -> String {
     let mut judged = String::new();
@@ -275,9 +329,10 @@ pub(super) fn report(summary: &Summary, folder: &RunFolder) -> String {
         );
     }
     format!(
-        "{}\n\n{judged}{} trees in {:.1} s ({:.0} a second) by `{}`; {}\n\n\
+        "{}\n\n{}{judged}{} trees in {:.1} s ({:.0} a second) by `{}`; {}\n\n\
          overlay  {}\nspecies  {}",
         crate::commands::score::card(&summary.scores),
+        sizes(summary),
         summary.evaluations,
         summary.seconds,
         summary.evaluations_per_second,

@@ -1,6 +1,7 @@
 //! `pleach fit`: from goal images to run folders.
 
 mod aftermath;
+mod asked;
 mod batch;
 mod folder;
 mod goal;
@@ -13,13 +14,13 @@ pub(crate) use start::candidates;
 
 use crate::{input, output};
 use aftermath::Aftermath;
-use anyhow::{Context, bail};
+use anyhow::{Context, anyhow, bail};
 use folder::{RunFolder, Summary};
 pub(super) use goal::places;
 use goal::{Goals, MaskSource};
 use options::Settings;
 use pleach_fit::{
-    Budget, CheckpointSettings, Control, FitProblem, FitSettings, GoalView, Objective, StopReason,
+    Budget, CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, Objective, StopReason,
 };
 use pleach_silhouette::goal::Goal;
 use pleach_tree::{Foliage, Growth};
@@ -49,8 +50,13 @@ The run folder holds best.toml (a species file that `pleach grow` takes), best.p
 history.csv (a row a generation), parameters.csv (how well the goal determines each parameter) and
 summary.json; and a checkpoint while the fit is unfinished.
 
+Asked to stop (ctrl-C), a fit writes what it has found and ends with an error; --resume goes on with
+it and comes to what it would have come to. The first guess and the judging of the result, which need
+some seconds before and after the search, are then made again.
+
 With several goals, the budget is for each. A goal that fails is named and the others go on. With
---resume a batch goes on where it stopped, and skips what is finished.";
+--resume a batch goes on where it stopped, and skips what was finished with the same options; with
+others it is refused.";
 
 /// Fit a generator's parameters to a goal image
 #[derive(Debug, clap::Args)]
@@ -63,12 +69,16 @@ pub(crate) struct Fit {
     /// default
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Go on from the checkpoint in the run folder; with several goals, skip those that are finished
+    /// Go on from the checkpoint in the run folder, or start if the fit was stopped before there was
+    /// one; with several goals, skip those that are finished
     #[arg(long)]
     resume: bool,
     /// Fit goals I, I + N, I + 2N … only; the summary is then summary-I-of-N.csv
     #[arg(long, value_name = "I/N")]
     shard: Option<batch::Shard>,
+    /// How often the state of the search is saved: what a crash may cost
+    #[arg(long, value_name = "TIME", default_value = "1s", value_parser = options::duration)]
+    checkpoint_every: Duration,
     /// Start anew over an unfinished fit in the run folder
     #[arg(long, conflicts_with = "resume")]
     overwrite: bool,
@@ -92,7 +102,8 @@ struct GoalArgs {
     /// Height of the tree in metres: a silhouette does not show it
     #[arg(long, value_name = "METRES", default_value_t = 10.0, value_parser = options::positive)]
     height: f64,
-    /// Longer side of the pictures that are compared, in pixels; larger goals are reduced
+    /// Longer side of the pictures that the search compares, in pixels; larger goals are reduced. The
+    /// score card and best.png have the goal's own size
     #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(16..=2048))]
     size: u32,
     /// A picture of the goal's size that says what is tree: white on black. With `auto` the goal is a
@@ -157,7 +168,8 @@ struct SearchArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "When to stop (whatever comes first; after a minute if nothing is said)")]
 struct BudgetArgs {
-    /// After this time, such as 90s, 10m or 2h
+    /// After this time, such as 90s, 10m or 2h. The first guess counts; it is made in full, and a first
+    /// few trees are tried whatever time is left. Judging the result comes after it
     #[arg(long, value_name = "TIME", value_parser = options::duration)]
     timeout: Option<Duration>,
     /// After this many trees were grown and compared
@@ -193,18 +205,28 @@ impl Fit {
     fn single(&self, goal: &Path, settings: &FitSettings) -> anyhow::Result<()> {
         let goals = Goals::load(goal, &self.goal_options, self.verbose)?;
         let folder = self.folder(goal)?;
-        let summary = self.fit(&goals, &folder, settings, &catch_signals()?, self.resume)?;
+        let resume = self.resume && folder.is_unfinished();
+        if !resume {
+            folder.forget()?;
+        }
+        let interrupted = || {
+            anyhow!(
+                "interrupted; `pleach fit {} --out {} --resume` with the same options goes on",
+                goal.display(),
+                folder.path().display()
+            )
+        };
+        let summary = match self.fit(&goals, &folder, settings, &catch_signals()?, resume) {
+            Err(error) if is_interruption(&error) => return Err(interrupted()),
+            result => result?,
+        };
         if self.json {
             output::json(&summary)?;
         } else {
             output::line(folder::report(&summary, &folder))?;
         }
         if summary.interrupted() {
-            bail!(
-                "interrupted; `pleach fit {} --out {} --resume` with the same options goes on",
-                goal.display(),
-                folder.path().display()
-            );
+            return Err(interrupted());
         }
         folder.remove_checkpoint();
         Ok(())
@@ -215,31 +237,46 @@ impl Fit {
         &self,
         goal: &Goals,
         folder: &RunFolder,
-        settings: &FitSettings,
+        asked_for: &FitSettings,
         stop: &Arc<AtomicBool>,
         resume: bool,
     ) -> anyhow::Result<Summary> {
-        let mut settings = settings.clone();
+        let mut settings = asked_for.clone();
         let mut problem = self.problem(&goal.working)?;
-        let checkpoint = CheckpointSettings { resume, ..CheckpointSettings::new(folder.checkpoint()) };
-        let started = Instant::now();
+        let checkpoint =
+            CheckpointSettings { path: folder.checkpoint(), interval: self.checkpoint_every, resume };
+        let mut started = Instant::now();
+        let looks_like = self.search.from.begin(self.goals.len() > 1, &mut problem, &mut settings, stop)?;
+        if resume {
+            // The first guess is made again, but its time has been counted.
+            started = Instant::now();
+        }
         let clock = || started.elapsed();
-        let looks_like = self.search.from.begin(self.goals.len() > 1, &mut problem, &mut settings)?;
         let mut bar = Bar::new(&settings);
         let control =
             Control { observers: vec![&mut bar], checkpoint: Some(checkpoint), ..Control::new(&clock, stop) };
-        let outcome = pleach_fit::fit(&problem, &settings, control)?;
+        let mut outcome = pleach_fit::fit(&problem, &settings, control)?;
         bar.finish();
 
-        let Some(best) = outcome.best.as_ref().filter(|best| best.score.cost.is_finite()) else {
+        let Some(best) = outcome.best.clone().filter(|best| best.score.cost.is_finite()) else {
+            if outcome.stop == StopReason::Interrupted {
+                return Err(FitError::Interrupted.into());
+            }
             bail!("no parameter list that grows a tree was found in {} evaluations", outcome.evaluations);
         };
         let aftermath = match outcome.stop {
             // Whoever waits for the prompt has it at once.
             StopReason::Interrupted => None,
-            _ => Some(Aftermath::of(&problem, &settings, best)?),
+            _ => match Aftermath::of(&problem, &settings, &best, stop) {
+                Err(FitError::Interrupted) => None,
+                result => Some(result?),
+            },
         };
-        let best = aftermath.as_ref().map_or(best, |aftermath| &aftermath.best);
+        if aftermath.is_none() {
+            // The search may have come to its end, the fit has not.
+            outcome.stop = StopReason::Interrupted;
+        }
+        let best = aftermath.as_ref().map_or(&best, |aftermath| &aftermath.best);
         let species = folder::species(&problem, best, &goal.name)?;
         let growth = Growth {
             limits: settings.limits,
@@ -258,6 +295,7 @@ impl Fit {
             species: &species,
             tree: &tree,
             goal: &goal.full,
+            working: &goal.working,
             view: &view,
             views: further.iter().map(score).collect::<anyhow::Result<_>>()?,
             holdout_views: args.holdout_view.iter().map(score).collect::<anyhow::Result<_>>()?,
@@ -265,6 +303,7 @@ impl Fit {
             foliage: problem.foliage,
             from: self.search.from.to_string(),
             looks_like,
+            options: asked::asked(self, asked_for)?,
         })
     }
 
@@ -324,12 +363,17 @@ impl Fit {
     }
 }
 
+/// Whether this is a fit that was asked to stop before it had anything to show.
+fn is_interruption(error: &anyhow::Error) -> bool {
+    matches!(error.downcast_ref(), Some(FitError::Interrupted))
+}
+
 /// A flag that ctrl-C and a request to end raise.
 fn catch_signals() -> anyhow::Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&stop);
     ctrlc::set_handler(move || {
-        // A second signal means now; the checkpoint on disk is at most a second old.
+        // A second signal means now; the checkpoint on disk is as old as it may be.
         if raised.swap(true, Ordering::SeqCst) {
             std::process::exit(1);
         }

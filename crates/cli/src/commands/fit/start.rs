@@ -7,6 +7,7 @@ use pleach_fit::{Candidate, FitProblem, FitSettings, GuessSettings, Start, first
 use pleach_tree::Species;
 use serde::Serialize;
 use std::str::FromStr;
+use std::sync::atomic::AtomicBool;
 
 /// What `--from` says.
 #[derive(Clone, Debug)]
@@ -70,11 +71,12 @@ impl From {
         quiet: bool,
         problem: &mut FitProblem,
         settings: &mut FitSettings,
+        stop: &AtomicBool,
     ) -> anyhow::Result<Vec<LooksLike>> {
         match self {
             Self::Random => settings.start = Start::Random,
             Self::Species(_) => settings.start = Start::Lists(vec![problem.base.clone()]),
-            Self::Auto => return guess(quiet, problem, settings),
+            Self::Auto => return guess(quiet, problem, settings, stop),
         }
         Ok(Vec::new())
     }
@@ -84,16 +86,18 @@ fn guess(
     quiet: bool,
     problem: &mut FitProblem,
     settings: &mut FitSettings,
+    stop: &AtomicBool,
 ) -> anyhow::Result<Vec<LooksLike>> {
     let bar = if output::is_watched() { ProgressBar::new(1) } else { ProgressBar::hidden() };
     if let Ok(style) = ProgressStyle::with_template("first guess {wide_bar} {pos} of {len} trees") {
         bar.set_style(style);
     }
+    let progress = |done, all| {
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+    };
     let guess =
-        first_guess(problem, settings, &candidates(problem), &GuessSettings::default(), |done, all| {
-            bar.set_length(all as u64);
-            bar.set_position(done as u64);
-        })?;
+        first_guess(problem, settings, &candidates(problem), &GuessSettings::default(), stop, progress)?;
     bar.finish_and_clear();
     let mut names = guess.names;
     names.retain(|(_, confidence)| *confidence >= LEAST_CONFIDENCE);

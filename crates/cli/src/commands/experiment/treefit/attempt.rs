@@ -1,8 +1,8 @@
 //! One fit of one goal.
 
-use super::FRESH;
 use super::goals::{self, Problem};
 use super::spec::MethodSpec;
+use super::{FRESH, RUNS_ON};
 use crate::commands::fit::candidates;
 use anyhow::{Context, bail};
 use pleach_fit::{
@@ -12,7 +12,6 @@ use pleach_fit::{
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::score::likeness::Likeness;
 use pleach_tree::Limits;
-use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 /// Seed of the trees that are fitted; own goals are of other seeds.
@@ -52,6 +51,7 @@ impl Guesses {
                     settings,
                     &candidates(problem),
                     &GuessSettings::default(),
+                    &RUNS_ON,
                     |_, _| (),
                 )?;
                 let guessed = Guessed { found, seconds: started.elapsed() };
@@ -103,7 +103,7 @@ pub(super) fn fit(
         .map_or_else(Default::default, |(name, confidence, seconds)| (name, number(confidence), seconds));
     let started = Instant::now();
     let clock = || before + started.elapsed();
-    let outcome = pleach_fit::fit(&fit, &settings, Control::new(&clock, &AtomicBool::new(false)))?;
+    let outcome = pleach_fit::fit(&fit, &settings, Control::new(&clock, &RUNS_ON))?;
     let seconds = clock().as_secs_f64();
     let best = outcome.best.filter(|best| best.score.cost.is_finite()).context("nothing grew")?.genome;
 
@@ -113,7 +113,7 @@ pub(super) fn fit(
     let scores = card(&best)?;
     let guessed = guess.as_ref().map(card).transpose()?;
     let judged = problem.clean.as_ref().unwrap_or(&problem.fit);
-    let fresh = fresh_seeds(judged, settings.objective, Limits::default(), &best, FRESH)?;
+    let fresh = fresh_seeds(judged, settings.objective, Limits::default(), &best, FRESH, &RUNS_ON)?;
     let clean = problem.clean.as_ref().map(|clean| alike(problem, &best, &clean.goals[0])).transpose()?;
     let held_out = problem.held_out.as_ref().map(|view| alike(problem, &best, view)).transpose()?;
     let ceiling = problem.ceiling;

@@ -1,7 +1,7 @@
 //! The goals, with all that is known of the trees that they show.
 
 use super::spec::{Degraded, FileGoal, GoalSpec, OwnGoal};
-use super::{FRESH, SIZE};
+use super::{FRESH, RUNS_ON, SIZE};
 use anyhow::Context;
 use pleach_fit::{FitProblem, Genome, GoalView, Objective, fresh_seeds};
 use pleach_silhouette::goal::{Goal, GoalOptions};
@@ -126,7 +126,7 @@ fn seeds_of(goal: &OwnGoal) -> anyhow::Result<Option<Ceiling>> {
     let problem = Problem::own(&GoalSpec::Own(whole.clone()), &whole)?;
     let species = pleach_generators::species(&goal.species)?;
     let truth = Genome { values: species.params.values().to_vec(), tree_seed: goal.seed };
-    let fresh = fresh_seeds(&problem.fit, Objective::default(), Limits::default(), &truth, FRESH)?;
+    let fresh = fresh_seeds(&problem.fit, Objective::default(), Limits::default(), &truth, FRESH, &RUNS_ON)?;
     Ok(fresh.map(|fresh| Ceiling { likeness: fresh.likeness.mean, iou: fresh.iou.mean }))
 }
 

@@ -20,6 +20,7 @@ use spec::MethodSpec;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 const COLUMNS: [&str; 28] = [
     "goal",
@@ -56,6 +57,8 @@ const COLUMNS: [&str; 28] = [
 const SIZE: u32 = 256;
 /// Trees of other seeds that a result, and the truth, is judged by.
 const FRESH: usize = 16;
+/// Nobody ends an experiment but by killing it.
+static RUNS_ON: AtomicBool = AtomicBool::new(false);
 
 /// Finished rows by goal, method and repetition.
 type Rows = HashMap<[String; 3], Vec<String>>;
