@@ -319,7 +319,12 @@ fn optimizers_and_their_settings_are_told() {
     let goal = goal("acer.png");
     let settings = dir.run(["fit", &goal, "--optimizer", "hewitt", "--set", "help"]).ok();
     assert!(settings.contains("population=") && settings.contains("flip_chance="), "{settings}");
-    dir.run(small(&goal, "x", &["--optimizer", "newton"])).fails(1, &["newton", "hewitt", "evolution"]);
+    for (name, setting) in [("cma", "near_step=0.03"), ("de", "archive=1")] {
+        let settings = dir.run(["fit", &goal, "--optimizer", name, "--set", "help"]).ok();
+        assert!(settings.contains("population=") && settings.contains(setting), "{settings}");
+    }
+    dir.run(small(&goal, "x", &["--optimizer", "newton"]))
+        .fails(1, &["newton", "hewitt", "evolution", "cma", "de"]);
     dir.run(small(&goal, "x", &["--optimizer", "hewitt", "--set", "pop=3"]))
         .fails(1, &["`pop`", "population"]);
     dir.run(small(&goal, "x", &["--objective", "beauty"])).fails(1, &["beauty", "iou"]);

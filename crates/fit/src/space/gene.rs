@@ -1,5 +1,6 @@
 //! One free number.
 
+use crate::genome::Genome;
 use crate::stream::Stream;
 use pleach_tree::Kind;
 
@@ -19,6 +20,17 @@ pub struct Gene {
 impl Gene {
     /// A range over more than this factor is searched by ratio: 2 to 4 is as far as 100 to 200.
     const LOG_FROM: f64 = 20.0;
+
+    /// The number in `genome`.
+    #[must_use]
+    pub fn of(&self, genome: &Genome) -> f64 {
+        genome.values[self.slot]
+    }
+
+    /// Makes `value` the number in `genome`, as it is.
+    pub fn set(&self, genome: &mut Genome, value: f64) {
+        genome.values[self.slot] = value;
+    }
 
     /// Whether steps are ratios and not differences: for positive quantities of unknown size.
     #[must_use]

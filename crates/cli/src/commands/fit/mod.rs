@@ -134,7 +134,8 @@ struct SearchArgs {
     /// Parameters that keep the start's value; repeatable
     #[arg(long, value_name = "PATTERN")]
     fix: Vec<String>,
-    /// The optimiser
+    /// The optimiser: evolution, cma (CMA-ES with margin), de (differential evolution, SHADE), hewitt
+    /// (the dissertation's genetic algorithm) or random
     #[arg(long, value_name = "NAME", default_value = pleach_fit::Optimizer::NAMES[0])]
     optimizer: String,
     /// A setting of the optimiser, such as population=60; repeatable. `--set help` lists them
