@@ -54,17 +54,18 @@ pub fn profile(
     let mut plan: Vec<(usize, Vec<Move>)> = Vec::new();
     // They move this tree, and its size can make up for it: a picture does not tell them.
     let hidden = space.size_variations(&best.genome.values);
-    for gene in space.genes() {
+    // Nuisances stay as they are: they are no parameters of the tree.
+    for (gene, slot) in space.genes().iter().filter_map(|gene| Some((gene, gene.slot()?))) {
         let mut of_gene = Vec::new();
-        if !hidden.contains(&gene.slot) && space.is_read(&best.genome.values, gene) {
-            for (place, value) in alternatives(gene, best.genome.values[gene.slot]) {
+        if !hidden.contains(&slot) && space.is_read(&best.genome.values, gene) {
+            for (place, value) in alternatives(gene, best.genome.values[slot]) {
                 of_gene.push(Move { place, number: moves.len() });
                 let mut genome = best.genome.clone();
-                genome.values[gene.slot] = value;
+                genome.values[slot] = value;
                 moves.push(genome);
             }
         }
-        plan.push((gene.slot, of_gene));
+        plan.push((slot, of_gene));
     }
     let scores = evaluator.scores(&moves, Size::ANY);
     Ok(plan

@@ -13,7 +13,7 @@ use pleach_fit::{
 use std::num::NonZeroU32;
 
 fn truth(problem: &FitProblem) -> Genome {
-    Genome { values: problem.base.clone(), tree_seed: 1 }
+    Genome::new(problem.base.clone(), 1)
 }
 
 fn evaluate(evaluator: &Evaluator, genome: &Genome) -> Score {

@@ -19,18 +19,22 @@ pub(super) fn first(
     members.extend((0..count).map(|member| sparse(space, sparsity, &mut draws(member as u32))));
 }
 
-/// Appends `lists` as they are.
+/// Appends `lists` as they are, each from several directions if a picture may be from anywhere.
 pub(super) fn given(
     space: &SearchSpace,
     lists: &[Vec<f64>],
     draws: impl Fn(u32) -> Stream,
     members: &mut Vec<Genome>,
 ) {
-    members.extend(
-        lists.iter().enumerate().map(|(i, list)| {
-            space.individual(list, SearchSpace::random_seed(&mut draws(u32::MAX - i as u32)))
-        }),
-    );
+    for part in 0..space.directions() {
+        for (i, list) in lists.iter().enumerate() {
+            let number = part * lists.len() + i;
+            let mut draws = draws(u32::MAX - number as u32);
+            let mut genome = space.individual(list, SearchSpace::random_seed(&mut draws));
+            space.turn(&mut genome, part, &mut draws);
+            members.push(genome);
+        }
+    }
 }
 
 /// A random list in which numbers that may be zero are so with a chance of up to `sparsity`, drawn

@@ -6,7 +6,7 @@ use crate::commands::fit::candidates;
 use crate::{files, output};
 use anyhow::{Context, bail};
 use pleach_fit::{
-    Budget, Control, FitProblem, FitSettings, FreshSeeds, Genome, GoalView, GuessSettings, Start,
+    Budget, Control, FitProblem, FitSettings, FreshSeeds, Genome, GoalView, GuessSettings, Start, Unknown,
     first_guess, fresh_seeds,
 };
 use pleach_silhouette::goal::{Goal, GoalOptions};
@@ -115,16 +115,16 @@ fn problem(folder: &Path, spec: &TreefitGoal) -> anyhow::Result<Problem> {
             let frame = Frame::automatic(&tree, &view, !bare, SIZE, SIZE);
             let mut bitmap = Bitmap::default();
             Rasteriser::new().draw(&tree, &view, &frame, !bare, &mut bitmap);
-            let truth = Genome { values: species.params.values().to_vec(), tree_seed: *seed };
+            let truth = Genome::new(species.params.values().to_vec(), *seed);
             let name = if *bare { format!("{}_bare", species.name) } else { species.name.clone() };
-            (name, GoalView { goal: bitmap, view, frame }, Some(truth))
+            (name, GoalView { goal: bitmap, view, frame, unknown: Unknown::default() }, Some(truth))
         }
         TreefitGoal::File { file, height, .. } => {
             let options = GoalOptions { max_side: Some(SIZE), ..GoalOptions::default() };
             let picture = Goal::load(folder.join(file), &options)?;
             let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let frame = picture.frame(*height);
-            (name, GoalView { frame, goal: picture.bitmap, view }, None)
+            (name, GoalView { frame, goal: picture.bitmap, view, unknown: Unknown::default() }, None)
         }
     };
     let fit = FitProblem {
@@ -155,7 +155,7 @@ fn fit(problem: &Problem, method: &MethodSpec, seed: u64) -> anyhow::Result<(Vec
         let found = first_guess(&fit, &settings, &candidates(&fit), &GuessSettings::default(), |_, _| ())?;
         named = (found.names[0].0.clone(), number(found.names[0].1));
         fit.base = found.nearest[0].values.clone();
-        guess = Some(Genome { values: fit.base.clone(), tree_seed: TREE_SEED });
+        guess = Some(Genome::new(fit.base.clone(), TREE_SEED));
         settings.start = Start::Lists(found.nearest.into_iter().map(|guess| guess.values).collect());
     } else if method.from != "random" {
         bail!("`from = \"{}\"`: expected auto or random", method.from);

@@ -1,7 +1,7 @@
 //! Genes as coordinates of a normal distribution, and back.
 //!
 //! The range of every gene is the interval from 0 to 1. Real numbers beyond it are mirrored at its
-//! ends. A whole number is that of the cell in which a coordinate lies, the cells at the ends going on
+//! ends, or go around where the range is a circle. A whole number is that of the cell in which a coordinate lies, the cells at the ends going on
 //! without end; the names of a choice have cells of equal width.
 
 use crate::space::Gene;
@@ -21,6 +21,8 @@ pub(super) fn decode(gene: &Gene, x: f64) -> f64 {
         gene.clamp(gene.low + (x.clamp(0.0, 1.0) * gene.count()).floor())
     } else if gene.kind.is_whole() {
         gene.from_unit(x.clamp(0.0, 1.0))
+    } else if gene.is_periodic() {
+        gene.from_unit(x)
     } else {
         gene.from_unit(mirrored(x))
     }

@@ -58,10 +58,10 @@ pub struct ShadeSettings {
 impl Default for ShadeSettings {
     fn default() -> Self {
         Self {
-            population: 30,
-            first: 200,
+            population: 20,
+            first: 100,
             sparsity: 0.8,
-            history: 30,
+            history: 10,
             best: 0.2,
             archive: 1.0,
             reseed: 0.1,
@@ -131,9 +131,10 @@ impl Shade {
             return first(space, &[], count, self.settings.sparsity, draws, members);
         }
         given(space, lists, draws, members);
-        for member in lists.len()..self.settings.population.max(LEAST) {
+        let given = members.len();
+        for member in given..self.settings.population.max(LEAST) {
             let mut draws = Stream::at(self.seed, VARIED, self.round, member as u32);
-            let mut genome = members[member % lists.len()].clone();
+            let mut genome = members[member % given].clone();
             for gene in space.genes() {
                 if draws.chance(VARIED_SHARE) {
                     let step = VARIED_STEP * draws.normal();
@@ -180,7 +181,9 @@ impl Shade {
                 let unit = |genome: &Genome| gene.to_unit(gene.of(genome));
                 let old = unit(&child);
                 let new = old + factor * (unit(best) - old) + factor * (unit(to) - unit(from));
-                gene.from_unit(if new < 0.0 {
+                gene.from_unit(if gene.is_periodic() {
+                    new
+                } else if new < 0.0 {
                     0.5 * old
                 } else if new > 1.0 {
                     f64::midpoint(1.0, old)
