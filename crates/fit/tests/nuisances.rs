@@ -70,7 +70,7 @@ fn a_known_tree_tells_from_where_it_is_seen() {
 fn a_frame_that_is_off_is_found_too() {
     let off = Placement { azimuth: None, scale: 1.12, offset: [0.06, -0.04] };
     let problem = two_views(40.0, off, Unknown { azimuth: Azimuth::Within(15.0), frame: true });
-    let best = run(&problem, &only_nuisances("evolution", 1500, &problem)).best.unwrap();
+    let best = run(&problem, &only_nuisances("evolution", 800, &problem)).best.unwrap();
     let found = placements(&problem.goals, &best.genome.nuisances)[1];
     assert!((found.azimuth.unwrap() - 40.0).abs() < 4.0, "{found:?}");
     assert!((found.scale - off.scale).abs() < 0.02, "{found:?}");

@@ -84,8 +84,8 @@ impl Distribution {
                 mean_z[j] += weight * zs[i][j];
             }
         }
-        for j in 0..n {
-            self.mean[j] += self.sigma * self.factors[j] * mean_step[j];
+        for ((mean, factor), step) in self.mean.iter_mut().zip(&self.factors).zip(&mean_step) {
+            *mean += self.sigma * factor * step;
         }
 
         self.generation += 1;
