@@ -196,6 +196,50 @@ fn several_views_are_fitted_and_others_held_out() {
     run(&["side.png", "--view", "90=side.png"]).fails(1, &["2 goals"]);
 }
 
+/// From where a further picture was taken, and in which frame, is found by the way.
+#[test]
+fn views_from_somewhere_are_found() {
+    let dir = Dir::new();
+    for (view, file) in [("0", "front.png"), ("75", "other.png")] {
+        let args = ["silhouette", "acer", "--seed", "1", "--size", "96", "--view", view, "-o", file];
+        let _ = dir.run(args).ok();
+    }
+    let args = ["fit", "front.png", "--from", "acer", "--seed", "2", "--json"];
+    let run = |more: &[&str]| dir.run([&args[..], more].concat());
+    let fit = |out: &str, view: &str, threads: &str, evaluations: &str, more: &[&str]| {
+        let args = ["--out", out, "--view", view, "--threads", threads, "--evaluations", evaluations];
+        run(&[&args[..], more].concat())
+    };
+    let found = fit("auto", "auto=other.png", "1", "300", &["--height", "6"]).json();
+    let view = &found["views"][0];
+    assert!((0.0..=360.0).contains(&view["azimuth"].as_f64().unwrap()), "{view}");
+    assert_eq!((view["scale"].as_f64(), &view["offset"]), (Some(1.0), &serde_json::json!([0.0, 0.0])));
+    let again = fit("again", "auto=other.png", "3", "300", &["--height", "6"]).json();
+    assert_eq!(again["views"], found["views"]);
+    assert!(results(&dir.path("auto")) == results(&dir.path("again")));
+
+    let about = fit("about", "~60=other.png", "2", "300", &["--free-frame"]).json();
+    let view = &about["views"][0];
+    assert!((45.0..=75.0).contains(&view["azimuth"].as_f64().unwrap()), "{view}");
+    assert!((0.8..=1.2).contains(&view["scale"].as_f64().unwrap()), "{view}");
+    assert!(view["offset"].as_array().unwrap().iter().all(|part| part.as_f64().unwrap().abs() <= 0.1));
+    let best = String::from_utf8(read(&dir.path("about/best.toml"))).unwrap();
+    assert!(!best.contains("azimuth"), "no parameter of the tree: {best}");
+    // Without `--json` the azimuth is said, and what is known is not.
+    let told = ["fit", "front.png", "--from", "acer", "--evaluations", "50", "--view", "auto=other.png"];
+    let told = dir.run([&told[..], &["--out", "told"]].concat()).ok();
+    let line = told.lines().find(|line| line.starts_with("view other.png")).unwrap();
+    assert!(line.contains(", from ") && line.ends_with('°'), "{line}");
+
+    run(&["--view", "auto"]).fails(2, &["auto=side.png"]);
+    run(&["--view", "~40"]).fails(2, &["auto=side.png"]);
+    run(&["--view", "~up=other.png"]).fails(2, &["azimuth"]);
+    run(&["--view", "auto="]).fails(2, &["a file"]);
+    run(&["--view", "auto=none.png"]).fails(1, &["none.png"]);
+    run(&["--holdout-view", "auto=other.png"]).fails(2, &["90=side.png"]);
+    run(&["--free-frame"]).fails(1, &["--view auto=FILE"]);
+}
+
 #[test]
 fn fixed_parameters_keep_their_values() {
     let dir = Dir::new();
@@ -469,7 +513,12 @@ fn optimizers_and_their_settings_are_told() {
     let goal = goal("acer.png");
     let settings = dir.run(["fit", &goal, "--optimizer", "hewitt", "--set", "help"]).ok();
     assert!(settings.contains("population=") && settings.contains("flip_chance="), "{settings}");
-    dir.run(small(&goal, "x", &["--optimizer", "newton"])).fails(1, &["newton", "hewitt", "evolution"]);
+    for (name, setting) in [("cma", "near_step=0.03"), ("de", "archive=1")] {
+        let settings = dir.run(["fit", &goal, "--optimizer", name, "--set", "help"]).ok();
+        assert!(settings.contains("population=") && settings.contains(setting), "{settings}");
+    }
+    dir.run(small(&goal, "x", &["--optimizer", "newton"]))
+        .fails(1, &["newton", "hewitt", "evolution", "cma", "de"]);
     dir.run(small(&goal, "x", &["--optimizer", "hewitt", "--set", "pop=3"]))
         .fails(1, &["`pop`", "population"]);
     dir.run(small(&goal, "x", &["--objective", "beauty"])).fails(1, &["beauty", "iou"]);

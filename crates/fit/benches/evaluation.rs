@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pleach_fit::settings::LIMITS;
-use pleach_fit::{Evaluate, Evaluator, FitProblem, Genome, GoalView, Objective, Size};
+use pleach_fit::{Evaluate, Evaluator, FitProblem, Genome, GoalView, Objective, Size, Unknown};
 use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ fn problem(name: &str) -> FitProblem {
     FitProblem {
         generator: Arc::clone(&species.generator),
         base: species.params.values().to_vec(),
-        goals: vec![GoalView { goal, view: View::FRONT, frame }],
+        goals: vec![GoalView { goal, view: View::FRONT, frame, unknown: Unknown::default() }],
         foliage: true,
     }
 }
@@ -27,14 +27,14 @@ fn evaluations(criterion: &mut Criterion) {
     for name in ["palm", "quaking_aspen", "black_oak", "weeping_willow"] {
         let problem = problem(name);
         let evaluator = Evaluator::new(&problem, Objective::Blend, LIMITS).expect("a good problem");
-        let genome = Genome { values: problem.base.clone(), tree_seed: 1 };
+        let genome = Genome::new(problem.base.clone(), 1);
         let mut memory = evaluator.workspace();
         group.throughput(Throughput::Elements(1));
         group.bench_function(name, |b| b.iter(|| evaluator.evaluate(black_box(&genome), &mut memory)));
     }
     let problem = problem("quaking_aspen");
     let evaluator = Evaluator::new(&problem, Objective::Blend, LIMITS).expect("a good problem");
-    let population = vec![Genome { values: problem.base.clone(), tree_seed: 1 }; 32];
+    let population = vec![Genome::new(problem.base.clone(), 1); 32];
     let most = Size { stems: usize::MAX, leaves: usize::MAX, knots: usize::MAX };
     group.throughput(Throughput::Elements(32));
     for threads in [1, 2] {

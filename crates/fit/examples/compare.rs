@@ -17,7 +17,7 @@
 
 use pleach_fit::{
     Budget, Candidate, Control, FitProblem, FitSettings, GoalView, GuessSettings, Objective, Optimizer,
-    Start, TreeSeed, first_guess, fit,
+    Start, TreeSeed, Unknown, first_guess, fit,
 };
 use pleach_silhouette::score::best_ellipse_iou;
 use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
@@ -60,7 +60,7 @@ fn problem(species: &Species, seed: u64) -> Result<FitProblem, Box<dyn Error>> {
     Ok(FitProblem {
         generator: Arc::clone(&species.generator),
         base: species.generator.space().defaults(),
-        goals: vec![GoalView { goal, view: View::FRONT, frame }],
+        goals: vec![GoalView { goal, view: View::FRONT, frame, unknown: Unknown::default() }],
         foliage: true,
     })
 }

@@ -3,7 +3,7 @@
 //! A checkpoint is one line of header and one of JSON:
 //!
 //! ```text
-//! pleach-checkpoint 1 <length of the body in bytes> <checksum of the body, 16 hexadecimal digits>
+//! pleach-checkpoint 2 <length of the body in bytes> <checksum of the body, 16 hexadecimal digits>
 //! {"fingerprint": …, "search": …, "history": […], "elapsed_s": …}
 //! ```
 //!
@@ -20,7 +20,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 /// The number in the header; files of other versions are refused.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const MAGIC: &str = "pleach-checkpoint";
 
 /// What a checkpoint holds.
@@ -195,7 +195,8 @@ mod tests {
     fn sample() -> Checkpoint<Hewitt> {
         let mut search =
             SearchState::new(Hewitt::new(HewittSettings::default(), 7, Start::Random), &Start::Random);
-        let genome = Genome { values: vec![0.1 + 0.2, -0.0, 1e-300], tree_seed: u64::MAX };
+        let genome =
+            Genome { nuisances: vec![40.0 / 3.0], ..Genome::new(vec![0.1 + 0.2, -0.0, 1e-300], u64::MAX) };
         search.best = Some(Scored {
             genome,
             score: Score { cost: f64::INFINITY, iou: 1.0 / 3.0, ..Score::of_cost(0.0) },
@@ -254,7 +255,7 @@ mod tests {
         let error = Checkpoint::<Hewitt>::read(&path, &other).unwrap_err().to_string();
         assert!(error.ends_with("it differs in goal"), "{error}");
         let text = String::from_utf8(fs::read(&path).unwrap()).unwrap();
-        fs::write(&path, text.replacen(" 1 ", " 9 ", 1)).unwrap();
+        fs::write(&path, text.replacen(" 2 ", " 9 ", 1)).unwrap();
         let error = Checkpoint::<Hewitt>::read(&path, &sample.fingerprint).unwrap_err().to_string();
         assert!(error.contains("version 9"), "{error}");
         let nowhere = folder.path().join("no/such/folder");

@@ -1,6 +1,7 @@
 //! Grow, draw, score: what a fit does a million times.
 
 use crate::genome::{Genome, Score, Size};
+use crate::nuisance::Unknown;
 use crate::objective::Objective;
 use crate::search::Evaluate;
 use pleach_silhouette::score::fast::{Overlaps, PreparedGoal, Scratch};
@@ -20,6 +21,8 @@ pub struct GoalView {
     pub view: View,
     /// Scale and place; of the goal's size.
     pub frame: Frame,
+    /// What of view and frame is not known. Of a problem's first goal, nothing should be.
+    pub unknown: Unknown,
 }
 
 /// What a fit fits: a generator's numbers to the pictures of one tree.
@@ -101,6 +104,9 @@ struct PreparedView {
     goal: Bitmap,
     view: View,
     frame: Frame,
+    unknown: Unknown,
+    /// Number of its first unknown among all nuisances.
+    first: usize,
 }
 
 /// How far a tree's height may be from the goal's before it is resized, in pixels: the tip of a tree
@@ -152,8 +158,9 @@ impl Evaluator {
             return Err(ProblemError::NoGoal);
         }
         let mut views = Vec::new();
+        let mut nuisances = 0;
         for (index, goal) in problem.goals.iter().enumerate() {
-            let GoalView { goal, view, frame } = goal;
+            let GoalView { goal, view, frame, unknown } = goal;
             let sizes = ((goal.width(), goal.height()), (frame.width, frame.height));
             if sizes.0 != sizes.1 {
                 return Err(ProblemError::FrameSize { index, goal: sizes.0, frame: sizes.1 });
@@ -171,7 +178,10 @@ impl Evaluator {
                 goal: goal.clone(),
                 view: *view,
                 frame: *frame,
+                unknown: *unknown,
+                first: nuisances,
             });
+            nuisances += unknown.count();
         }
         Ok(Self {
             generator: Arc::clone(&problem.generator),
@@ -304,7 +314,8 @@ impl Evaluator {
                 }
             }
             for view in &self.views {
-                rasteriser.draw(tree, &view.view, &view.frame, self.foliage, bitmap);
+                let (from, frame) = view.placed(&genome.nuisances);
+                rasteriser.draw(tree, &from, &frame, self.foliage, bitmap);
                 let agreement = view.compare(bitmap, self.objective, comparisons);
                 if looks.is_some() {
                     unlike += 1.0 - view.likeness(bitmap, comparisons);
@@ -341,7 +352,9 @@ impl Evaluator {
     pub(crate) fn goal_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
         for view in &self.views {
-            bytes.extend(format!("{:?} {:?} {}\n", view.view, view.frame, self.foliage).bytes());
+            bytes.extend(
+                format!("{:?} {:?} {:?} {}\n", view.view, view.frame, view.unknown, self.foliage).bytes(),
+            );
             bytes.extend(view.goal.words().iter().flat_map(|word| word.to_le_bytes()));
         }
         bytes
@@ -368,6 +381,13 @@ struct Agreement {
 }
 
 impl PreparedView {
+    /// From where the picture was taken, and its frame.
+    fn placed(&self, nuisances: &[f64]) -> (View, Frame) {
+        let own = nuisances.get(self.first..).unwrap_or_default();
+        let placement = self.unknown.placement(&self.view, own);
+        (placement.view(&self.view), placement.frame(&self.frame))
+    }
+
     fn compare(&self, bitmap: &Bitmap, objective: Objective, memory: &mut Comparisons) -> Agreement {
         let overlaps = self.prepared.overlaps(bitmap, &mut memory.overlaps);
         let accuracy = 1.0 - overlaps.differing as f64 / self.goal.area() as f64;

@@ -3,15 +3,27 @@
 use crate::exact;
 use serde::{Deserialize, Serialize};
 
-/// One individual: a full parameter list and the seed of the tree that is grown from it.
+/// One individual: a full parameter list, the seed of the tree that is grown from it, and from where
+/// its pictures were taken, so far as that is not known.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Genome {
     /// One value for every slot of the generator's [`pleach_tree::ParamSpace`], free or not, as in
     /// species files (degrees, metres).
     #[serde(with = "exact::list")]
     pub values: Vec<f64>,
+    /// What is not known of the views, goal by goal: see [`crate::nuisance`]. Empty if all is.
+    #[serde(with = "exact::list")]
+    pub nuisances: Vec<f64>,
     /// Seed of the tree.
     pub tree_seed: u64,
+}
+
+impl Genome {
+    /// Of goals of whose views everything is known.
+    #[must_use]
+    pub const fn new(values: Vec<f64>, tree_seed: u64) -> Self {
+        Self { values, nuisances: Vec::new(), tree_seed }
+    }
 }
 
 /// How well an individual matches the goal.

@@ -7,6 +7,7 @@
 
 use crate::evaluator::{Evaluator, FitProblem};
 use crate::genome::{Genome, Score};
+use crate::nuisance::Azimuth;
 use crate::objective::Objective;
 use crate::run::FitError;
 use crate::settings::FitSettings;
@@ -91,6 +92,10 @@ pub fn first_guess(
     stop: &AtomicBool,
     mut progress: impl FnMut(usize, usize),
 ) -> Result<FirstGuess, FitError> {
+    // From where the others were taken, the search has yet to find out.
+    let mut known = problem.clone();
+    known.goals.retain(|goal| goal.unknown.azimuth != Azimuth::Any);
+    let problem = &known;
     let looks = Evaluator::new(problem, Objective::Likeness, settings.limits)?;
     let looks = looks.over_seeds(settings.robust).matching_height();
     let tries = tries(problem, settings, candidates, guess)?;
@@ -167,8 +172,8 @@ fn tries(
             let mut read = Vec::new();
             space.read_genes(values, &mut read);
             for gene in read.into_iter().map(|g| &space.genes()[g]).filter(|gene| !gene.is_choice()) {
-                let value = &mut genome.values[gene.slot];
-                *value = gene.clamp(*value * (1.0 + guess.spread * draws.normal()));
+                let value = gene.clamp(gene.of(&genome) * (1.0 + guess.spread * draws.normal()));
+                gene.set(&mut genome, value);
             }
             space.settle(&mut genome);
             list.push(Try { candidate, may_start: true, genome });

@@ -7,6 +7,7 @@
 //! | [`space`] | [`SearchSpace`]: which numbers are free, and how far |
 //! | [`method`] | optimisers that are asked for individuals and told their scores |
 //! | [`search`] | [`Search`]: a method as an argmin solver |
+//! | [`nuisance`] | [`Unknown`], [`Placement`]: what is not known of a picture |
 //! | [`objective`] | [`Objective`]: what is made small |
 //! | [`evaluator`] | [`Evaluator`]: grow, draw, score, without allocating |
 //! | [`fresh`] | [`fresh_seeds`]: what the result is worth with other seeds |
@@ -33,6 +34,7 @@ pub mod genome;
 pub mod guess;
 pub mod history;
 pub mod method;
+pub mod nuisance;
 pub mod objective;
 pub mod profile;
 pub mod run;
@@ -52,6 +54,7 @@ pub use genome::{Genome, Score, Scored, Size};
 pub use guess::{Candidate, FirstGuess, Guess, GuessSettings, first_guess};
 pub use history::{COLUMNS, Column, Observer, Progress, Row};
 pub use method::{Method, Start};
+pub use nuisance::{Azimuth, Placement, Unknown, placements};
 pub use objective::Objective;
 pub use profile::{Profile, Seen, profile, put_back_unseen};
 pub use run::{CheckpointSettings, Control, FitError, Outcome, fit, settled};

@@ -58,17 +58,18 @@ pub fn profile(
     let mut plan: Vec<(usize, Vec<Move>)> = Vec::new();
     // They move this tree, and its size can make up for it: a picture does not tell them.
     let hidden = space.size_variations(&best.genome.values);
-    for gene in space.genes() {
+    // Nuisances stay as they are: they are no parameters of the tree.
+    for (gene, slot) in space.genes().iter().filter_map(|gene| Some((gene, gene.slot()?))) {
         let mut of_gene = Vec::new();
-        if !hidden.contains(&gene.slot) && space.is_read(&best.genome.values, gene) {
-            for (place, value) in alternatives(gene, best.genome.values[gene.slot]) {
+        if !hidden.contains(&slot) && space.is_read(&best.genome.values, gene) {
+            for (place, value) in alternatives(gene, best.genome.values[slot]) {
                 of_gene.push(Move { place, number: moves.len() });
                 let mut genome = best.genome.clone();
-                genome.values[gene.slot] = value;
+                genome.values[slot] = value;
                 moves.push(genome);
             }
         }
-        plan.push((gene.slot, of_gene));
+        plan.push((slot, of_gene));
     }
     let scores = stoppable::map(&moves, stop, |genome| evaluator.score(genome))?;
     Ok(plan
@@ -185,7 +186,7 @@ fn steps_back(space: &SearchSpace, from: &Genome, waiting: &VecDeque<usize>, sta
     let mut trials = rayon::current_num_threads();
     let mut steps = Vec::new();
     for &slot in waiting {
-        let gene = space.genes().iter().find(|gene| gene.slot == slot);
+        let gene = space.genes().iter().find(|gene| gene.slot() == Some(slot));
         let is_read = gene.is_none_or(|gene| space.is_read(&genome.values, gene));
         if is_read && trials == 0 {
             break;

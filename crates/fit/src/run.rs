@@ -129,8 +129,7 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
 
 /// The space that a fit searches: the free slots, in ranges that hold every start.
 pub(crate) fn search_space(problem: &FitProblem, settings: &FitSettings) -> Result<SearchSpace, FitError> {
-    let generator = Arc::clone(&problem.generator);
-    let mut space = SearchSpace::new(generator, &problem.base, &settings.freedom, settings.tree_seed)?;
+    let mut space = SearchSpace::of_problem(problem, &settings.freedom, settings.tree_seed)?;
     if settings.start == Start::Lists(Vec::new()) {
         return Err(FitError::NoStart);
     }

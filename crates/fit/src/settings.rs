@@ -3,7 +3,8 @@
 use crate::budget::Budget;
 use crate::genome::{Genome, Score};
 use crate::method::{
-    Evolution, EvolutionSettings, Hewitt, HewittSettings, Method, Random, RandomSettings, Start,
+    Cma, CmaSettings, Evolution, EvolutionSettings, Hewitt, HewittSettings, Method, Random, RandomSettings,
+    Shade, ShadeSettings, Start,
 };
 use crate::objective::Objective;
 use crate::space::{Freedom, SearchSpace, TreeSeed};
@@ -22,6 +23,10 @@ pub enum Optimizer {
     Hewitt(HewittSettings),
     /// [`Evolution`].
     Evolution(EvolutionSettings),
+    /// [`Cma`].
+    Cma(CmaSettings),
+    /// [`Shade`].
+    De(ShadeSettings),
 }
 
 /// A word that names no optimiser.
@@ -34,7 +39,7 @@ pub struct UnknownOptimizer {
 
 impl Optimizer {
     /// The names of all optimisers, the default first.
-    pub const NAMES: [&'static str; 3] = ["evolution", "hewitt", "random"];
+    pub const NAMES: [&'static str; 5] = ["evolution", "cma", "de", "hewitt", "random"];
 
     /// The name on the command line.
     #[must_use]
@@ -43,6 +48,8 @@ impl Optimizer {
             Self::Random(_) => "random",
             Self::Hewitt(_) => "hewitt",
             Self::Evolution(_) => "evolution",
+            Self::Cma(_) => "cma",
+            Self::De(_) => "de",
         }
     }
 
@@ -53,6 +60,8 @@ impl Optimizer {
             Self::Random(settings) => AnyMethod::Random(Random::new(settings.clone(), seed, start)),
             Self::Hewitt(settings) => AnyMethod::Hewitt(Hewitt::new(settings.clone(), seed, start)),
             Self::Evolution(settings) => AnyMethod::Evolution(Evolution::new(settings.clone(), seed, start)),
+            Self::Cma(settings) => AnyMethod::Cma(Cma::new(settings.clone(), seed, start)),
+            Self::De(settings) => AnyMethod::De(Shade::new(settings.clone(), seed, start)),
         }
     }
 }
@@ -65,6 +74,7 @@ impl Optimizer {
         match self {
             Self::Random(_) | Self::Hewitt(_) => false,
             Self::Evolution(settings) => settings.match_height,
+            Self::Cma(_) | Self::De(_) => true,
         }
     }
 }
@@ -75,6 +85,8 @@ impl FromStr for Optimizer {
     fn from_str(given: &str) -> Result<Self, Self::Err> {
         match given {
             "random" => Ok(Self::Random(RandomSettings::default())),
+            "cma" => Ok(Self::Cma(CmaSettings::default())),
+            "de" => Ok(Self::De(ShadeSettings::default())),
             "evolution" => Ok(Self::Evolution(EvolutionSettings::default())),
             "hewitt" => Ok(Self::Hewitt(HewittSettings::default())),
             _ => Err(UnknownOptimizer { given: given.to_owned() }),
@@ -92,6 +104,10 @@ pub enum AnyMethod {
     Hewitt(Hewitt),
     /// [`Evolution`].
     Evolution(Evolution),
+    /// [`Cma`].
+    Cma(Cma),
+    /// [`Shade`].
+    De(Shade),
 }
 
 impl AnyMethod {
@@ -100,6 +116,8 @@ impl AnyMethod {
             Self::Random(method) => method,
             Self::Hewitt(method) => method,
             Self::Evolution(method) => method,
+            Self::Cma(method) => method,
+            Self::De(method) => method,
         }
     }
 
@@ -108,6 +126,8 @@ impl AnyMethod {
             Self::Random(method) => method,
             Self::Hewitt(method) => method,
             Self::Evolution(method) => method,
+            Self::Cma(method) => method,
+            Self::De(method) => method,
         }
     }
 }

@@ -30,8 +30,8 @@ fn warm_evaluations_allocate_nothing() {
             let mut draws = Stream::at(1, 9, 0, i);
             let mut genome = space.individual(&problem.base, 1);
             for gene in space.genes() {
-                let unit = gene.to_unit(genome.values[gene.slot]) + 0.02 * draws.signed();
-                genome.values[gene.slot] = gene.from_unit(unit);
+                let unit = gene.to_unit(gene.of(&genome)) + 0.02 * draws.signed();
+                gene.set(&mut genome, gene.from_unit(unit));
             }
             genome
         })

@@ -17,7 +17,7 @@ use std::sync::atomic::AtomicBool;
 static GO: AtomicBool = AtomicBool::new(false);
 
 fn truth(problem: &FitProblem) -> Genome {
-    Genome { values: problem.base.clone(), tree_seed: 1 }
+    Genome::new(problem.base.clone(), 1)
 }
 
 fn evaluate(evaluator: &Evaluator, genome: &Genome) -> Score {

@@ -104,7 +104,7 @@ impl Hewitt {
             return child;
         };
         let gene = &space.genes()[gene];
-        let old = base.values[gene.slot];
+        let old = gene.of(base);
         let least = self.settings.zero_share * (gene.high - gene.low);
         let amount = old.abs().max(least) * self.settings.step * draws.signed();
         let mut value = old + amount;
@@ -116,10 +116,12 @@ impl Hewitt {
             value = -value;
         }
         // The text knows no search range: any allowed value may be reached.
-        child.values[gene.slot] = match gene.kind {
+        let value = match gene.kind {
             Kind::Choice { .. } => gene.clamp(value),
+            _ if gene.is_periodic() => gene.clamp(value),
             kind => kind.repair(value),
         };
+        gene.set(&mut child, value);
         child
     }
 
@@ -127,15 +129,15 @@ impl Hewitt {
         let mut draws = Stream::at(self.seed, 2, self.round, 0);
         let mut merged = best.clone();
         for gene in space.genes() {
-            let slot = gene.slot;
-            let (old, a, b) = (base.values[slot], best.values[slot], second.values[slot]);
-            merged.values[slot] = match self.settings.merge {
+            let [old, a, b] = [base, best, second].map(|genome| gene.of(genome));
+            let value = match self.settings.merge {
                 Merge::Both if a == old => b,
                 Merge::Both => a,
                 Merge::Uniform => [a, b][draws.below(2)],
                 Merge::Mean if gene.is_choice() || (gene.kind.is_flagged() && a * b < 0.0) => a,
                 Merge::Mean => gene.kind.repair(f64::midpoint(a, b)),
             };
+            gene.set(&mut merged, value);
         }
         if self.settings.merge == Merge::Both && best.tree_seed == base.tree_seed {
             merged.tree_seed = second.tree_seed;
@@ -226,7 +228,7 @@ mod tests {
     #[test]
     fn a_zero_can_move() {
         let (space, hewitt) = started(HewittSettings::default());
-        let zero = Genome { values: vec![0.0, 0.0, 0.0, 0.0], tree_seed: 1 };
+        let zero = Genome::new(vec![0.0, 0.0, 0.0, 0.0], 1);
         let moved = (0..50).map(|m| hewitt.permuted(&space, &zero, &[0], &mut Stream::at(1, 9, 0, m)));
         let reach = moved.map(|g| g.values[0].abs()).fold(0.0, f64::max);
         assert!((0.1..=0.2).contains(&reach), "half of a tenth of the range: {reach}");
@@ -237,7 +239,7 @@ mod tests {
         for (merge, expected) in [(Merge::Both, [3.0, 45.0, 7.0, 2.0]), (Merge::Mean, [2.5, 45.0, 6.0, 2.0])]
         {
             let (space, mut hewitt) = started(HewittSettings { merge, ..HewittSettings::default() });
-            let genome = |values: [f64; 4]| Genome { values: values.to_vec(), tree_seed: 1 };
+            let genome = |values: [f64; 4]| Genome::new(values.to_vec(), 1);
             let members = [
                 genome([9.0, 45.0, 5.0, 2.0]),
                 genome([2.0, 45.0, 7.0, 2.0]),

@@ -45,6 +45,40 @@ fn the_default_finds_the_minima_of_the_test_functions() {
     }
 }
 
+#[test]
+fn the_rivals_find_the_minima_of_smooth_functions() {
+    type Case = (&'static str, fn(&[f64]) -> f64, f64, f64, [f64; 2]);
+    // What CMA-ES and SHADE reach at most.
+    let cases: [Case; 4] = [
+        ("sphere", |x| sphere(x), -3.0, 5.0, [1e-8, 1e-6]),
+        ("rosenbrock", |x| rosenbrock(x), -3.0, 5.0, [4.0, 8.0]),
+        ("ackley", |x| ackley(x), -20.0, 30.0, [1e-6, 0.01]),
+        ("levy", |x| levy(x), -7.0, 10.0, [1e-6, 0.01]),
+    ];
+    for (function_name, function, low, high, most) in cases {
+        for (name, most) in ["cma", "de"].into_iter().zip(most) {
+            let cost = reached(name, function, &cube(8, low, high), 4000);
+            assert!(cost < most, "{name} on {function_name}: {cost}");
+        }
+    }
+}
+
+/// Where numbers only do well together, a distribution that learns which beats steps number by number.
+#[test]
+fn a_long_narrow_valley_is_what_cma_is_for() {
+    // Not at zero, which evolution tries for its own sake.
+    fn ellipsoid(x: &[f64]) -> f64 {
+        let mixed = |i: usize| {
+            x.iter().enumerate().map(|(j, v)| (v - 0.7) * ((i * (j + 1)) as f64).cos()).sum::<f64>()
+        };
+        (0..x.len()).map(|i| 10_f64.powf(i as f64 / 2.0) * mixed(i).powi(2)).sum()
+    }
+    let space = cube(8, -3.0, 5.0);
+    let cma = reached("cma", ellipsoid, &space, 6000);
+    let evolution = reached("evolution", ellipsoid, &space, 6000);
+    assert!(cma < 1e-6 && cma < 1e-2 * evolution, "{cma} against {evolution}");
+}
+
 /// Four kinds of numbers with one needle: distance in each, and a whole step for each wrong name.
 fn needle(x: &[f64]) -> f64 {
     let names = [3.0, 1.0].iter().zip(&x[6..8]).filter(|(a, b)| a != b).count() as f64;
@@ -69,7 +103,7 @@ fn mixed() -> ParamSpace {
 
 #[test]
 fn needles_among_mixed_variables_are_found() {
-    for (name, most) in [("evolution", 0.02), ("hewitt", 0.5)] {
+    for (name, most) in [("evolution", 0.02), ("cma", 1e-3), ("de", 1e-3), ("hewitt", 0.5)] {
         let cost = reached(name, needle, &mixed(), 3000);
         assert!(cost < most, "{name}: {cost}");
     }
@@ -82,7 +116,7 @@ fn a_switch_that_is_set_the_wrong_way_is_turned() {
     fn two_sided(x: &[f64]) -> f64 {
         (x[0].abs() - 60.0).abs() / 90.0 + f64::from(u8::from(x[0] > 0.0))
     }
-    for name in ["evolution", "hewitt"] {
+    for name in ["evolution", "cma", "de", "hewitt"] {
         let cost = reached(name, two_sided, &params(vec![flagged("f", 90.0)]), 400);
         assert!(cost < 0.05, "{name}: {cost}");
     }

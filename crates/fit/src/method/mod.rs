@@ -7,18 +7,25 @@
 //! | method | idea | source |
 //! | --- | --- | --- |
 //! | [`Evolution`] | sparse steps in an elitist population, restarted: the default | |
+//! | [`Cma`] | a normal distribution that learns which way to go: CMA-ES with margin | Hansen 2016; Hamano and others 2022 |
+//! | [`Shade`] | differences of a population, their factors learnt | Tanabe and Fukunaga 2013 |
 //! | [`Random`] | lists drawn independently: the floor to compare with | |
 //! | [`Hewitt`] | copies of a base with one parameter changed each; the two fittest merge to the next base | Hewitt 2017, §3.3.2 |
 
+mod cma;
 mod evolution;
+mod first;
 mod hewitt;
 #[cfg(test)]
 mod known_minima;
 mod random;
+mod shade;
 
+pub use cma::{Cma, CmaSettings};
 pub use evolution::{Evolution, EvolutionSettings, Move};
 pub use hewitt::{Hewitt, HewittSettings, Merge};
 pub use random::{Random, RandomSettings};
+pub use shade::{Shade, ShadeSettings};
 
 use crate::genome::{Genome, Score};
 use crate::space::SearchSpace;

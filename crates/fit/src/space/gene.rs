@@ -1,13 +1,29 @@
 //! One free number.
 
+use crate::genome::Genome;
+use crate::nuisance::Nuisance;
 use crate::stream::Stream;
 use pleach_tree::Kind;
 
-/// One free slot: what its number means and where a search may look.
+/// Where the number of a gene is in a [`Genome`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// In [`Genome::values`]: a slot of the generator's parameter space.
+    Slot(usize),
+    /// In [`Genome::nuisances`].
+    Nuisance {
+        /// Which of them.
+        number: usize,
+        /// What it is.
+        nuisance: Nuisance,
+    },
+}
+
+/// One free number: what it means and where a search may look.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gene {
-    /// The slot in the generator's parameter space.
-    pub slot: usize,
+    /// Where the number is.
+    pub place: Place,
     /// What the number means.
     pub kind: Kind,
     /// Smallest value that searches try.
@@ -19,6 +35,43 @@ pub struct Gene {
 impl Gene {
     /// A range over more than this factor is searched by ratio: 2 to 4 is as far as 100 to 200.
     const LOG_FROM: f64 = 20.0;
+
+    /// The slot in the generator's parameter space; none for a nuisance.
+    #[must_use]
+    pub const fn slot(&self) -> Option<usize> {
+        match self.place {
+            Place::Slot(slot) => Some(slot),
+            Place::Nuisance { .. } => None,
+        }
+    }
+
+    /// The number in `genome`.
+    #[must_use]
+    pub fn of(&self, genome: &Genome) -> f64 {
+        match self.place {
+            Place::Slot(slot) => genome.values[slot],
+            Place::Nuisance { number, .. } => genome.nuisances[number],
+        }
+    }
+
+    /// Makes `value` the number in `genome`, as it is.
+    pub fn set(&self, genome: &mut Genome, value: f64) {
+        match self.place {
+            Place::Slot(slot) => genome.values[slot] = value,
+            Place::Nuisance { number, .. } => genome.nuisances[number] = value,
+        }
+    }
+
+    /// Whether the number is an azimuth, of which none is simpler than another.
+    const fn is_azimuth(&self) -> bool {
+        matches!(self.place, Place::Nuisance { nuisance: Nuisance::Azimuth, .. })
+    }
+
+    /// Whether the range is a circle, its ends the same direction.
+    #[must_use]
+    pub fn is_periodic(&self) -> bool {
+        self.is_azimuth() && self.high - self.low >= 360.0
+    }
 
     /// Whether steps are ratios and not differences: for positive quantities of unknown size.
     #[must_use]
@@ -42,7 +95,7 @@ impl Gene {
     /// are no such thing: none of them is not the simple case but another tree.
     #[must_use]
     pub fn may_be_zero(&self) -> bool {
-        !self.kind.is_whole() && self.low <= 0.0 && 0.0 <= self.high
+        !self.kind.is_whole() && !self.is_azimuth() && self.low <= 0.0 && 0.0 <= self.high
     }
 
     /// Whether there is but one value.
@@ -57,10 +110,14 @@ impl Gene {
         if self.kind.is_whole() { self.high - self.low + 1.0 } else { f64::INFINITY }
     }
 
-    /// The nearest value within range, whole where it must be; the middle of the range for NaN.
+    /// The nearest value within range, whole where it must be; the middle of the range for NaN. On a
+    /// circle the same direction.
     #[must_use]
     pub fn clamp(&self, value: f64) -> f64 {
         let value = if value.is_nan() { f64::midpoint(self.low, self.high) } else { value };
+        if self.is_periodic() {
+            return self.low + (value - self.low).rem_euclid(self.high - self.low);
+        }
         self.kind.repair(value.clamp(self.low, self.high)).clamp(self.low, self.high)
     }
 
@@ -109,7 +166,7 @@ mod tests {
     use super::*;
 
     fn gene(kind: Kind, low: f64, high: f64) -> Gene {
-        Gene { slot: 0, kind, low, high }
+        Gene { place: Place::Slot(0), kind, low, high }
     }
 
     #[test]

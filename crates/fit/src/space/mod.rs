@@ -2,9 +2,11 @@
 
 mod gene;
 
-pub use gene::Gene;
+pub use gene::{Gene, Place};
 
+use crate::evaluator::FitProblem;
 use crate::genome::Genome;
+use crate::nuisance;
 use crate::stream::Stream;
 use pleach_tree::param::{Problem, Unit};
 use pleach_tree::{Generator, ParamSpace};
@@ -49,6 +51,9 @@ pub enum SpaceError {
     Start(#[from] pleach_tree::param::SlotError),
 }
 
+/// Directions in which a list is tried whose pictures may be from anywhere.
+const DIRECTIONS: usize = 8;
+
 /// The free numbers of a problem, and the values of all others.
 #[derive(Clone, Debug)]
 pub struct SearchSpace {
@@ -56,6 +61,8 @@ pub struct SearchSpace {
     generator: Option<Arc<dyn Generator>>,
     genes: Vec<Gene>,
     base: Vec<f64>,
+    /// What nuisances are where nothing is said.
+    usual: Vec<f64>,
     tree_seed: TreeSeed,
     settles: bool,
 }
@@ -81,6 +88,22 @@ impl SearchSpace {
         Ok(space)
     }
 
+    /// The free slots of a problem's generator, and what is not known of its goals' views.
+    ///
+    /// # Errors
+    /// As [`SearchSpace::new`].
+    pub fn of_problem(
+        problem: &FitProblem,
+        freedom: &Freedom,
+        tree_seed: TreeSeed,
+    ) -> Result<Self, SpaceError> {
+        let params = problem.generator.space().clone();
+        let unknown = nuisance::genes(&problem.goals);
+        let mut space = Self::build(params, &problem.base, freedom, tree_seed, unknown)?;
+        space.generator = Some(Arc::clone(&problem.generator));
+        Ok(space)
+    }
+
     /// The same without a generator: every slot counts as read. For tests on known functions.
     ///
     /// # Errors
@@ -90,6 +113,16 @@ impl SearchSpace {
         base: &[f64],
         freedom: &Freedom,
         tree_seed: TreeSeed,
+    ) -> Result<Self, SpaceError> {
+        Self::build(params, base, freedom, tree_seed, (Vec::new(), Vec::new()))
+    }
+
+    fn build(
+        params: ParamSpace,
+        base: &[f64],
+        freedom: &Freedom,
+        tree_seed: TreeSeed,
+        (nuisances, usual): (Vec<Gene>, Vec<f64>),
     ) -> Result<Self, SpaceError> {
         params.check(base.to_vec())?;
         let mut is_free = vec![freedom.free.is_empty(); params.len()];
@@ -108,18 +141,20 @@ impl SearchSpace {
             .map(|slot| {
                 let (low, high) = params.search_range(slot);
                 Gene {
-                    slot,
+                    place: Place::Slot(slot),
                     kind: params.kind_of(slot),
                     low: low.min(base[slot]),
                     high: high.max(base[slot]),
                 }
             })
             .filter(|gene| !gene.is_constant())
+            // After the slots, so that without nuisances no draw of a search is another.
+            .chain(nuisances)
             .collect();
         if genes.is_empty() && tree_seed != TreeSeed::Any {
             return Err(SpaceError::NothingFree);
         }
-        Ok(Self { params, generator: None, genes, base: base.to_vec(), tree_seed, settles: false })
+        Ok(Self { params, generator: None, genes, base: base.to_vec(), usual, tree_seed, settles: false })
     }
 
     /// Widens the ranges to hold `values`, one a slot: another start.
@@ -129,13 +164,15 @@ impl SearchSpace {
     pub fn widen(&mut self, values: &[f64]) -> Result<(), SpaceError> {
         self.params.check(values.to_vec())?;
         for gene in &mut self.genes {
-            gene.low = gene.low.min(values[gene.slot]);
-            gene.high = gene.high.max(values[gene.slot]);
+            if let Some(slot) = gene.slot() {
+                gene.low = gene.low.min(values[slot]);
+                gene.high = gene.high.max(values[slot]);
+            }
         }
         Ok(())
     }
 
-    /// The free numbers, in slot order.
+    /// The free numbers: slots in order, then nuisances.
     #[must_use]
     pub fn genes(&self) -> &[Gene] {
         &self.genes
@@ -160,12 +197,14 @@ impl SearchSpace {
     }
 
     /// The individual with these values where slots are free and the base's elsewhere, and the tree
-    /// seed of the problem (`seed` where any will do).
+    /// seed of the problem (`seed` where any will do); nuisances are what is usual.
     #[must_use]
     pub fn individual(&self, values: &[f64], seed: u64) -> Genome {
-        let mut genome = Genome { values: self.base.clone(), tree_seed: seed };
+        let mut genome = Genome { values: self.base.clone(), nuisances: self.usual.clone(), tree_seed: seed };
         for gene in &self.genes {
-            genome.values[gene.slot] = gene.clamp(values[gene.slot]);
+            if let Some(slot) = gene.slot() {
+                genome.values[slot] = gene.clamp(values[slot]);
+            }
         }
         if let TreeSeed::Fixed(seed) = self.tree_seed {
             genome.tree_seed = seed;
@@ -176,7 +215,7 @@ impl SearchSpace {
     /// Whether all sizes in metres are free, so that individuals may be resized.
     #[must_use]
     pub fn sizes_are_free(&self) -> bool {
-        let is_free = |slot| self.genes.iter().any(|gene| gene.slot == slot);
+        let is_free = |slot| self.genes.iter().any(|gene| gene.slot() == Some(slot));
         let mut sizes = (0..self.params.len()).filter(|&s| self.params.param_of(s).unit == Unit::Metres);
         sizes.all(is_free)
     }
@@ -208,7 +247,9 @@ impl SearchSpace {
     pub(crate) fn size_variations(&self, values: &[f64]) -> Vec<usize> {
         let generator = self.generator.as_ref().filter(|_| self.settles);
         let mut slots = generator.map_or_else(Vec::new, |generator| generator.size_variations(values));
-        slots.retain(|&slot| self.genes.iter().any(|gene| gene.slot == slot && gene.clamp(0.0) == 0.0));
+        slots.retain(|&slot| {
+            self.genes.iter().any(|gene| gene.slot() == Some(slot) && gene.clamp(0.0) == 0.0)
+        });
         slots
     }
 
@@ -217,12 +258,28 @@ impl SearchSpace {
     pub fn random(&self, stream: &mut Stream) -> Genome {
         let mut genome = self.individual(&self.base, 0);
         for gene in &self.genes {
-            genome.values[gene.slot] = gene.random(stream);
+            let value = gene.random(stream);
+            gene.set(&mut genome, value);
         }
         if self.tree_seed == TreeSeed::Any {
             genome.tree_seed = Self::random_seed(stream);
         }
         genome
+    }
+
+    /// In how many directions each list of a start is tried: one if all azimuths are known.
+    pub(crate) fn directions(&self) -> usize {
+        if self.genes.iter().any(Gene::is_periodic) { DIRECTIONS } else { 1 }
+    }
+
+    /// Turns the pictures of `genome` whose azimuth may be any: the first of them to the `part`-th of
+    /// [`SearchSpace::directions`], the others anywhere.
+    pub(crate) fn turn(&self, genome: &mut Genome, part: usize, stream: &mut Stream) {
+        for (i, gene) in self.genes.iter().filter(|gene| gene.is_periodic()).enumerate() {
+            let unit = stream.unit();
+            let unit = if i == 0 { (part as f64 + unit) / DIRECTIONS as f64 } else { unit };
+            gene.set(genome, gene.from_unit(unit));
+        }
     }
 
     /// A tree's seed, short enough to be typed.
@@ -234,7 +291,10 @@ impl SearchSpace {
     /// Whether the value of `gene` can change the tree of `values`: see [`Generator::reads`].
     #[must_use]
     pub fn is_read(&self, values: &[f64], gene: &Gene) -> bool {
-        self.generator.as_ref().is_none_or(|generator| generator.reads(values, gene.slot))
+        match (&self.generator, gene.slot()) {
+            (Some(generator), Some(slot)) => generator.reads(values, slot),
+            _ => true,
+        }
     }
 
     /// Collects the numbers (in [`SearchSpace::genes`]) of the genes that `values` reads.
@@ -259,7 +319,7 @@ mod tests {
         let space = params(vec![real("a", 0.0, 1.0), real("b", 0.0, 1.0), integer("n", 1, 9)]);
         let build =
             |f: Freedom, base: &[f64]| SearchSpace::of_params(space.clone(), base, &f, TreeSeed::Fixed(1));
-        let names = |s: &SearchSpace| s.genes().iter().map(|g| g.slot).collect::<Vec<_>>();
+        let names = |s: &SearchSpace| s.genes().iter().filter_map(Gene::slot).collect::<Vec<_>>();
         let base = [0.5, 0.5, 3.0];
         assert_eq!(names(&build(Freedom::default(), &base).unwrap()), [0, 1, 2]);
         assert_eq!(names(&build(freedom(&["a", "n"], &[]), &base).unwrap()), [0, 2]);

@@ -1,6 +1,6 @@
 //! Problems that several test programs share.
 
-use pleach_fit::{FitProblem, GoalView};
+use pleach_fit::{FitProblem, GoalView, Unknown};
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ pub(crate) fn goal_of(species: &str, seed: u64, size: u32) -> FitProblem {
     FitProblem {
         generator: Arc::clone(&species.generator),
         base: species.params.values().to_vec(),
-        goals: vec![GoalView { goal, view: View::FRONT, frame }],
+        goals: vec![GoalView { goal, view: View::FRONT, frame, unknown: Unknown::default() }],
         foliage: true,
     }
 }

@@ -5,7 +5,9 @@ use super::spec::{FitsSpec, GoalSpec};
 use super::{Slice, Table, progress};
 use crate::{files, output};
 use anyhow::Context;
-use pleach_fit::{Budget, Control, FitProblem, FitSettings, GoalView, Objective, Outcome, Start, TreeSeed};
+use pleach_fit::{
+    Budget, Control, FitProblem, FitSettings, GoalView, Objective, Outcome, Start, TreeSeed, Unknown,
+};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::picture;
 use pleach_silhouette::{Bitmap, Rasteriser, View};
@@ -135,7 +137,12 @@ fn problem(folder: &Path, goal: &GoalSpec) -> anyhow::Result<FitProblem> {
     Ok(FitProblem {
         base: base.params.values().to_vec(),
         generator: base.generator,
-        goals: vec![GoalView { frame: picture.frame(goal.height), goal: picture.bitmap, view: View::FRONT }],
+        goals: vec![GoalView {
+            frame: picture.frame(goal.height),
+            goal: picture.bitmap,
+            view: View::FRONT,
+            unknown: Unknown::default(),
+        }],
         foliage: true,
     })
 }
@@ -191,7 +198,7 @@ fn pictures(
     finished: &[Finished],
 ) -> anyhow::Result<()> {
     let problem = problem(folder, goal)?;
-    let GoalView { goal: target, view, frame } = &problem.goals[0];
+    let GoalView { goal: target, view, frame, .. } = &problem.goals[0];
     let draw = |values: &[f64], seed: u64| -> anyhow::Result<Bitmap> {
         let params = problem.generator.space().check(values.to_vec())?;
         let mut tree = pleach_tree::Tree::default();

@@ -21,6 +21,7 @@ use goal::{Goals, MaskSource};
 use options::Settings;
 use pleach_fit::{
     Budget, CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, Objective, StopReason,
+    Unknown,
 };
 use pleach_silhouette::goal::Goal;
 use pleach_tree::{Foliage, Growth};
@@ -42,6 +43,7 @@ const EXAMPLES: &str = "Examples:
   pleach fit goal.png --robust 4                      parameters of which every seed looks like the goal
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit front.png --view 90=side.png --holdout-view 45=corner.png
+  pleach fit front.png --view auto=other.png --free-frame     another picture, from who knows where
   pleach fit goal.png --out DIR --resume              go on after ctrl-C or a crash
   pleach fit goals/*.png --out runs --timeout 2m      a batch: runs/STEM/, runs/summary.csv
   pleach fit goals/*.png --out runs --shard 2/8       goals 2, 10, 18 … of it, for array jobs
@@ -120,12 +122,17 @@ struct GoalArgs {
     #[arg(long, value_name = "PIXELS")]
     axis_column: Option<f64>,
     /// Direction of the goal's view in degrees: azimuth, and elevation where it is not 0; with a file,
-    /// a further picture of the same tree, fitted as well; repeatable
+    /// a further picture of the same tree, fitted as well; repeatable. `~AZ=FILE` is from within 15
+    /// degrees of it, `auto=FILE` from anywhere around the tree: the azimuth is then searched
     #[arg(long, value_name = "AZ[,EL][=FILE]", allow_hyphen_values = true)]
     view: Vec<views::Direction>,
+    /// Search the scale (± 20 %) and the place (± 10 % of width and height) of the tree in further
+    /// pictures; the goal's own frame is taken as it is
+    #[arg(long)]
+    free_frame: bool,
     /// A further picture of the same tree that is not fitted but scored; repeatable
     #[arg(long, value_name = "AZ[,EL]=FILE", allow_hyphen_values = true)]
-    holdout_view: Vec<views::Picture>,
+    holdout_view: Vec<views::KnownPicture>,
     /// The goal is a bare tree: grow no leaves
     #[arg(long)]
     no_leaves: bool,
@@ -145,7 +152,8 @@ struct SearchArgs {
     /// Parameters that keep the start's value; repeatable
     #[arg(long, value_name = "PATTERN")]
     fix: Vec<String>,
-    /// The optimiser
+    /// The optimiser: evolution, cma (CMA-ES with margin), de (differential evolution, SHADE), hewitt
+    /// (the dissertation's genetic algorithm) or random
     #[arg(long, value_name = "NAME", default_value = pleach_fit::Optimizer::NAMES[0])]
     optimizer: String,
     /// A setting of the optimiser, such as population=60; repeatable. `--set help` lists them
@@ -192,6 +200,9 @@ impl Fit {
         let (_, further) = views::sort(&self.goal_options.view)?;
         if self.goals.len() > 1 && !(further.is_empty() && self.goal_options.holdout_view.is_empty()) {
             bail!("further views are of one tree, and there are {} goals", self.goals.len());
+        }
+        if self.goal_options.free_frame && further.is_empty() {
+            bail!("--free-frame is about further pictures, and there is none: --view auto=FILE");
         }
         // Before a folder is made.
         self.search.from.species()?;
@@ -286,7 +297,14 @@ impl Fit {
         let tree = species.grow_with(&growth)?;
         let args = &self.goal_options;
         let (view, further) = views::sort(&args.view)?;
-        let score = |picture: &views::Picture| picture.score(&tree, problem.foliage, args.height);
+        let placements = pleach_fit::placements(&problem.goals, &best.genome.nuisances);
+        // The first is the goal's own.
+        let views = further
+            .iter()
+            .zip(placements.iter().skip(1))
+            .map(|(picture, placement)| picture.score(&tree, problem.foliage, args.height, placement));
+        let holdouts = args.holdout_view.iter();
+        let holdouts = holdouts.map(|picture| picture.score(&tree, problem.foliage, args.height));
         folder.write(folder::Results {
             settings: &settings,
             outcome: &outcome,
@@ -297,8 +315,8 @@ impl Fit {
             goal: &goal.full,
             working: &goal.working,
             view: &view,
-            views: further.iter().map(score).collect::<anyhow::Result<_>>()?,
-            holdout_views: args.holdout_view.iter().map(score).collect::<anyhow::Result<_>>()?,
+            views: views.collect::<anyhow::Result<_>>()?,
+            holdout_views: holdouts.collect::<anyhow::Result<_>>()?,
             height: args.height,
             foliage: problem.foliage,
             from: self.search.from.to_string(),
@@ -309,15 +327,20 @@ impl Fit {
 
     fn problem(&self, goal: &Goal) -> anyhow::Result<FitProblem> {
         let start = self.search.from.species()?;
-        let GoalArgs { height, size, .. } = self.goal_options;
+        let GoalArgs { height, size, free_frame, .. } = self.goal_options;
         let (view, further) = views::sort(&self.goal_options.view)?;
-        let mut goals = vec![GoalView { goal: goal.bitmap.clone(), view, frame: goal.frame(height) }];
+        let mut goals = vec![GoalView {
+            goal: goal.bitmap.clone(),
+            view,
+            frame: goal.frame(height),
+            unknown: Unknown::default(),
+        }];
         for picture in further {
-            goals.push(picture.goal_view(height, size)?);
+            goals.push(picture.goal_view(height, size, free_frame)?);
         }
         // A picture that cannot be read is told before the search and not after it.
         for picture in &self.goal_options.holdout_view {
-            picture.goal_view(height, size)?;
+            picture.check(height, size)?;
         }
         Ok(FitProblem {
             generator: start.generator,

@@ -1,7 +1,8 @@
 //! Further pictures of the goal's tree: to fit, and to be held out.
 
 use crate::input;
-use pleach_fit::GoalView;
+use pleach_fit::nuisance::ROUGHLY;
+use pleach_fit::{Azimuth, GoalView, Placement, Unknown};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Rasteriser, View};
@@ -10,19 +11,26 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// `AZ[,EL]`, or `AZ[,EL]=FILE`.
+/// `AZ[,EL]`, or a further picture: `AZ[,EL]=FILE`, `~AZ[,EL]=FILE` or `auto=FILE`.
 #[derive(Clone, Debug)]
-pub(super) struct Direction {
-    view: View,
-    file: Option<PathBuf>,
+pub(super) enum Direction {
+    /// That of the goal itself.
+    Own(View),
+    /// That of another picture.
+    Further(Picture),
 }
 
-/// `AZ[,EL]=FILE`: a picture and from where it was taken.
+/// A picture and from where it was taken, so far as that is known.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
     view: View,
+    azimuth: Azimuth,
     file: PathBuf,
 }
+
+/// A [`Picture`] whose direction is known.
+#[derive(Clone, Debug)]
+pub(super) struct KnownPicture(Picture);
 
 impl FromStr for Direction {
     type Err = String;
@@ -33,31 +41,58 @@ impl FromStr for Direction {
             Some(_) => return Err("expected a file after `=`".to_owned()),
             None => (text, None),
         };
-        Ok(Self { view: input::view(direction)?, file })
+        let (view, azimuth) = match (direction, direction.strip_prefix('~')) {
+            ("auto", _) => (View::FRONT, Azimuth::Any),
+            (_, Some(about)) => (input::view(about)?, Azimuth::Within(ROUGHLY)),
+            _ => {
+                (input::view(direction).map_err(|e| format!("{e}; or auto=FILE, ~AZ=FILE"))?, Azimuth::Known)
+            }
+        };
+        match file {
+            Some(file) => Ok(Self::Further(Picture { view, azimuth, file })),
+            None if azimuth == Azimuth::Known => Ok(Self::Own(view)),
+            None => Err("azimuths are counted from the goal's, which is known: expected a further picture, \
+                         such as auto=side.png"
+                .to_owned()),
+        }
     }
 }
 
-impl FromStr for Picture {
+impl FromStr for KnownPicture {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let Direction { view, file } = text.parse()?;
-        let file = file.ok_or("expected a direction and a picture, such as 90=side.png")?;
-        Ok(Self { view, file })
+        match text.parse()? {
+            Direction::Further(picture) if picture.azimuth == Azimuth::Known => Ok(Self(picture)),
+            Direction::Further(_) => Err("a picture that is not fitted needs a known direction, such as \
+                                          90=side.png"
+                .to_owned()),
+            Direction::Own(_) => Err("expected a direction and a picture, such as 90=side.png".to_owned()),
+        }
     }
 }
 
 /// The direction of the goal itself, and the further pictures, of what `--view` said.
-pub(super) fn sort(directions: &[Direction]) -> anyhow::Result<(View, Vec<Picture>)> {
-    let mut own = directions.iter().filter(|direction| direction.file.is_none());
-    let goal = own.next().map_or(View::FRONT, |direction| direction.view);
-    if own.next().is_some() {
-        anyhow::bail!("the goal was taken from one direction: further ones need a picture, --view AZ=FILE");
+pub(super) fn sort(directions: &[Direction]) -> anyhow::Result<(View, Vec<&Picture>)> {
+    let mut own = None;
+    let mut further = Vec::new();
+    for direction in directions {
+        match direction {
+            Direction::Own(_) if own.is_some() => anyhow::bail!(
+                "the goal was taken from one direction: further ones need a picture, --view AZ=FILE"
+            ),
+            Direction::Own(view) => own = Some(*view),
+            Direction::Further(picture) => further.push(picture),
+        }
     }
-    let further = directions
-        .iter()
-        .filter_map(|direction| Some(Picture { view: direction.view, file: direction.file.clone()? }));
-    Ok((goal, further.collect()))
+    Ok((own.unwrap_or(View::FRONT), further))
+}
+
+/// What of a view was searched.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    azimuth: bool,
+    frame: bool,
 }
 
 /// How the result does in one of the further pictures, in `summary.json`.
@@ -66,6 +101,14 @@ pub(super) struct ViewScore {
     file: PathBuf,
     azimuth: f64,
     elevation: f64,
+    /// Factor on the metres that a pixel of the picture is wide, as found.
+    scale: f64,
+    /// How far the trunk's foot is to the right of where the picture says, in its widths, and below
+    /// it, in its heights, as found.
+    offset: [f64; 2],
+    /// Whether azimuth, scale and offset were searched.
+    #[serde(skip)]
+    found: Found,
     iou: f64,
     best_ellipse_iou: f64,
     likeness: f64,
@@ -73,22 +116,37 @@ pub(super) struct ViewScore {
 
 impl Picture {
     /// Reads the picture, reduced to `most` pixels a side, of a tree of `height` metres.
-    pub(super) fn goal_view(&self, height: f64, most: u32) -> anyhow::Result<GoalView> {
+    pub(super) fn goal_view(&self, height: f64, most: u32, free_frame: bool) -> anyhow::Result<GoalView> {
         let options = GoalOptions { max_side: Some(most), ..GoalOptions::default() };
         let goal = Goal::load(&self.file, &options)?;
-        Ok(GoalView { frame: goal.frame(height), goal: goal.bitmap, view: self.view })
+        let unknown = Unknown { azimuth: self.azimuth, frame: free_frame };
+        Ok(GoalView { frame: goal.frame(height), goal: goal.bitmap, view: self.view, unknown })
     }
 
-    /// Scores `tree` against the picture.
-    pub(super) fn score(&self, tree: &Tree, foliage: bool, height: f64) -> anyhow::Result<ViewScore> {
+    /// Scores `tree` against the picture, which is placed as was found.
+    pub(super) fn score(
+        &self,
+        tree: &Tree,
+        foliage: bool,
+        height: f64,
+        placement: &Placement,
+    ) -> anyhow::Result<ViewScore> {
         let goal = Goal::load(&self.file, &GoalOptions::default())?;
         let mut bitmap = Bitmap::default();
-        Rasteriser::new().draw(tree, &self.view, &goal.frame(height), foliage, &mut bitmap);
+        let (view, frame) = (placement.view(&self.view), placement.frame(&goal.frame(height)));
+        Rasteriser::new().draw(tree, &view, &frame, foliage, &mut bitmap);
         let card = ScoreCard::of(&bitmap, &goal.bitmap)?;
         Ok(ViewScore {
             file: self.file.clone(),
-            azimuth: self.view.azimuth.to_degrees(),
-            elevation: self.view.elevation.to_degrees(),
+            // As it was found: to radians and back would be another number.
+            azimuth: placement.azimuth.unwrap_or_else(|| view.azimuth.to_degrees()),
+            elevation: view.elevation.to_degrees(),
+            scale: placement.scale,
+            offset: placement.offset,
+            found: Found {
+                azimuth: placement.azimuth.is_some(),
+                frame: (placement.scale, placement.offset) != (1.0, [0.0; 2]),
+            },
             iou: card.iou,
             best_ellipse_iou: card.best_ellipse_iou,
             likeness: card.likeness,
@@ -96,11 +154,31 @@ impl Picture {
     }
 }
 
+impl KnownPicture {
+    /// Tells whether the picture can be read.
+    pub(super) fn check(&self, height: f64, most: u32) -> anyhow::Result<()> {
+        self.0.goal_view(height, most, false).map(|_| ())
+    }
+
+    /// Scores `tree` against the picture.
+    pub(super) fn score(&self, tree: &Tree, foliage: bool, height: f64) -> anyhow::Result<ViewScore> {
+        self.0.score(tree, foliage, height, &Placement::KNOWN)
+    }
+}
+
 impl ViewScore {
     /// A line of the report.
     pub(super) fn line(&self, what: &str) -> String {
+        let mut placed = String::new();
+        if self.found.azimuth {
+            placed += &format!(", from {:.1}°", self.azimuth);
+        }
+        if self.found.frame {
+            let [right, down] = self.offset.map(|part| 100.0 * part);
+            placed += &format!(", scale {:.3}, {right:+.1} % right, {down:+.1} % down", self.scale);
+        }
         format!(
-            "{what} {}: likeness {:.3}, IoU {:.3} (best single ellipse {:.3})\n",
+            "{what} {}: likeness {:.3}, IoU {:.3} (best single ellipse {:.3}){placed}\n",
             self.file.display(),
             self.likeness,
             self.iou,

@@ -24,6 +24,7 @@ mod moves;
 
 pub use moves::Move;
 
+use super::first::first;
 use super::{Method, Start};
 use crate::genome::{Genome, Score, Scored};
 use crate::space::SearchSpace;
@@ -95,30 +96,10 @@ impl Evolution {
     }
 
     /// The individuals that a lane begins with.
-    fn first(&self, space: &SearchSpace, members: &mut Vec<Genome>) {
-        let lists = self.start.lists();
-        let mut count = self.settings.first.max(2);
-        if self.lanes_begun == 0 {
-            for (i, list) in lists.iter().enumerate() {
-                let mut draws = Stream::at(self.seed, FIRST, self.round, u32::MAX - i as u32);
-                members.push(space.individual(list, SearchSpace::random_seed(&mut draws)));
-            }
-            if !lists.is_empty() {
-                // The lists are worth more than chance: only a few others beside them.
-                count = count.div_ceil(10);
-            }
-        }
-        for member in 0..count {
-            let mut draws = Stream::at(self.seed, FIRST, self.round, member as u32);
-            let mut genome = space.random(&mut draws);
-            let share = self.settings.sparsity * draws.unit();
-            for gene in space.genes().iter().filter(|gene| gene.may_be_zero()) {
-                if draws.chance(share) {
-                    genome.values[gene.slot] = 0.0;
-                }
-            }
-            members.push(genome);
-        }
+    fn begin(&self, space: &SearchSpace, members: &mut Vec<Genome>) {
+        let lists = if self.lanes_begun == 0 { self.start.lists() } else { &[] };
+        let draws = |member| Stream::at(self.seed, FIRST, self.round, member);
+        first(space, lists, self.settings.first.max(2), self.settings.sparsity, draws, members);
     }
 
     /// Ends the lane and prepares the next.
@@ -139,7 +120,7 @@ impl Method for Evolution {
 
     fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>) {
         if self.lane.is_empty() {
-            self.first(space, members);
+            self.begin(space, members);
             return;
         }
         self.lane.prepare(space, &self.settings);

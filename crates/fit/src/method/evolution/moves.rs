@@ -96,9 +96,9 @@ impl Breeder<'_> {
             Move::Cross => {
                 let from = other(draws);
                 let share = if draws.chance(0.5) { 0.1 } else { 0.5 };
-                for slot in read.iter().map(|&g| self.gene(g).slot) {
+                for gene in read.iter().map(|&g| self.gene(g)) {
                     if draws.chance(share) {
-                        child.values[slot] = from.values[slot];
+                        gene.set(&mut child, gene.of(from));
                     }
                 }
                 self.step(&read, &mut child, draws);
@@ -118,24 +118,25 @@ impl Breeder<'_> {
                 let scale = 1.0 / (read.len() as f64).sqrt();
                 for &g in read.iter().filter(|&&g| !self.gene(g).is_choice()) {
                     let gene = self.gene(g);
-                    let value = &mut child.values[gene.slot];
-                    *value = gene.from_unit(gene.to_unit(*value) + scale * self.steps[g] * draws.normal());
+                    let unit = gene.to_unit(gene.of(&child)) + scale * self.steps[g] * draws.normal();
+                    gene.set(&mut child, gene.from_unit(unit));
                 }
             }
             Move::Anywhere => {
                 let gene = self.gene(read[draws.below(read.len())]);
-                child.values[gene.slot] = gene.random(draws);
+                let value = gene.random(draws);
+                gene.set(&mut child, value);
                 if draws.chance(0.3) {
                     self.step(&read, &mut child, draws);
                 }
             }
             Move::Nothing => {
                 for _ in 0..1 + draws.below(2) {
-                    let is_candidate = |gene: &&Gene| gene.may_be_zero() && child.values[gene.slot] != 0.0;
+                    let is_candidate = |gene: &&Gene| gene.may_be_zero() && gene.of(&child) != 0.0;
                     let candidates: Vec<&Gene> =
                         read.iter().map(|&g| self.gene(g)).filter(is_candidate).collect();
                     if !candidates.is_empty() {
-                        child.values[candidates[draws.below(candidates.len())].slot] = 0.0;
+                        candidates[draws.below(candidates.len())].set(&mut child, 0.0);
                     }
                 }
             }
@@ -161,8 +162,8 @@ impl Breeder<'_> {
     fn step(&self, read: &[usize], child: &mut Genome, draws: &mut Stream) -> usize {
         let number = read[weighted(read.iter().map(|&g| self.promise[g]), draws)];
         let gene = self.gene(number);
-        let old = child.values[gene.slot];
-        child.values[gene.slot] = if gene.is_choice() {
+        let old = gene.of(child);
+        let value = if gene.is_choice() {
             // Any of the others.
             let next = (old - gene.low + 1.0 + draws.below(gene.count() as usize - 1) as f64) % gene.count();
             gene.low + next
@@ -174,19 +175,20 @@ impl Breeder<'_> {
             let new = gene.from_unit(gene.to_unit(old) + change);
             if gene.kind.is_whole() && new == old { gene.clamp(old + change.signum()) } else { new }
         };
+        gene.set(child, value);
         number
     }
 }
 
 /// Moves `gene` of `child` by `factor` of the way from `from` to `to`; a choice becomes that of `to`.
 fn along(gene: &Gene, child: &mut Genome, to: &Genome, from: &Genome, factor: f64) {
-    let slot = gene.slot;
-    child.values[slot] = if gene.is_choice() {
-        to.values[slot]
+    let value = if gene.is_choice() {
+        gene.of(to)
     } else {
-        let difference = gene.to_unit(to.values[slot]) - gene.to_unit(from.values[slot]);
-        gene.from_unit(gene.to_unit(child.values[slot]) + factor * difference)
+        let difference = gene.to_unit(gene.of(to)) - gene.to_unit(gene.of(from));
+        gene.from_unit(gene.to_unit(gene.of(child)) + factor * difference)
     };
+    gene.set(child, value);
 }
 
 /// The number of one of `weights`, as likely as its weight.

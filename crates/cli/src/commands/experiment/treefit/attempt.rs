@@ -98,7 +98,7 @@ pub(super) fn fit(
         "random" => (),
         other => bail!("`from = \"{other}\"`: expected auto or random"),
     }
-    let guess = first.as_ref().map(|_| Genome { values: fit.base.clone(), tree_seed: TREE_SEED });
+    let guess = first.as_ref().map(|_| Genome::new(fit.base.clone(), TREE_SEED));
     let (name, confidence, before) = first
         .map_or_else(Default::default, |(name, confidence, seconds)| (name, number(confidence), seconds));
     let started = Instant::now();

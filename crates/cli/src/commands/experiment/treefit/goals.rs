@@ -3,7 +3,7 @@
 use super::spec::{Degraded, FileGoal, GoalSpec, OwnGoal};
 use super::{FRESH, RUNS_ON, SIZE};
 use anyhow::Context;
-use pleach_fit::{FitProblem, Genome, GoalView, Objective, fresh_seeds};
+use pleach_fit::{FitProblem, Genome, GoalView, Objective, Unknown, fresh_seeds};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::score::likeness::Likeness;
 use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
@@ -85,7 +85,7 @@ impl Problem {
     fn file(folder: &Path, spec: &GoalSpec, goal: &FileGoal) -> anyhow::Result<Self> {
         let picture = load(folder, &goal.file)?;
         let frame = picture.frame(goal.height);
-        let view = GoalView { frame, goal: picture.bitmap, view: View::FRONT };
+        let view = GoalView { frame, goal: picture.bitmap, view: View::FRONT, unknown: Unknown::default() };
         Ok(Self {
             spec: spec.clone(),
             name: spec.name(),
@@ -117,7 +117,7 @@ fn pictured(tree: &Tree, view: View, foliage: bool) -> GoalView {
     let frame = Frame::automatic(tree, &view, foliage, SIZE, SIZE);
     let mut goal = Bitmap::default();
     Rasteriser::new().draw(tree, &view, &frame, foliage, &mut goal);
-    GoalView { goal, view, frame }
+    GoalView { goal, view, frame, unknown: Unknown::default() }
 }
 
 /// How trees of other seeds of the true parameters do, against the whole picture.
@@ -125,7 +125,7 @@ fn seeds_of(goal: &OwnGoal) -> anyhow::Result<Option<Ceiling>> {
     let whole = OwnGoal { degraded: None, ..goal.clone() };
     let problem = Problem::own(&GoalSpec::Own(whole.clone()), &whole)?;
     let species = pleach_generators::species(&goal.species)?;
-    let truth = Genome { values: species.params.values().to_vec(), tree_seed: goal.seed };
+    let truth = Genome::new(species.params.values().to_vec(), goal.seed);
     let fresh = fresh_seeds(&problem.fit, Objective::default(), Limits::default(), &truth, FRESH, &RUNS_ON)?;
     Ok(fresh.map(|fresh| Ceiling { likeness: fresh.likeness.mean, iou: fresh.iou.mean }))
 }
@@ -166,7 +166,7 @@ fn spoil(whole: &GoalView, how: Degraded) -> anyhow::Result<(GoalView, GoalView)
     let understood = Goal::from_ink(spoilt, &GoalOptions::default())?;
     let frame = understood.frame(10.0);
     let clean = GoalView { frame: Frame { width: ink.width(), ..frame }, ..whole.clone() };
-    Ok((GoalView { frame, goal: understood.bitmap, view: whole.view }, clean))
+    Ok((GoalView { frame, goal: understood.bitmap, ..whole.clone() }, clean))
 }
 
 /// Seed of the wrong pixels.

@@ -23,7 +23,7 @@ pub(super) fn draw(folder: &Path, spec: &TreefitSpec) -> anyhow::Result<()> {
             let path = fits.join(file);
             let species = pleach_generators::species(&path.to_string_lossy())?;
             let seed = species.tree_seed.with_context(|| format!("{} has no seed", path.display()))?;
-            let genome = Genome { values: species.params.values().to_vec(), tree_seed: seed + further };
+            let genome = Genome::new(species.params.values().to_vec(), seed + further);
             Ok(small(&goals::draw(&problem.fit, &genome, view)?))
         };
         let name = &problem.name;

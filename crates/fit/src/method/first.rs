@@ -1,0 +1,51 @@
+//! What a search begins with.
+
+use crate::genome::Genome;
+use crate::space::SearchSpace;
+use crate::stream::Stream;
+
+/// Appends `lists`, if any, and random lists: `count` of them, a tenth where there are lists, which
+/// are worth more than chance. `draws` gives each member its own stream.
+pub(super) fn first(
+    space: &SearchSpace,
+    lists: &[Vec<f64>],
+    count: usize,
+    sparsity: f64,
+    draws: impl Fn(u32) -> Stream,
+    members: &mut Vec<Genome>,
+) {
+    given(space, lists, &draws, members);
+    let count = if lists.is_empty() { count } else { count.div_ceil(10) };
+    members.extend((0..count).map(|member| sparse(space, sparsity, &mut draws(member as u32))));
+}
+
+/// Appends `lists` as they are, each from several directions if a picture may be from anywhere.
+pub(super) fn given(
+    space: &SearchSpace,
+    lists: &[Vec<f64>],
+    draws: impl Fn(u32) -> Stream,
+    members: &mut Vec<Genome>,
+) {
+    for part in 0..space.directions() {
+        for (i, list) in lists.iter().enumerate() {
+            let number = part * lists.len() + i;
+            let mut draws = draws(u32::MAX - number as u32);
+            let mut genome = space.individual(list, SearchSpace::random_seed(&mut draws));
+            space.turn(&mut genome, part, &mut draws);
+            members.push(genome);
+        }
+    }
+}
+
+/// A random list in which numbers that may be zero are so with a chance of up to `sparsity`, drawn
+/// anew for each list: bends, variations and forks are absent from most trees.
+fn sparse(space: &SearchSpace, sparsity: f64, draws: &mut Stream) -> Genome {
+    let mut genome = space.random(draws);
+    let share = sparsity * draws.unit();
+    for gene in space.genes().iter().filter(|gene| gene.may_be_zero()) {
+        if draws.chance(share) {
+            gene.set(&mut genome, 0.0);
+        }
+    }
+    genome
+}

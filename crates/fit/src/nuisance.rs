@@ -1,0 +1,177 @@
+//! What is not known of a picture: from where it was taken, at what scale, and where in it the tree
+//! stands.
+//!
+//! Such numbers are no part of the tree. They are searched beside its parameters
+//! ([`crate::Genome::nuisances`]), view by view in the order of the problem's goals, and reported
+//! beside them. Of the first goal everything is taken as known: azimuths are counted from it, and its
+//! scale is the tree's.
+
+use crate::evaluator::GoalView;
+use crate::space::{Gene, Place};
+use pleach_silhouette::{Frame, View};
+use pleach_tree::Kind;
+use serde::Serialize;
+
+/// What is not known of a view.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Unknown {
+    /// The direction around the trunk.
+    pub azimuth: Azimuth,
+    /// Whether scale and place of the frame are only about right: see [`MOST_SCALE`] and
+    /// [`MOST_OFFSET`].
+    pub frame: bool,
+}
+
+/// How well an azimuth is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Azimuth {
+    /// It is the view's.
+    #[default]
+    Known,
+    /// It is within this many degrees of the view's, on either side.
+    Within(f64),
+    /// Any.
+    Any,
+}
+
+/// Degrees by which an azimuth that is known roughly may be off.
+pub const ROUGHLY: f64 = 15.0;
+/// Metres a pixel may be this part more or less than the frame says.
+pub const MOST_SCALE: f64 = 0.2;
+/// The trunk's foot may be off by this part of the picture's width, and of its height.
+pub const MOST_OFFSET: f64 = 0.1;
+
+/// What a nuisance number is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nuisance {
+    /// Azimuth in degrees.
+    Azimuth,
+    /// Factor on the metres that a pixel is wide.
+    Scale,
+    /// How far the trunk's foot is to the right of the frame's axis, in widths of the picture.
+    Right,
+    /// How far it is below the frame's ground, in heights of the picture.
+    Down,
+}
+
+/// Where a picture was taken from, so far as the frame and the view do not say it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Placement {
+    /// Azimuth in degrees, where it was not known.
+    pub azimuth: Option<f64>,
+    /// Factor on the metres that a pixel is wide; 1 where the scale was known.
+    pub scale: f64,
+    /// How far the trunk's foot is to the right of where the frame says, in widths of the picture, and
+    /// below it, in heights; 0 where the place was known.
+    pub offset: [f64; 2],
+}
+
+impl Placement {
+    /// That of a view of which everything is known.
+    pub const KNOWN: Self = Self { azimuth: None, scale: 1.0, offset: [0.0; 2] };
+
+    /// `view` from the azimuth that was found.
+    #[must_use]
+    pub fn view(&self, view: &View) -> View {
+        View { azimuth: self.azimuth.map_or(view.azimuth, f64::to_radians), ..*view }
+    }
+
+    /// `frame` at the scale and the place that were found, whatever its size in pixels.
+    #[must_use]
+    pub fn frame(&self, frame: &Frame) -> Frame {
+        let [right, down] = self.offset;
+        Frame {
+            metres_per_pixel: frame.metres_per_pixel * self.scale,
+            axis_column: frame.axis_column + right * f64::from(frame.width),
+            ground_row: frame.ground_row + down * f64::from(frame.height),
+            ..*frame
+        }
+    }
+}
+
+impl Unknown {
+    /// How many numbers are not known.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        usize::from(self.azimuth != Azimuth::Known) + if self.frame { 3 } else { 0 }
+    }
+
+    /// What they are, in order, with the range of each and the value that is taken where nothing is
+    /// said.
+    fn numbers(&self, view: &View) -> impl Iterator<Item = (Nuisance, f64, f64, f64)> + use<> {
+        let about = view.azimuth.to_degrees();
+        let azimuth = match self.azimuth {
+            Azimuth::Known => None,
+            Azimuth::Within(reach) => Some((Nuisance::Azimuth, about - reach, about + reach, about)),
+            Azimuth::Any => Some((Nuisance::Azimuth, 0.0, 360.0, 0.0)),
+        };
+        let frame = self.frame.then_some([
+            (Nuisance::Scale, 1.0 - MOST_SCALE, 1.0 + MOST_SCALE, 1.0),
+            (Nuisance::Right, -MOST_OFFSET, MOST_OFFSET, 0.0),
+            (Nuisance::Down, -MOST_OFFSET, MOST_OFFSET, 0.0),
+        ]);
+        azimuth.into_iter().chain(frame.into_iter().flatten())
+    }
+
+    /// What `values`, one for each unknown number of `view`, say; what is usual where they end.
+    #[must_use]
+    pub fn placement(&self, view: &View, values: &[f64]) -> Placement {
+        let mut placement = Placement::KNOWN;
+        for (i, (nuisance, _, _, usual)) in self.numbers(view).enumerate() {
+            let value = values.get(i).copied().unwrap_or(usual);
+            match nuisance {
+                Nuisance::Azimuth => placement.azimuth = Some(value),
+                Nuisance::Scale => placement.scale = value,
+                Nuisance::Right => placement.offset[0] = value,
+                Nuisance::Down => placement.offset[1] = value,
+            }
+        }
+        placement
+    }
+}
+
+/// The placement of each goal in an individual with these nuisances.
+#[must_use]
+pub fn placements(goals: &[GoalView], nuisances: &[f64]) -> Vec<Placement> {
+    let mut rest = nuisances;
+    let mut list = Vec::new();
+    for GoalView { view, unknown, .. } in goals {
+        let (own, others) = rest.split_at(unknown.count().min(rest.len()));
+        rest = others;
+        list.push(unknown.placement(view, own));
+    }
+    list
+}
+
+/// The genes of all unknown numbers, and the values that are taken where nothing is said.
+pub(crate) fn genes(goals: &[GoalView]) -> (Vec<Gene>, Vec<f64>) {
+    let numbers = goals.iter().flat_map(|goal| goal.unknown.numbers(&goal.view));
+    let gene = |(number, (nuisance, low, high, usual))| {
+        let place = Place::Nuisance { number, nuisance };
+        (Gene { place, kind: Kind::Real { min: low, max: high }, low, high }, usual)
+    };
+    numbers.enumerate().map(gene).unzip()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_unknown_changes_nothing() {
+        let view = View::degrees(33.3, 5.0);
+        let frame =
+            Frame { width: 30, height: 20, metres_per_pixel: 0.1, axis_column: 14.7, ground_row: 19.3 };
+        let placement = Unknown::default().placement(&view, &[]);
+        assert_eq!(placement, Placement::KNOWN);
+        assert_eq!((placement.view(&view), placement.frame(&frame)), (view, frame));
+
+        let unknown = Unknown { azimuth: Azimuth::Within(15.0), frame: true };
+        assert_eq!(unknown.count(), 4);
+        let placement = unknown.placement(&view, &[40.0, 1.1, 0.1, -0.1]);
+        assert!((placement.view(&view).azimuth.to_degrees() - 40.0).abs() < 1e-12);
+        let moved = placement.frame(&frame);
+        assert!((moved.metres_per_pixel - 0.11).abs() < 1e-12);
+        assert!((moved.axis_column - 17.7).abs() < 1e-12 && (moved.ground_row - 17.3).abs() < 1e-12);
+    }
+}
