@@ -19,7 +19,7 @@ pub(super) fn first(
     members.extend((0..count).map(|member| sparse(space, sparsity, &mut draws(member as u32))));
 }
 
-/// Appends `lists` as they are, each from several directions if a picture may be from anywhere.
+/// Appends `lists` as they are, each from several directions if an azimuth is not known.
 pub(super) fn given(
     space: &SearchSpace,
     lists: &[Vec<f64>],

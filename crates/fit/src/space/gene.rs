@@ -63,7 +63,7 @@ impl Gene {
     }
 
     /// Whether the number is an azimuth, of which none is simpler than another.
-    const fn is_azimuth(&self) -> bool {
+    pub(crate) const fn is_azimuth(&self) -> bool {
         matches!(self.place, Place::Nuisance { nuisance: Nuisance::Azimuth, .. })
     }
 

@@ -51,7 +51,7 @@ pub enum SpaceError {
     Start(#[from] pleach_tree::param::SlotError),
 }
 
-/// Directions in which a list is tried whose pictures may be from anywhere.
+/// Directions in which a list is tried if an azimuth is not known.
 const DIRECTIONS: usize = 8;
 
 /// The free numbers of a problem, and the values of all others.
@@ -269,13 +269,13 @@ impl SearchSpace {
 
     /// In how many directions each list of a start is tried: one if all azimuths are known.
     pub(crate) fn directions(&self) -> usize {
-        if self.genes.iter().any(Gene::is_periodic) { DIRECTIONS } else { 1 }
+        if self.genes.iter().any(Gene::is_azimuth) { DIRECTIONS } else { 1 }
     }
 
-    /// Turns the pictures of `genome` whose azimuth may be any: the first of them to the `part`-th of
-    /// [`SearchSpace::directions`], the others anywhere.
+    /// Turns the pictures of `genome` whose azimuth is not known: the first of them to the `part`-th of
+    /// [`SearchSpace::directions`] in its range, the others anywhere in theirs.
     pub(crate) fn turn(&self, genome: &mut Genome, part: usize, stream: &mut Stream) {
-        for (i, gene) in self.genes.iter().filter(|gene| gene.is_periodic()).enumerate() {
+        for (i, gene) in self.genes.iter().filter(|gene| gene.is_azimuth()).enumerate() {
             let unit = stream.unit();
             let unit = if i == 0 { (part as f64 + unit) / DIRECTIONS as f64 } else { unit };
             gene.set(genome, gene.from_unit(unit));
