@@ -159,7 +159,7 @@ fn spoil(whole: &GoalView, how: Degraded) -> anyhow::Result<(GoalView, GoalView)
             Bitmap::from_fn(ink.width(), ink.height(), |x, y| y < hidden && ink.get(x, y))
         }
         Degraded::Noise => {
-            let flips = |x: u32, y: u32| Key::root(NOISE).child(0, y).bits(0, x) % 50 == 0;
+            let flips = |x: u32, y: u32| Key::root(NOISE).child(0, y).bits(0, x).is_multiple_of(50);
             Bitmap::from_fn(ink.width(), ink.height(), |x, y| ink.get(x, y) != flips(x, y))
         }
     };
