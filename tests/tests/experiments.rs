@@ -33,6 +33,11 @@ fn treefit() {
 }
 
 #[test]
+fn needle() {
+    check("needle", &["--repetitions", "2"]);
+}
+
+#[test]
 fn complexity() {
     check("complexity", &["--repetitions", "3"]);
 }

@@ -7,6 +7,7 @@ mod blend;
 mod fits;
 mod growth;
 mod likeness;
+mod needle;
 mod plot;
 mod spec;
 mod treefit;
@@ -147,6 +148,7 @@ impl Experiment {
                     Spec::Blend(spec) => blend::run(folder, &spec)?,
                     Spec::Likeness(spec) => likeness::run(folder, &spec)?,
                     Spec::Treefit(spec) => treefit::run(folder, &spec, part)?,
+                    Spec::Needle(spec) => needle::run(folder, &spec)?,
                 };
                 output::line(report)?;
                 output::note(format!("wrote {}", folder.join("results.csv").display()));
@@ -159,6 +161,7 @@ impl Experiment {
                     Spec::Blend(spec) => blend::table(&spec, *slice)?,
                     Spec::Likeness(spec) => likeness::table(folder, &spec, *slice)?,
                     Spec::Treefit(spec) => treefit::table(folder, &spec, *slice)?,
+                    Spec::Needle(spec) => needle::table(&spec, *slice)?,
                 };
                 table.check(&folder.join("results.csv"))?;
                 output::line(format!(

@@ -1,5 +1,6 @@
 //! `experiment.toml`.
 
+use super::needle::NeedleSpec;
 use super::treefit::TreefitSpec;
 use anyhow::Context;
 use serde::Deserialize;
@@ -19,6 +20,8 @@ pub(super) enum Spec {
     Likeness(LikenessSpec),
     /// Fits of goals that the search has not grown.
     Treefit(TreefitSpec),
+    /// How near to the truth parameters must be.
+    Needle(NeedleSpec),
 }
 
 #[derive(Clone, Debug, Deserialize)]
