@@ -3,6 +3,7 @@
 use super::plot::{Plot, Scale};
 use super::{Slice, Table, progress};
 use crate::{files, output};
+use pleach_fit::settings::LIMITS;
 use pleach_fit::stream::Stream;
 use pleach_fit::{
     Evaluate, Evaluator, FitProblem, Freedom, Genome, GoalView, Objective, SearchSpace, Size, TreeSeed,
@@ -10,7 +11,7 @@ use pleach_fit::{
 };
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
-use pleach_tree::{Limits, Species};
+use pleach_tree::Species;
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::Arc;
@@ -97,7 +98,7 @@ fn rows_of(species: &Species, spec: &NeedleSpec) -> anyhow::Result<Vec<Vec<Strin
         !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_read(&truth.values, gene)
     };
     let moved: Vec<_> = space.genes().iter().filter(is_moved).collect();
-    let evaluator = Evaluator::new(&problem, Objective::Iou, Limits::default())?.matching_height();
+    let evaluator = Evaluator::new(&problem, Objective::Iou, LIMITS)?.matching_height();
     let mut rows = Vec::new();
     for (round, &distance) in (0..).zip(&spec.distances) {
         let near = |draw: u32| {
