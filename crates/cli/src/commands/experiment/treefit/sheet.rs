@@ -1,5 +1,6 @@
 //! All goals with what the first method made of them.
 
+use super::SIZE;
 use super::goals::{self, Problem};
 use super::spec::TreefitSpec;
 use crate::files;
@@ -28,7 +29,11 @@ pub(super) fn draw(folder: &Path, spec: &TreefitSpec) -> anyhow::Result<()> {
         };
         let name = &problem.name;
         cells.push((name.clone(), small(&view.goal)));
-        cells.push(("first guess".to_owned(), drawn(format!("{name}-guess.toml"), 0)?));
+        let guess = format!("{name}-guess.toml");
+        // Searches from random lists have none.
+        let guess =
+            if fits.join(&guess).exists() { drawn(guess, 0)? } else { small(&Bitmap::new(SIZE, SIZE)) };
+        cells.push(("first guess".to_owned(), guess));
         cells.push(("fit".to_owned(), drawn(format!("{name}.toml"), 0)?));
         cells.push(("another seed".to_owned(), drawn(format!("{name}.toml"), 1)?));
     }
