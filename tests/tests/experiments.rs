@@ -101,6 +101,12 @@ fn a_benchmark_is_remade_in_parts() {
     assert_eq!(resumed.lines().map(timeless).nth(4), Some(timeless(rows[4])));
     assert!(!dir.path("results.csv.partial").exists());
 
+    // Nor is what lies beyond the first missing row lost when the second run is killed as well.
+    let (first, last) = (format!("{}\n", rows[0]), format!("{}9\n", rows[4]));
+    let _ = dir.file("results.csv.partial", first + &last);
+    let _ = run(&["--resume"]).ok();
+    assert_eq!(table().lines().nth(4), Some(last.trim_end()));
+
     run(&["--method", "c"]).fails(1, &["no method `c`", "a, b"]);
     let other = pleach_tests::root().join("experiments/complexity");
     dir.run(["experiment", "run", other.to_str().unwrap(), "--resume"]).fails(1, &["kind treefit"]);

@@ -167,7 +167,11 @@ impl Plan<'_> {
             };
             table.rows.push(row);
             if self.keeps {
-                table.write(&unfinished(self.folder))?;
+                // A run that is killed twice keeps what the first one had finished beyond this place.
+                let mut all = table.clone();
+                all.rows.extend(self.known.values().cloned());
+                all.rows[table.rows.len()..].sort();
+                all.write(&unfinished(self.folder))?;
             }
             bar.inc(1);
         }
