@@ -101,7 +101,7 @@ fn a_benchmark_is_remade_in_parts() {
     assert_eq!(resumed.lines().map(timeless).nth(4), Some(timeless(rows[4])));
     assert!(!dir.path("results.csv.partial").exists());
 
-    // Nor is what lies beyond the first missing row lost when the second run is killed as well.
+    // A run that was killed twice has rows with others missing before them.
     let (first, last) = (format!("{}\n", rows[0]), format!("{}9\n", rows[4]));
     let _ = dir.file("results.csv.partial", first + &last);
     let _ = run(&["--resume"]).ok();
