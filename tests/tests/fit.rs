@@ -180,6 +180,7 @@ fn several_views_are_fitted_and_others_held_out() {
     let both = run(&["--out", "both", "--view", "90=side.png", "--holdout-view", "45=corner.png"]).json();
     assert_eq!((&both["views"][0]["file"], &both["views"][0]["azimuth"]), (&"side.png".into(), &90.0.into()));
     assert_eq!(both["holdout_views"][0]["file"], "corner.png");
+    assert_eq!(both["options"]["view"], "90,0=side.png");
     assert!(both["holdout_views"][0]["iou"].as_f64().unwrap() > 0.0);
     let front = run(&["--out", "front"]).json();
     assert!(front["views"].as_array().unwrap().is_empty());

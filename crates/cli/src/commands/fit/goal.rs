@@ -6,6 +6,7 @@ use crate::output;
 use anyhow::Context;
 use pleach_silhouette::goal::{Goal, GoalOptions, Origin, Polarity, Split};
 use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -23,6 +24,15 @@ impl FromStr for MaskSource {
 
     fn from_str(given: &str) -> Result<Self, Self::Err> {
         Ok(if given == "auto" { Self::Auto } else { Self::File(given.into()) })
+    }
+}
+
+impl fmt::Display for MaskSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File(file) => write!(f, "{}", file.display()),
+            Self::Auto => f.write_str("auto"),
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Rasteriser, View};
 use pleach_tree::Tree;
 use serde::Serialize;
+use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -55,6 +56,23 @@ impl FromStr for Direction {
                          such as auto=side.png"
                 .to_owned()),
         }
+    }
+}
+
+/// As it may be given, in degrees.
+impl fmt::Display for Direction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (view, azimuth, file) = match self {
+            Self::Own(view) => (view, Azimuth::Known, None),
+            Self::Further(picture) => (&picture.view, picture.azimuth, Some(&picture.file)),
+        };
+        let (about, elevation) = (view.azimuth.to_degrees(), view.elevation.to_degrees());
+        match azimuth {
+            Azimuth::Any => write!(f, "auto")?,
+            Azimuth::Within(_) => write!(f, "~{about},{elevation}")?,
+            Azimuth::Known => write!(f, "{about},{elevation}")?,
+        }
+        file.map_or(Ok(()), |file| write!(f, "={}", file.display()))
     }
 }
 
