@@ -188,7 +188,7 @@ fn a_stopped_batch_goes_on_where_it_was() {
     assert!(std::process::Command::new("kill").args(["-TERM", &id]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert_eq!(output.status.code(), Some(130), "{message}");
     assert!(message.contains("1 of 2 goals are done") && message.contains("--resume"), "{message}");
     assert_eq!(column(&table(&dir.path("parts/summary.csv")), "goal"), ["goals/acer.png"]);
 

@@ -71,7 +71,16 @@ fn the_run_folder_holds_what_it_should() {
         names.sort();
         names
     };
-    let expected = ["best.png", "best.toml", "history.csv", "overlay.png", "parameters.csv", "summary.json"];
+    let expected = [
+        "best.png",
+        "best.toml",
+        "history.csv",
+        "overlay.png",
+        "parameters.csv",
+        "render.png",
+        "search-state",
+        "summary.json",
+    ];
     assert_eq!(names(&folder), expected);
 
     // The card is of the goal's own size; what the search saw at 64 pixels stands beside it.
@@ -328,7 +337,7 @@ fn an_interrupted_run_resumes_to_the_same_bits() {
     signal(&stopped, "-TERM");
     let output = stopped.wait_with_output().unwrap();
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    if output.status.code() == Some(1) {
+    if output.status.code() == Some(130) {
         assert!(message.contains("interrupted") && message.contains("--resume"), "{message}");
         assert!(dir.path("parts/best.toml").exists(), "what was found so far is there");
         let _ = dir.run(small(&goal, "parts", &resume)).ok();
@@ -438,7 +447,7 @@ fn the_first_guess_can_be_interrupted() {
     let _ = lines.read_to_string(&mut message).unwrap();
     let status = stopped.wait().unwrap();
     assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
-    assert_eq!(status.code(), Some(1), "{message}");
+    assert_eq!(status.code(), Some(130), "{message}");
     assert!(message.contains("interrupted") && message.contains("--resume"), "{message}");
     assert!(!dir.path("parts/checkpoint").exists(), "the guess takes longer than these moments");
     let _ = dir.run(args("parts", &["--resume"])).ok();
@@ -461,7 +470,7 @@ fn judging_can_be_interrupted() {
     let asked = Instant::now();
     let status = stopped.wait().unwrap();
     assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
-    assert_eq!(status.code(), Some(1));
+    assert_eq!(status.code(), Some(130));
     let summary: serde_json::Value = serde_json::from_slice(&read(&dir.path("parts/summary.json"))).unwrap();
     assert_eq!((&summary["finished"], &summary["stopped_by"]), (&false.into(), &"interrupted".into()));
     assert_eq!(summary["evaluations"], 4);

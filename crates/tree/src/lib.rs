@@ -16,6 +16,7 @@
 //! | [`species`] | reading and writing species files |
 //! | [`generator`] | the traits that generators implement |
 //! | [`stats`] | measurements of a tree, with fixed names |
+//! | [`dendrometry`] | height, crown and stem diameter, as foresters measure them |
 //!
 //! # Invariants
 //!
@@ -25,6 +26,7 @@
 
 #[cfg(any(test, feature = "conformance"))]
 pub mod conformance;
+pub mod dendrometry;
 pub mod generator;
 pub mod leaf_shape;
 pub mod param;

@@ -1,9 +1,12 @@
 //! Many goals, one after the other: a run folder each, and one summary of all.
 
-use super::asked;
-use super::folder::{self, RunFolder, Summary};
-use super::goal::{Goals, MaskSource};
-use super::{Fit, RUNS, catch_signals, is_interruption};
+use super::args::GoalArgs;
+use super::goal::MaskSource;
+use super::run_folder::{Mode, RunFolder};
+use super::summary::write_table;
+use super::task::{Ended, Task};
+use super::{Fit, RUNS, list, signals};
+use crate::interrupted::Interrupted;
 use crate::{files, output};
 use anyhow::{Context, bail, ensure};
 use pleach_fit::FitSettings;
@@ -42,15 +45,15 @@ impl Shard {
 }
 
 /// A goal and what came of it.
-struct Job<'a> {
-    goal: &'a Path,
-    folder: RunFolder,
+struct Job {
+    task: Task,
     state: State,
 }
 
 enum State {
     Waiting,
-    Failed,
+    /// Why.
+    Failed(String),
     /// With its `summary.json`.
     Finished(Value),
 }
@@ -67,44 +70,32 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
         None => out.join("summary.csv"),
         Some(Shard { index, count }) => out.join(format!("summary-{index}-of-{count}.csv")),
     };
-    let mut jobs = shard.part(jobs(&fit.goals, &out)?);
-    let asked = asked::asked(fit, settings)?;
+    let mode = fit.mode();
+    let mut jobs = shard.part(jobs(goals(fit)?, &out)?);
     for job in &mut jobs {
-        if fit.resume {
-            job.state = job.folder.finished().map_or(State::Waiting, State::Finished);
-            if let State::Finished(summary) = &job.state {
-                let differences = asked::differences(summary, &asked);
-                ensure!(
-                    differences.is_empty(),
-                    "{} was fitted with other options: {}; --resume skips it with the same ones, \
-                     --overwrite instead of --resume fits all goals anew, and another --out keeps both",
-                    job.folder.path().display(),
-                    differences.join(", ")
-                );
-            }
-        } else if job.folder.is_unfinished() && !fit.overwrite {
-            bail!(
-                "{} holds an unfinished fit; --resume goes on with it and skips finished ones, \
-                 --overwrite starts all anew",
-                job.folder.path().display()
-            );
-        }
+        job.state = before(fit, settings, &job.task, mode)?;
     }
     files::make_folder(&out)?;
     // Before an hour of work, not after it, one learns that a file cannot be written.
     write(&table, &jobs)?;
 
-    let stop = catch_signals()?;
+    let stop = signals::catch()?;
     let all = jobs.len();
     for i in 0..all {
-        let name = format!("[{}/{all}] {}", i + 1, jobs[i].goal.display());
+        let name = format!("[{}/{all}] {}", i + 1, jobs[i].task.goal.display());
         let (line, state) = match &jobs[i].state {
             State::Finished(summary) => (format!("finished before, {}", brief(summary)), None),
-            _ => match one(fit, settings, &jobs[i], &stop) {
-                Err(error) => (format!("failed: {}", output::causes(&error, ": ")), Some(State::Failed)),
+            _ => match one(fit, settings, &jobs[i].task, mode, &stop) {
+                Err(error) => {
+                    let reason = output::causes(&error, ": ");
+                    (format!("failed: {reason}"), Some(State::Failed(reason)))
+                }
                 Ok(None) => {
                     output::note(format!("{name}: interrupted"));
-                    bail!("interrupted, {i} of {all} goals are done; the same command with --resume goes on");
+                    let flag = if mode == Mode::Continue { "" } else { " with --resume" };
+                    let how =
+                        format!("interrupted, {i} of {all} goals are done; the same command{flag} goes on");
+                    return Err(Interrupted(how).into());
                 }
                 Ok(Some(summary)) => (brief(&summary), Some(State::Finished(summary))),
             },
@@ -115,7 +106,7 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
             write(&table, &jobs)?;
         }
         if let (true, State::Finished(summary)) = (fit.json, &jobs[i].state) {
-            output::json(&with_goal(jobs[i].goal, summary))?;
+            output::json(summary)?;
         }
     }
 
@@ -124,61 +115,84 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
     }
     let failed: Vec<String> = jobs
         .iter()
-        .filter(|job| matches!(job.state, State::Failed))
-        .map(|job| job.goal.display().to_string())
+        .filter(|job| matches!(job.state, State::Failed(_)))
+        .map(|job| job.task.goal.display().to_string())
         .collect();
     ensure!(failed.is_empty(), "{} of {all} goals failed: {}", failed.len(), failed.join(", "));
     Ok(())
 }
 
-/// A job a goal; an error if two would share a folder.
-fn jobs<'a>(goals: &'a [PathBuf], out: &Path) -> anyhow::Result<Vec<Job<'a>>> {
+/// The goals of the command line or of the list, with their options.
+fn goals(fit: &Fit) -> anyhow::Result<Vec<(PathBuf, GoalArgs)>> {
+    match &fit.list {
+        Some(list) => list::read(list, &fit.goal_options),
+        None => Ok(fit.goals.iter().map(|goal| (goal.clone(), fit.goal_options.clone())).collect()),
+    }
+}
+
+/// A job per goal; an error if two would share a folder.
+fn jobs(goals: Vec<(PathBuf, GoalArgs)>, out: &Path) -> anyhow::Result<Vec<Job>> {
     let mut seen = BTreeMap::new();
     let mut jobs = Vec::new();
-    for goal in goals {
+    for (goal, args) in goals {
         let stem = goal
             .file_stem()
-            .with_context(|| format!("{} has no file name to call its run folder by", goal.display()))?;
-        if let Some(other) = seen.insert(stem, goal) {
+            .with_context(|| format!("{} has no file name to call its run folder by", goal.display()))?
+            .to_owned();
+        let folder = out.join(&stem);
+        if let Some(other) = seen.insert(stem, goal.clone()) {
             bail!(
                 "{} and {} would both be fitted into {}: rename one, or fit them in two batches",
                 other.display(),
                 goal.display(),
-                out.join(stem).display()
+                folder.display()
             );
         }
-        jobs.push(Job { goal, folder: RunFolder::at(out.join(stem)), state: State::Waiting });
+        jobs.push(Job { task: Task { goal, args, folder: RunFolder::at(folder) }, state: State::Waiting });
     }
     Ok(jobs)
+}
+
+/// What there is to do for a goal; an error if its folder holds something that must not be lost.
+fn before(fit: &Fit, settings: &FitSettings, task: &Task, mode: Mode) -> anyhow::Result<State> {
+    let finished = task.folder.finished();
+    if mode == Mode::Resume && !task.folder.is_unfinished() {
+        let Some(summary) = finished else { return Ok(State::Waiting) };
+        let differences = task.request(fit, settings)?.differences(&summary);
+        ensure!(
+            differences.is_empty(),
+            "{} was fitted with other options: {}; --resume skips it with the same ones, --overwrite instead of \
+             --resume fits all goals anew, and another --out keeps both",
+            task.folder.path().display(),
+            differences.join(", ")
+        );
+        return Ok(State::Finished(summary));
+    }
+    if finished.is_some() || task.folder.is_unfinished() {
+        // Only then is the goal read: of thousands that wait, each is read when it is fitted.
+        task.folder.check(mode, &task.request(fit, settings)?)?;
+    }
+    Ok(State::Waiting)
 }
 
 /// Fits one goal; its summary, or none if it was interrupted.
 fn one(
     fit: &Fit,
     settings: &FitSettings,
-    job: &Job<'_>,
+    task: &Task,
+    mode: Mode,
     stop: &Arc<AtomicBool>,
 ) -> anyhow::Result<Option<Value>> {
     if stop.load(Ordering::SeqCst) {
         return Ok(None);
     }
-    let goals = Goals::load(job.goal, &fit.goal_options, fit.verbose)?;
     // What was waiting when a batch stopped has no checkpoint, and starts.
-    let resume = fit.resume && job.folder.is_unfinished();
-    let folder = RunFolder::open(job.folder.path().to_owned(), resume, fit.overwrite)?;
-    if !resume {
-        folder.forget()?;
+    let mode = if mode == Mode::Resume && !task.folder.is_unfinished() { Mode::New } else { mode };
+    match task.run(fit, settings, mode, stop)? {
+        Ended::Finished(summary) => Ok(Some(serde_json::to_value(summary)?)),
+        // Asked to stop: no fault of the goal.
+        Ended::Interrupted(_) => Ok(None),
     }
-    let summary: Summary = match fit.fit(&goals, &folder, settings, stop, resume) {
-        // Asked to stop before there was a tree: no fault of the goal.
-        Err(error) if is_interruption(&error) => return Ok(None),
-        result => result?,
-    };
-    if summary.interrupted() {
-        return Ok(None);
-    }
-    folder.remove_checkpoint();
-    Ok(Some(serde_json::to_value(summary)?))
 }
 
 /// What is said of a finished goal.
@@ -195,15 +209,9 @@ fn brief(summary: &Value) -> String {
     )
 }
 
-fn with_goal(goal: &Path, summary: &Value) -> Value {
-    let mut value = summary.clone();
-    value["goal"] = goal.display().to_string().into();
-    value
-}
-
 /// Columns of the summary and where in `summary.json` they come from; after them come the two that
 /// depend on the clock.
-const COLUMNS: [(&str, &str); 26] = [
+const COLUMNS: [(&str, &str); 30] = [
     ("likeness", "/likeness"),
     ("iou", "/iou"),
     ("best_ellipse_iou", "/best_ellipse_iou"),
@@ -230,24 +238,30 @@ const COLUMNS: [(&str, &str); 26] = [
     ("cost", "/cost"),
     ("evaluations", "/evaluations"),
     ("stopped_by", "/stopped_by"),
+    ("height_m", "/tree_m/height"),
+    ("crown_width_m", "/tree_m/crown_width"),
+    ("crown_base_m", "/tree_m/crown_base"),
+    ("stem_diameter_m", "/tree_m/stem_diameter"),
 ];
 const WALL_COLUMNS: [(&str, &str); 2] =
     [("wall_s", "/seconds"), ("wall_evaluations_per_s", "/evaluations_per_second")];
 
-/// Writes a row a goal that is done, in the order of the goals.
-fn write(path: &Path, jobs: &[Job<'_>]) -> anyhow::Result<()> {
+/// Writes a row for each goal that is done, in the order of the goals.
+fn write(path: &Path, jobs: &[Job]) -> anyhow::Result<()> {
     let columns = || COLUMNS.iter().chain(&WALL_COLUMNS);
-    let header = ["goal", "state"].into_iter().chain(columns().map(|c| c.0)).map(str::to_owned).collect();
+    let first = ["goal", "state", "reason"];
+    let header = first.into_iter().chain(columns().map(|c| c.0)).map(str::to_owned).collect();
     let rows = jobs.iter().filter_map(|job| {
-        let (state, summary) = match &job.state {
+        let (state, reason, summary) = match &job.state {
             State::Waiting => return None,
-            State::Failed => ("failed", &Value::Null),
-            State::Finished(summary) => ("finished", summary),
+            State::Failed(reason) => ("failed", reason.as_str(), &Value::Null),
+            State::Finished(summary) => ("finished", "", summary),
         };
         let cells = columns().map(|(_, at)| cell(summary.pointer(at)));
-        Some([job.goal.display().to_string(), state.to_owned()].into_iter().chain(cells).collect())
+        let first = [job.task.goal.display().to_string(), state.to_owned(), reason.to_owned()];
+        Some(first.into_iter().chain(cells).collect())
     });
-    folder::write_table(path, std::iter::once(header).chain(rows))
+    write_table(path, std::iter::once(header).chain(rows))
 }
 
 /// A value as a cell; nothing where there is none. A number that was read back from a file may differ
@@ -266,6 +280,14 @@ fn cell(value: Option<&Value>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clap::Parser as _;
+
+    /// The options of a goal on their own.
+    #[derive(clap::Parser)]
+    struct Arguments {
+        #[command(flatten)]
+        goal: GoalArgs,
+    }
 
     #[test]
     fn shards_share_the_goals_without_loss_or_overlap() {
@@ -283,12 +305,17 @@ mod tests {
 
     #[test]
     fn two_goals_do_not_share_a_folder() {
-        let goals = ["a/oak.png", "b/ash.png", "c/oak.jpg"].map(PathBuf::from);
-        let Err(error) = jobs(&goals, Path::new("out")) else { panic!("c/oak.jpg is not refused") };
+        let args = Arguments::parse_from(["fit"]).goal;
+        let with_args =
+            |goals: &[&str]| goals.iter().map(|goal| (goal.into(), args.clone())).collect::<Vec<_>>();
+        let goals = ["a/oak.png", "b/ash.png", "c/oak.jpg"];
+        let Err(error) = jobs(with_args(&goals), Path::new("out")) else {
+            panic!("c/oak.jpg is not refused")
+        };
         let error = error.to_string();
         assert!(error.contains("a/oak.png") && error.contains("c/oak.jpg") && error.contains("oak"));
-        assert_eq!(jobs(&goals[..2], Path::new("out")).map(|jobs| jobs.len()).unwrap(), 2);
-        assert!(jobs(&["..".into()], Path::new("out")).is_err());
+        assert_eq!(jobs(with_args(&goals[..2]), Path::new("out")).map(|jobs| jobs.len()).unwrap(), 2);
+        assert!(jobs(with_args(&[".."]), Path::new("out")).is_err());
     }
 
     #[test]

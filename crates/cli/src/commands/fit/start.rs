@@ -5,6 +5,7 @@ use anyhow::Context;
 use indicatif::{ProgressBar, ProgressStyle};
 use pleach_fit::{Candidate, FitProblem, FitSettings, GuessSettings, Start, first_guess};
 use pleach_tree::Species;
+use pleach_tree::species::Appearance;
 use serde::Serialize;
 use std::str::FromStr;
 use std::sync::atomic::AtomicBool;
@@ -62,6 +63,17 @@ impl From {
                 pleach_generators::preset("quaking_aspen").context("the default species is built in")
             }
         }
+    }
+
+    /// Colours and season of the species that is fitted: the given one, or the one that the goal looks
+    /// like.
+    pub(super) fn appearance(&self, looks_like: &[LooksLike]) -> anyhow::Result<Appearance> {
+        let name = match (self, looks_like.first()) {
+            (Self::Species(name), _) => name,
+            (_, Some(first)) => &first.species,
+            (Self::Auto | Self::Random, None) => return Ok(Appearance::default()),
+        };
+        Ok(input::species(name)?.appearance)
     }
 
     /// Sets where the search begins; returns, and says unless `quiet`, what the goal looks like, if

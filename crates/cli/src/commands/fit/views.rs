@@ -4,6 +4,7 @@ use crate::input;
 use pleach_fit::nuisance::ROUGHLY;
 use pleach_fit::{Azimuth, GoalView, Placement, Unknown};
 use pleach_silhouette::goal::{Goal, GoalOptions};
+use pleach_silhouette::picture::{self, Picture as Overlay};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Rasteriser, View};
 use pleach_tree::Tree;
@@ -55,6 +56,16 @@ impl FromStr for Direction {
             None => Err("azimuths are counted from the goal's, which is known: expected a further picture, \
                          such as auto=side.png"
                 .to_owned()),
+        }
+    }
+}
+
+impl Direction {
+    /// The file of a further picture.
+    pub(super) fn file(&self) -> Option<PathBuf> {
+        match self {
+            Self::Own(_) => None,
+            Self::Further(picture) => Some(picture.file.clone()),
         }
     }
 }
@@ -141,20 +152,21 @@ impl Picture {
         Ok(GoalView { frame: goal.frame(height), goal: goal.bitmap, view: self.view, unknown })
     }
 
-    /// Scores `tree` against the picture, which is placed as was found.
+    /// Scores `tree` against the picture, which is placed as was found; with the tree drawn over it.
     pub(super) fn score(
         &self,
         tree: &Tree,
         foliage: bool,
         height: f64,
         placement: &Placement,
-    ) -> anyhow::Result<ViewScore> {
+    ) -> anyhow::Result<(ViewScore, Overlay)> {
         let goal = Goal::load(&self.file, &GoalOptions::default())?;
         let mut bitmap = Bitmap::default();
         let (view, frame) = (placement.view(&self.view), placement.frame(&goal.frame(height)));
         Rasteriser::new().draw(tree, &view, &frame, foliage, &mut bitmap);
         let card = ScoreCard::of(&bitmap, &goal.bitmap)?;
-        Ok(ViewScore {
+        let overlay = picture::overlay(&bitmap, &goal.bitmap);
+        let score = ViewScore {
             file: self.file.clone(),
             // As it was found: to radians and back would be another number.
             azimuth: placement.azimuth.unwrap_or_else(|| view.azimuth.to_degrees()),
@@ -168,18 +180,28 @@ impl Picture {
             iou: card.iou,
             best_ellipse_iou: card.best_ellipse_iou,
             likeness: card.likeness,
-        })
+        };
+        Ok((score, overlay))
     }
 }
 
 impl KnownPicture {
+    pub(super) fn file(&self) -> PathBuf {
+        self.0.file.clone()
+    }
+
     /// Tells whether the picture can be read.
     pub(super) fn check(&self, height: f64, most: u32) -> anyhow::Result<()> {
         self.0.goal_view(height, most, false).map(|_| ())
     }
 
-    /// Scores `tree` against the picture.
-    pub(super) fn score(&self, tree: &Tree, foliage: bool, height: f64) -> anyhow::Result<ViewScore> {
+    /// Scores `tree` against the picture; with the tree drawn over it.
+    pub(super) fn score(
+        &self,
+        tree: &Tree,
+        foliage: bool,
+        height: f64,
+    ) -> anyhow::Result<(ViewScore, Overlay)> {
         self.0.score(tree, foliage, height, &Placement::KNOWN)
     }
 }

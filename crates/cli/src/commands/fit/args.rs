@@ -1,0 +1,101 @@
+//! What `pleach fit` is told about the goal, the search and when to stop.
+
+use super::goal::MaskSource;
+use super::{options, start, views};
+use crate::input;
+use pleach_fit::Objective;
+use std::num::NonZeroU32;
+use std::time::Duration;
+
+#[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = "The goal")]
+pub(super) struct GoalArgs {
+    /// Height of the tree in metres: a silhouette does not show it
+    #[arg(long, value_name = "METRES", default_value_t = 10.0, value_parser = options::positive)]
+    pub(super) height: f64,
+    /// Longer side of the pictures that the search compares, in pixels; larger goals are reduced. The
+    /// score card and best.png have the goal's own size
+    #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(16..=2048))]
+    pub(super) size: u32,
+    /// A picture of the goal's size that says what is tree: white on black. With `auto` the goal is a
+    /// photograph, and its mask is made as by `pleach mask`
+    #[arg(long, value_name = "FILE|auto")]
+    pub(super) mask: Option<MaskSource>,
+    /// Which of the two tones is the tree
+    #[arg(long, value_enum, default_value_t = options::Tone::Auto)]
+    pub(super) tree: options::Tone,
+    /// Row where the tree stands, in pixels of the goal from its top; detected by default
+    #[arg(long, value_name = "PIXELS")]
+    pub(super) ground_row: Option<f64>,
+    /// Column of the trunk's foot, in pixels of the goal from its left; detected by default
+    #[arg(long, value_name = "PIXELS")]
+    pub(super) axis_column: Option<f64>,
+    /// Direction of the goal's view in degrees: azimuth, and elevation where it is not 0; with a file,
+    /// a further picture of the same tree, fitted as well; repeatable. `~AZ=FILE` is from within 15
+    /// degrees of it, `auto=FILE` from anywhere around the tree: the azimuth is then searched
+    #[arg(long, value_name = "AZ[,EL][=FILE]", allow_hyphen_values = true)]
+    pub(super) view: Vec<views::Direction>,
+    /// Search the scale (± 20 %) and the place (± 10 % of width and height) of the tree in further
+    /// pictures; the goal's own frame is taken as it is
+    #[arg(long)]
+    pub(super) free_frame: bool,
+    /// A further picture of the same tree that is not fitted but scored; repeatable
+    #[arg(long, value_name = "AZ[,EL]=FILE", allow_hyphen_values = true)]
+    pub(super) holdout_view: Vec<views::KnownPicture>,
+    /// The goal is a bare tree: grow no leaves
+    #[arg(long)]
+    pub(super) no_leaves: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "The search")]
+pub(super) struct SearchArgs {
+    /// Where to start: from the known species that look most like the goal, from `random` parameter
+    /// lists, or from one species (name or file)
+    #[arg(long, value_name = "auto|random|SPECIES", default_value = "auto")]
+    pub(super) from: start::From,
+    /// Parameters that may change: a name, a slot such as length[1], a group, or level:N; repeatable.
+    /// All by default; see `pleach params`
+    #[arg(long, value_name = "PATTERN")]
+    pub(super) free: Vec<String>,
+    /// Parameters that keep the start's value; repeatable
+    #[arg(long, value_name = "PATTERN")]
+    pub(super) fix: Vec<String>,
+    /// The optimiser: evolution, cma (CMA-ES with margin), de (differential evolution, SHADE), hewitt
+    /// (the dissertation's genetic algorithm) or random
+    #[arg(long, value_name = "NAME", default_value = pleach_fit::Optimizer::NAMES[0])]
+    pub(super) optimizer: String,
+    /// A setting of the optimiser, such as population=60; repeatable. `--set help` lists them
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(super) settings: Vec<String>,
+    /// What is made small: balance, blend, likeness, iou or accuracy
+    #[arg(long, value_name = "NAME", default_value = Objective::default().name())]
+    pub(super) objective: String,
+    /// Seed of the search
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = input::seed)]
+    pub(super) seed: u64,
+    /// Seed of the tree, or `any` to search it too
+    #[arg(long, value_name = "N|any", default_value = "1", value_parser = options::tree_seed)]
+    pub(super) tree_seed: pleach_fit::TreeSeed,
+    /// Judge parameters by the mean over this many trees, of the tree seed and those after it
+    #[arg(long, value_name = "K", default_value = "1", value_parser = options::seeds)]
+    pub(super) robust: NonZeroU32,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "When to stop (whatever comes first; after a minute if nothing is said)")]
+pub(super) struct BudgetArgs {
+    /// After this time, such as 90s, 10m or 2h. The first guess counts; it is made in full, and a first
+    /// few trees are tried whatever time is left. Judging the result comes after it
+    #[arg(long, value_name = "TIME", value_parser = options::duration)]
+    pub(super) timeout: Option<Duration>,
+    /// After this many trees were grown and compared
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) evaluations: Option<u64>,
+    /// After this many generations
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) generations: Option<u64>,
+    /// When the intersection over union reaches this
+    #[arg(long, value_name = "0..1", value_parser = options::share)]
+    pub(super) target_iou: Option<f64>,
+}

@@ -1,0 +1,82 @@
+//! An individual as what people look at: a species file, its silhouette over the goal, a shaded picture.
+
+use super::args::GoalArgs;
+use super::goal::Goals;
+use crate::files;
+use pleach_fit::{FitProblem, Genome, Scored};
+use pleach_mesh::{Palette, Preview, PreviewSettings, png_file};
+use pleach_silhouette::{Bitmap, Rasteriser, View, picture};
+use pleach_tree::species::Appearance;
+use pleach_tree::{Foliage, Growth, Limits, Species, Tree};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Draws individuals of one fit.
+#[derive(Clone, Copy)]
+pub(super) struct Drawing<'a> {
+    pub(super) goals: &'a Goals,
+    pub(super) args: &'a GoalArgs,
+    /// Direction of the goal's own view.
+    pub(super) view: View,
+    pub(super) problem: &'a FitProblem,
+    pub(super) limits: Limits,
+    /// Colours and season of the species that the goal looks like.
+    pub(super) appearance: Appearance,
+}
+
+/// An individual, grown and drawn as the goal is.
+pub(super) struct Drawn {
+    pub(super) species: Species,
+    pub(super) tree: Tree,
+    /// Of the goal's own size.
+    pub(super) bitmap: Bitmap,
+}
+
+impl Drawing<'_> {
+    /// The species that an individual is.
+    fn species(&self, genome: &Genome) -> anyhow::Result<Species> {
+        Ok(Species {
+            name: self.goals.name.clone(),
+            description: String::new(),
+            generator: Arc::clone(&self.problem.generator),
+            params: self.problem.generator.space().check(genome.values.clone())?,
+            tree_seed: Some(genome.tree_seed),
+            appearance: self.appearance,
+        })
+    }
+
+    /// Grows and draws `best`.
+    pub(super) fn draw(&self, best: &Scored) -> anyhow::Result<Drawn> {
+        let species = self.species(&best.genome)?;
+        let foliage = self.problem.foliage;
+        let growth = Growth {
+            limits: self.limits,
+            foliage: if foliage { Foliage::All } else { Foliage::None },
+            ..Growth::seed(best.genome.tree_seed)
+        };
+        let tree = species.grow_with(&growth)?;
+        let frame = self.goals.full.frame(self.args.height);
+        let mut bitmap = Bitmap::default();
+        Rasteriser::new().draw(&tree, &self.view, &frame, foliage, &mut bitmap);
+        Ok(Drawn { species, tree, bitmap })
+    }
+}
+
+impl Drawn {
+    /// Writes the silhouette, and the same over the goal in two colours.
+    pub(super) fn write_silhouettes(&self, goal: &Bitmap, best: &Path, overlay: &Path) -> anyhow::Result<()> {
+        files::write_whole(best, |file| Ok(self.bitmap.write_png(file)?))?;
+        let picture = picture::overlay(&self.bitmap, goal);
+        files::write_whole(overlay, |file| Ok(picture.write_png(file)?))
+    }
+
+    /// Writes a shaded picture of `size` pixels a side: a silhouette hides absurd stems and leaves.
+    pub(super) fn write_render(&self, path: &Path, size: u32) -> anyhow::Result<()> {
+        let mut tree = self.tree.clone();
+        let palette = Palette::of(&self.species, tree.leaf_shape, None);
+        palette.dress(&mut tree);
+        let settings = PreviewSettings { width: size, height: size, ..PreviewSettings::default() };
+        let picture = Preview::new(&tree, &palette, size).picture(&settings);
+        files::write_whole(path, |file| Ok(png_file::write(file, &[picture], 0)?))
+    }
+}

@@ -1,0 +1,109 @@
+//! Goals with options of their own, from a CSV file.
+
+use super::args::GoalArgs;
+use super::goal::MaskSource;
+use super::{options, views};
+use anyhow::{Context, bail, ensure};
+use clap::ValueEnum as _;
+use std::path::{Path, PathBuf};
+
+/// A column of a list of goals: its name, and how a cell that is not empty changes the options.
+struct Column {
+    name: &'static str,
+    set: fn(&mut GoalArgs, &str, &Path) -> Result<(), String>,
+}
+
+/// The column that names the goal.
+const FILE: &str = "file";
+
+const COLUMNS: [Column; 7] = [
+    Column {
+        name: "height",
+        set: |args, cell, _| options::positive(cell).map(|height| args.height = height),
+    },
+    Column {
+        name: "view",
+        set: |args, cell, _| {
+            let view: views::Direction = cell.parse()?;
+            if view.file().is_some() {
+                return Err("further pictures of one tree are not for lists".to_owned());
+            }
+            args.view = vec![view];
+            Ok(())
+        },
+    },
+    Column {
+        name: "mask",
+        set: |args, cell, folder| {
+            let cell = if cell == "auto" { cell.to_owned() } else { folder.join(cell).display().to_string() };
+            args.mask = cell.parse::<MaskSource>().ok();
+            Ok(())
+        },
+    },
+    Column {
+        name: "tree",
+        set: |args, cell, _| {
+            args.tree =
+                options::Tone::from_str(cell, true).map_err(|_| "expected auto, dark or light".to_owned())?;
+            Ok(())
+        },
+    },
+    Column { name: "ground_row", set: |args, cell, _| number(cell).map(|row| args.ground_row = Some(row)) },
+    Column {
+        name: "axis_column",
+        set: |args, cell, _| number(cell).map(|column| args.axis_column = Some(column)),
+    },
+    Column {
+        name: "no_leaves",
+        set: |args, cell, _| {
+            args.no_leaves = cell.parse().map_err(|_| "expected true or false".to_owned())?;
+            Ok(())
+        },
+    },
+];
+
+fn number(cell: &str) -> Result<f64, String> {
+    cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| "expected a number".to_owned())
+}
+
+/// The goals of the list at `path` with their options: those of `defaults` where a cell is empty.
+/// Paths in a list are relative to its folder.
+pub(super) fn read(path: &Path, defaults: &GoalArgs) -> anyhow::Result<Vec<(PathBuf, GoalArgs)>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut reader = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .from_path(path)
+        .with_context(|| format!("cannot read {}", path.display()))?;
+    let header = reader.headers().with_context(|| format!("cannot read {}", path.display()))?.clone();
+    let known = || COLUMNS.iter().map(|column| column.name).collect::<Vec<_>>().join(", ");
+    for name in header.iter().filter(|name| *name != FILE) {
+        ensure!(
+            COLUMNS.iter().any(|column| column.name == name),
+            "{}:1: `{name}` is not a column of a list of goals; expected {FILE} and any of {}",
+            path.display(),
+            known()
+        );
+    }
+    let Some(file) = header.iter().position(|name| name == FILE) else {
+        bail!("{}:1: expected a header with the column `{FILE}` and any of {}", path.display(), known());
+    };
+    let mut goals = Vec::new();
+    for record in reader.records() {
+        // The error of the reader names the line.
+        let record = record.with_context(|| format!("cannot read {}", path.display()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let mut args = defaults.clone();
+        for (name, cell) in header.iter().zip(&record).filter(|(_, cell)| !cell.is_empty()) {
+            if let Some(column) = COLUMNS.iter().find(|column| column.name == name)
+                && let Err(message) = (column.set)(&mut args, cell, folder)
+            {
+                bail!("{}:{line}: {name}: `{cell}`: {message}", path.display());
+            }
+        }
+        let goal = record.get(file).filter(|cell| !cell.is_empty());
+        let goal = goal.with_context(|| format!("{}:{line}: `{FILE}` is empty", path.display()))?;
+        goals.push((folder.join(goal), args));
+    }
+    ensure!(!goals.is_empty(), "{} lists no goal", path.display());
+    Ok(goals)
+}

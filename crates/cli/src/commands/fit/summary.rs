@@ -1,0 +1,277 @@
+//! `summary.json` and the other files of a result.
+
+use super::aftermath::Aftermath;
+use super::drawing::{Drawing, Drawn};
+use super::request::Request;
+use super::run_folder::{Claim, SUMMARY};
+use super::start::LooksLike;
+use super::views::ViewScore;
+use crate::files;
+use pleach_fit::{COLUMNS, FitSettings, FreshSeeds, Outcome, Row, Scored, StopReason};
+use pleach_silhouette::picture::Picture;
+use pleach_silhouette::score::ScoreCard;
+use pleach_tree::Species;
+use pleach_tree::dendrometry::Dendrometry;
+use serde::Serialize;
+use serde_json::Value;
+use std::path::Path;
+
+/// Pixels a side of the shaded picture of a result.
+const RENDER_SIZE: u32 = 512;
+
+/// What a fit leaves in its folder.
+pub(super) struct Results<'a> {
+    pub(super) settings: &'a FitSettings,
+    pub(super) outcome: &'a Outcome,
+    pub(super) best: &'a Scored,
+    /// The best individual as it is drawn.
+    pub(super) drawn: &'a Drawn,
+    pub(super) drawing: Drawing<'a>,
+    /// None if the fit was interrupted.
+    pub(super) aftermath: Option<&'a Aftermath>,
+    /// Further pictures, with what was fitted over them.
+    pub(super) views: Vec<(ViewScore, Picture)>,
+    pub(super) holdout_views: Vec<(ViewScore, Picture)>,
+    pub(super) from: String,
+    pub(super) looks_like: Vec<LooksLike>,
+    pub(super) request: Request,
+}
+
+/// `summary.json`.
+#[derive(Debug, Serialize)]
+pub(super) struct Summary {
+    species: String,
+    generator: String,
+    tree_seed: u64,
+    robust: u32,
+    #[serde(flatten)]
+    scores: ScoreCard,
+    fresh_seeds: Option<FreshSeeds>,
+    determined: Option<Counts>,
+    evaluations: u64,
+    generations: u64,
+    seconds: f64,
+    evaluations_per_second: f64,
+    optimizer: &'static str,
+    optimizer_settings: Value,
+    objective: String,
+    cost: f64,
+    stopped_by: StopReason,
+    finished: bool,
+    seed: u64,
+    from: String,
+    looks_like: Vec<LooksLike>,
+    /// Further pictures that were fitted; the scores above are of the goal itself.
+    views: Vec<ViewScore>,
+    /// Pictures that were not.
+    holdout_views: Vec<ViewScore>,
+    free: Vec<String>,
+    fix: Vec<String>,
+    height_m: f64,
+    /// The fitted tree in metres.
+    tree_m: Dendrometry,
+    metres_per_pixel: f64,
+    goal_width: u32,
+    goal_height: u32,
+    search: SearchScores,
+    /// What was asked for: a later run compares it.
+    #[serde(flatten)]
+    request: Request,
+    version: &'static str,
+}
+
+/// The result as the search and its history saw it: against the goal at its working size, the mean
+/// over views and over the seeds of a robust fit.
+#[derive(Debug, Serialize)]
+struct SearchScores {
+    goal_width: u32,
+    goal_height: u32,
+    /// Share of inked pixels. Fine twigs and leaves get thicker or thinner as a goal is reduced.
+    goal_ink: f64,
+    iou: f64,
+    pixel_accuracy: f64,
+}
+
+/// How many of the free parameters the goal determines.
+#[derive(Debug, Serialize)]
+struct Counts {
+    determined: usize,
+    loosely: usize,
+    not_seen: usize,
+}
+
+impl Summary {
+    /// Whether the fit can go on.
+    pub(super) const fn interrupted(&self) -> bool {
+        !self.finished
+    }
+}
+
+/// Writes everything but the checkpoint into the folder of `claim`.
+pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summary> {
+    let Results { settings, outcome, best, drawn, drawing, .. } = results;
+    let (goal, working) = (&drawing.goals.full, &drawing.goals.working);
+    let species = &drawn.species;
+    let scores = ScoreCard::of(&drawn.bitmap, &goal.bitmap)?;
+    claim.ensure_there()?;
+
+    let mut comments = vec![
+        format!(
+            "Fitted by pleach {} in {} evaluations ({}).",
+            env!("CARGO_PKG_VERSION"),
+            outcome.evaluations,
+            settings.optimizer.name()
+        ),
+        format!("IoU {:.4}, pixel accuracy {:.4} with tree_seed below.", scores.iou, scores.pixel_accuracy),
+    ];
+    if let Some(aftermath) = results.aftermath {
+        comments.extend(aftermath.comments(species.generator.space()));
+        write_table(&claim.file("parameters.csv"), aftermath.table(species.generator.space()))?;
+    }
+    write_species(&claim.file("best.toml"), species, &comments)?;
+    drawn.write_silhouettes(&goal.bitmap, &claim.file("best.png"), &claim.file("overlay.png"))?;
+    drawn.write_render(&claim.file("render.png"), RENDER_SIZE)?;
+    write_history(&claim.file("history.csv"), &outcome.history)?;
+    let views = write_overlays(claim, "overlay-view", results.views)?;
+    let holdout_views = write_overlays(claim, "overlay-holdout", results.holdout_views)?;
+
+    let seconds = outcome.elapsed.as_secs_f64();
+    let optimizer = serde_json::to_value(&settings.optimizer)?;
+    let summary = Summary {
+        species: species.name.clone(),
+        generator: species.generator.family().to_owned(),
+        tree_seed: best.genome.tree_seed,
+        robust: settings.robust.get(),
+        scores,
+        fresh_seeds: results.aftermath.and_then(|aftermath| aftermath.fresh),
+        determined: results.aftermath.map(|aftermath| {
+            let [determined, loosely, not_seen] = aftermath.counts();
+            Counts { determined, loosely, not_seen }
+        }),
+        evaluations: outcome.evaluations,
+        generations: outcome.generations,
+        seconds,
+        evaluations_per_second: outcome.evaluations as f64 / seconds.max(1e-9),
+        optimizer: settings.optimizer.name(),
+        optimizer_settings: optimizer.get(settings.optimizer.name()).cloned().unwrap_or_default(),
+        objective: settings.objective.to_string(),
+        cost: best.score.cost,
+        stopped_by: outcome.stop,
+        finished: outcome.stop != StopReason::Interrupted,
+        seed: settings.seed,
+        from: results.from,
+        looks_like: results.looks_like,
+        views,
+        holdout_views,
+        free: settings.freedom.free.clone(),
+        fix: settings.freedom.fix.clone(),
+        height_m: drawing.args.height,
+        tree_m: Dendrometry::of(&drawn.tree),
+        metres_per_pixel: goal.frame(drawing.args.height).metres_per_pixel,
+        goal_width: goal.bitmap.width(),
+        goal_height: goal.bitmap.height(),
+        search: SearchScores {
+            goal_width: working.bitmap.width(),
+            goal_height: working.bitmap.height(),
+            goal_ink: working.bitmap.ink() as f64 / working.bitmap.area() as f64,
+            iou: best.score.iou,
+            pixel_accuracy: best.score.accuracy,
+        },
+        request: results.request,
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    files::write_text(&claim.file(SUMMARY), &(serde_json::to_string_pretty(&summary)? + "\n"))?;
+    Ok(summary)
+}
+
+/// Writes the overlay of each further view as `NAME-1.png`, `NAME-2.png` …
+fn write_overlays(
+    claim: &Claim,
+    name: &str,
+    views: Vec<(ViewScore, Picture)>,
+) -> anyhow::Result<Vec<ViewScore>> {
+    let write = |(i, (score, overlay)): (usize, (ViewScore, Picture))| {
+        files::write_whole(&claim.file(&format!("{name}-{}.png", i + 1)), |file| {
+            Ok(overlay.write_png(file)?)
+        })?;
+        Ok(score)
+    };
+    views.into_iter().enumerate().map(write).collect()
+}
+
+/// Writes a species file with comments at its head.
+pub(super) fn write_species(path: &Path, species: &Species, comments: &[String]) -> anyhow::Result<()> {
+    files::write_text(path, &species.to_toml(comments))
+}
+
+/// Writes `history.csv`.
+pub(super) fn write_history(path: &Path, rows: &[Row]) -> anyhow::Result<()> {
+    let header = COLUMNS.iter().map(|c| c.name.to_owned()).collect();
+    let rows = rows.iter().map(|row| row.cells().collect());
+    write_table(path, std::iter::once(header).chain(rows))
+}
+
+pub(super) fn write_table(path: &Path, rows: impl IntoIterator<Item = Vec<String>>) -> anyhow::Result<()> {
+    files::write_whole(path, |file| {
+        let mut csv = csv::Writer::from_writer(file);
+        for row in rows {
+            csv.write_record(row)?;
+        }
+        Ok(csv.flush()?)
+    })
+}
+
+/// At what size the score card compares, and what the search saw at its own if that is another: the
+/// numbers of a sparse crown differ by as much as a tenth, though the tree is the same.
+fn sizes(summary: &Summary) -> String {
+    let Summary { goal_width, goal_height, search, .. } = summary;
+    if (*goal_width, *goal_height) == (search.goal_width, search.goal_height) {
+        return format!("compared at {goal_width} × {goal_height} pixels, as in the search\n");
+    }
+    format!(
+        "compared at {goal_width} × {goal_height} pixels, the goal {:.1} % ink; searched, and other seeds \
+         compared,\nat {} × {} (--size), the goal {:.1} % ink: there the IoU is {:.4}\n",
+        100.0 * summary.scores.goal_crown.ink,
+        search.goal_width,
+        search.goal_height,
+        100.0 * search.goal_ink,
+        search.iou,
+    )
+}
+
+/// The score card that ends a fit.
+pub(super) fn report(summary: &Summary, folder: &Path) -> String {
+    let mut judged = String::new();
+    judged.extend(summary.views.iter().map(|view| view.line("view")));
+    judged.extend(summary.holdout_views.iter().map(|view| view.line("held out")));
+    if let Some(fresh) = &summary.fresh_seeds {
+        judged += &format!(
+            "{} other seeds: likeness {:.3} ± {:.3}, IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels\n",
+            fresh.count,
+            fresh.likeness.mean,
+            fresh.likeness.sd,
+            fresh.iou.mean,
+            fresh.iou.sd,
+            100.0 * fresh.pixel_accuracy.mean,
+            100.0 * fresh.pixel_accuracy.sd,
+        );
+    }
+    if let Some(Counts { determined, loosely, not_seen }) = summary.determined {
+        judged += &format!(
+            "of the parameters the goal determines {determined}, loosely {loosely}; {not_seen} are not seen\n"
+        );
+    }
+    format!(
+        "{}\n\n{}{judged}{} trees in {:.1} s ({:.0} a second) by `{}`; {}\n\n\
+         overlay  {}\nspecies  {}",
+        crate::commands::score::card(&summary.scores),
+        sizes(summary),
+        summary.evaluations,
+        summary.seconds,
+        summary.evaluations_per_second,
+        summary.optimizer,
+        summary.stopped_by,
+        folder.join("overlay.png").display(),
+        folder.join("best.toml").display(),
+    )
+}
