@@ -440,3 +440,18 @@ fn a_list_of_goals_gives_each_its_options() {
         list(&[]).fails(1, &["goals.csv", word]);
     }
 }
+
+/// A goal whose name is not UTF-8 has a run folder whose species file can be named as an argument.
+#[test]
+#[cfg(target_os = "linux")]
+fn names_that_are_not_utf8_end_in_usable_ones() {
+    use std::os::unix::ffi::OsStrExt as _;
+    let dir = Dir::new();
+    goals(&dir);
+    let odd = std::ffi::OsStr::from_bytes(b"tr\xffee.png");
+    std::fs::copy(dir.path("acer.png"), dir.path("").join(odd)).unwrap();
+    let args = FIT.iter().map(std::ffi::OsStr::new).chain([odd, "--evaluations".as_ref(), "20".as_ref()]);
+    let _ = dir.run(args).ok();
+    let folder = std::fs::read_dir(dir.path("runs")).unwrap().next().unwrap().unwrap().path();
+    let _ = dir.run(["grow", folder.join("best.toml").to_str().unwrap(), "--stats-only"]).ok();
+}

@@ -5,7 +5,7 @@ use super::goal::MaskSource;
 use super::run_folder::{Mode, RunFolder};
 use super::summary::write_table;
 use super::task::{Ended, Task};
-use super::{Fit, RUNS, list, signals};
+use super::{Fit, RUNS, list, run_name, signals};
 use crate::interrupted::Interrupted;
 use crate::{files, output};
 use anyhow::{Context, bail, ensure};
@@ -135,10 +135,8 @@ fn jobs(goals: Vec<(PathBuf, GoalArgs)>, out: &Path) -> anyhow::Result<Vec<Job>>
     let mut seen = BTreeMap::new();
     let mut jobs = Vec::new();
     for (goal, args) in goals {
-        let stem = goal
-            .file_stem()
-            .with_context(|| format!("{} has no file name to call its run folder by", goal.display()))?
-            .to_owned();
+        let stem = run_name(&goal)
+            .with_context(|| format!("{} has no file name to call its run folder by", goal.display()))?;
         let folder = out.join(&stem);
         if let Some(other) = seen.insert(stem, goal.clone()) {
             bail!(

@@ -31,6 +31,12 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use task::{Ended, Task, how_to_go_on};
 
+/// What the run folder of `goal` is called, and its species. Names that are not UTF-8 become so: the
+/// species file in the folder is typed as an argument later.
+fn run_name(goal: &Path) -> Option<String> {
+    goal.file_stem().map(|stem| stem.to_string_lossy().into_owned())
+}
+
 /// The folder that run folders are made in if nothing is said.
 const RUNS: &str = "runs";
 
@@ -152,7 +158,7 @@ impl Fit {
         let path = self
             .out
             .clone()
-            .unwrap_or_else(|| Path::new(RUNS).join(goal.file_stem().unwrap_or_else(|| "goal".as_ref())));
+            .unwrap_or_else(|| Path::new(RUNS).join(run_name(goal).unwrap_or_else(|| "goal".to_owned())));
         let task = Task {
             goal: goal.to_owned(),
             args: self.goal_options.clone(),
