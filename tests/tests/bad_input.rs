@@ -64,11 +64,11 @@ fn goals_that_are_no_goals() {
 fn species_files_with_mistakes() {
     let dir = Dir::new();
     let cases: [(&str, &[&str]); 8] = [
-        ("colour = 3", &["bad.toml:1:1", "`colour`", "unknown name"]),
+        ("colour = 3", &["bad.toml:1:1", "`colour`", "is not a known name"]),
         ("g_scale = 10\nratio = nan", &["bad.toml:2:9", "`ratio`", "not a finite number"]),
         ("branches = [1, 5, 5, -20000]", &["`branches[3]`", "-20000", "-10000 to 10000"]),
         ("leaf_scale = -0.2", &["`leaf_scale`", "0 to 100"]),
-        ("levels = 9", &["`levels` 9", "1 to 4"]),
+        ("levels = 9", &["`levels` is 9", "1 to 4"]),
         ("branches = 1e9", &["`branches`", "1 value", "expected 4"]),
         ("generator = \"oak-o-matic\"", &["`oak-o-matic`", "weber-penn"]),
         ("levels = = 3", &["bad.toml:1:"]),
@@ -81,6 +81,46 @@ fn species_files_with_mistakes() {
     dir.run(["grow", "quaking_aspn"]).fails(1, &["did you mean `quaking_aspen`?"]);
     let big = dir.file("big.toml", vec![b'#'; 5 << 20]);
     dir.run(["grow", big.to_str().unwrap()]).fails(1, &["big.toml", "bytes"]);
+    dir.run(["grow", "aspen"]).fails(1, &["did you mean `quaking_aspen`?"]);
+    let _ = dir.file("mine.toml", "levels = 2");
+    dir.run(["grow", "mine"]).fails(1, &["did you mean `mine.toml`?"]);
+    let latin = dir.file("latin.toml", b"levels = 2\nname = \"B\xe4umchen\"");
+    dir.run(["grow", latin.to_str().unwrap()]).fails(1, &["latin.toml:2:10", "0xe4", "UTF-8"]);
+    let picture = pleach_tests::root().join("targets/acer.png");
+    dir.run(["grow", picture.to_str().unwrap()]).fails(1, &["acer.png", "PNG picture", "pleach fit"]);
+    let long =
+        dir.file("long.toml", format!("{} = 3\nshape = \"{}\"", "k".repeat(10_000), "v".repeat(10_000)));
+    let run = dir.run(["grow", long.to_str().unwrap()]);
+    run.fails(1, &["long.toml:1:1", "kkk…", "vvv…"]);
+    assert!(run.stderr().len() < 1500, "{run}");
+}
+
+/// A name is part of file names: nothing is written but where it was asked for.
+#[test]
+fn names_that_are_paths() {
+    let dir = Dir::new();
+    std::fs::create_dir_all(dir.path("a/b")).unwrap();
+    let elsewhere = dir.path("elsewhere").display().to_string();
+    let names =
+        ["../../escaped", elsewhere.as_str(), "a/b", "..", "", "a\\\\b", "a\\nb", "\\u001b[2J", "a\\u202eb"];
+    for name in names {
+        let text = format!("generator = \"weber-penn\"\nlevels = 1\nname = \"{name}\"");
+        let file = dir.file("a/b/evil.toml", text);
+        let run = dir.run(["grow", file.to_str().unwrap(), "-o", "a/b/"]);
+        run.fails(1, &["evil.toml:3:8: `name` "]);
+        assert!(!run.stderr().chars().any(|c| c.is_control() && c != '\n'), "{run}");
+    }
+    let files: Vec<_> =
+        std::fs::read_dir(dir.path("")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(files, ["a"], "nothing was written");
+}
+
+#[test]
+fn no_leaves_have_no_area() {
+    let dir = Dir::new();
+    let bare = dir.file("bare.toml", "levels = 1\nbranches = [0, 0, 0, 0]\nleaf_blos_num = 0");
+    let said = dir.run(["grow", bare.to_str().unwrap(), "--stats-only"]).ok();
+    assert!(said.contains("0.00 m²") && !said.contains("-0.00"), "{said}");
 }
 
 #[test]

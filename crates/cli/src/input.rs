@@ -5,8 +5,11 @@ use pleach_silhouette::View;
 use pleach_tree::{Limits, Species};
 use std::ops::Range;
 
-/// A species by name or file.
+/// A species by name or file, or from standard input by `-`.
 pub(crate) fn species(name: &str) -> Result<Species, RegistryError> {
+    if name == "-" {
+        return pleach_generators::read(std::io::stdin().lock(), "stdin");
+    }
     pleach_generators::species(name)
 }
 
@@ -50,10 +53,23 @@ pub(crate) struct LimitArgs {
     /// A tree with more leaves and blossoms is an error
     #[arg(long, value_name = "N", default_value_t = Limits::default().leaves, help_heading = "Limits")]
     max_leaves: usize,
+    /// A tree that takes more steps to grow is an error; by default it may be as many times the
+    /// usual 80000000 as there may be stems or leaves
+    #[arg(long, value_name = "N", help_heading = "Limits")]
+    max_work: Option<u64>,
 }
 
 impl LimitArgs {
-    pub(crate) const fn limits(self) -> Limits {
-        Limits { stems: self.max_stems, leaves: self.max_leaves, knots: self.max_stems.saturating_mul(20) }
+    pub(crate) fn limits(self) -> Limits {
+        let usual = Limits::DEFAULT;
+        let knots_per_stem = usual.knots / usual.stems;
+        // Whoever asks for a larger tree than usual means to have it.
+        let larger = (self.max_stems / usual.stems).max(self.max_leaves / usual.leaves).max(1);
+        Limits {
+            stems: self.max_stems,
+            leaves: self.max_leaves,
+            knots: self.max_stems.saturating_mul(knots_per_stem),
+            work: self.max_work.unwrap_or_else(|| usual.work.saturating_mul(larger as u64)),
+        }
     }
 }

@@ -279,6 +279,7 @@ impl Evaluator {
                 stems: self.limits.stems.min(most.stems),
                 leaves: self.limits.leaves.min(most.leaves),
                 knots: self.limits.knots.min(most.knots),
+                ..self.limits
             },
             foliage: if self.foliage { Foliage::All } else { Foliage::None },
             parallel: false,

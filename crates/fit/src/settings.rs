@@ -149,7 +149,7 @@ impl Method for AnyMethod {
 /// Default bounds of a fit, tighter than [`Limits::default`]: room for every one of the fifteen
 /// species (the weeping willow has 34,000 stems, 110,000 knots and 340,000 leaves), while no random
 /// monster takes longer than a few willows or more than some 60 MB a thread.
-pub const LIMITS: Limits = Limits { stems: 60_000, leaves: 500_000, knots: 300_000 };
+pub const LIMITS: Limits = Limits { stems: 60_000, leaves: 500_000, knots: 300_000, ..Limits::DEFAULT };
 
 /// Everything that decides how a fit runs; what it fits is a [`crate::FitProblem`].
 #[derive(Clone, Debug, PartialEq)]

@@ -57,7 +57,7 @@ fn settings_that_do_not_fit_the_generator_are_errors() {
 #[test]
 fn what_does_not_grow_costs_infinity_and_the_fit_goes_on() {
     let problem = goal_of("palm", 1, 32);
-    let limits = Limits { stems: 0, leaves: 0, knots: 0 };
+    let limits = Limits { stems: 0, leaves: 0, knots: 0, work: 0 };
     for name in pleach_fit::Optimizer::NAMES {
         let settings = FitSettings {
             optimizer: name.parse().unwrap(),

@@ -2,11 +2,12 @@
 //!
 //! A new generator is one more line in [`families`].
 
+mod file;
+
+pub use file::{read, read_file};
+
 use pleach_tree::{Family, Species, SpeciesDoc, SpeciesError};
 use std::path::{Path, PathBuf};
-
-/// Largest species file that is read, in bytes: a thousand times the usual.
-const LARGEST_FILE: u64 = 4 << 20;
 
 /// Every family of generators, the default one first.
 #[must_use]
@@ -24,11 +25,11 @@ pub fn names() -> Vec<&'static str> {
 #[derive(Debug, thiserror::Error)]
 pub enum RegistryError {
     /// Neither a known name nor a file.
-    #[error("no species and no file is called `{name}`{}; `pleach species` lists the known ones", suggestion(.nearest))]
+    #[error("no species and no file is called `{}`{}; `pleach species` lists the known ones", pleach_tree::param::shown(.name), suggestion(.nearest))]
     Unknown {
         /// What was asked for.
         name: String,
-        /// The nearest known name.
+        /// The nearest known name, or the species file that lacks only its ending.
         nearest: Option<String>,
     },
     /// The file cannot be read.
@@ -40,12 +41,18 @@ pub enum RegistryError {
         source: std::io::Error,
     },
     /// The file is far larger than a species.
-    #[error("{} has {bytes} bytes, a species file has at most {LARGEST_FILE}", path.display())]
+    #[error("{} is too large: a species file has at most {} bytes", path.display(), file::LARGEST)]
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// Its size.
-        bytes: u64,
+    },
+    /// The file is a picture.
+    #[error("{} is a {kind} picture, expected a species file; `pleach fit` finds the species of a picture", path.display())]
+    Picture {
+        /// The file.
+        path: PathBuf,
+        /// The format of the picture.
+        kind: &'static str,
     },
     /// The file says something wrong.
     #[error(transparent)]
@@ -76,26 +83,13 @@ pub fn species(name_or_path: &str) -> Result<Species, RegistryError> {
     if path.exists() || looks_like_a_path {
         return read_file(path);
     }
-    let nearest = pleach_tree::param::nearest(name_or_path, names());
+    let with_ending = format!("{name_or_path}.toml");
+    let nearest = if Path::new(&with_ending).is_file() {
+        Some(with_ending)
+    } else {
+        pleach_tree::param::nearest(name_or_path, names())
+    };
     Err(RegistryError::Unknown { name: name_or_path.to_owned(), nearest })
-}
-
-/// Reads a species file; a file without a name is called by its own.
-///
-/// # Errors
-/// See [`RegistryError`].
-pub fn read_file(path: &Path) -> Result<Species, RegistryError> {
-    let unreadable = |source| RegistryError::Unreadable { path: path.to_owned(), source };
-    let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
-    if bytes > LARGEST_FILE {
-        return Err(RegistryError::TooLarge { path: path.to_owned(), bytes });
-    }
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
-    let mut species = read_text(&path.display().to_string(), &text)?;
-    if species.name.is_empty() {
-        species.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    }
-    Ok(species)
 }
 
 /// Reads the text of a species file; `origin` is for messages.

@@ -6,22 +6,34 @@ use crate::species::{Species, SpeciesDoc, SpeciesError};
 use std::any::Any;
 use std::fmt;
 
-/// How many parts a tree may have before growing it is an error.
+/// How many parts a tree may have, and how much work may go into it, before growing it is an error.
+///
+/// A limit is one count for the whole tree, on however many threads it grows. Change some and keep
+/// the others: `Limits { stems: 1000, ..Limits::DEFAULT }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Most stems.
     pub stems: usize,
     /// Most leaves and blossoms together.
     pub leaves: usize,
-    /// Most knots of all stems together: what time and memory grow with.
+    /// Most knots of all stems together: what memory grows with.
     pub knots: usize,
+    /// Most steps of work: points walked, places tried for children and leaves, whether or not
+    /// anything comes of them. What a step is, is the generator's affair; it takes some 50 ns.
+    pub work: u64,
+}
+
+impl Limits {
+    /// 500,000 stems, 5,000,000 leaves, 5,000,000 knots and 80,000,000 steps: ten times the largest
+    /// of the known species and more. At most 1.5 GB and 10 s of processor time, the copies and the
+    /// repetition of trees that grow in parallel included.
+    pub const DEFAULT: Self = Self { stems: 500_000, leaves: 5_000_000, knots: 5_000_000, work: 80_000_000 };
 }
 
 impl Default for Limits {
-    /// 500,000 stems, 5,000,000 leaves and 10,000,000 knots (a gigabyte): ten times the largest of
-    /// the known species and more.
+    /// [`Limits::DEFAULT`].
     fn default() -> Self {
-        Self { stems: 500_000, leaves: 5_000_000, knots: 10_000_000 }
+        Self::DEFAULT
     }
 }
 
@@ -58,26 +70,64 @@ impl Growth {
     }
 }
 
+/// The parameters that an error is put down to, most of all first; none where that is not known.
+///
+/// Its text continues a sentence: `, because of branches[2] and branches[1]`, with quotes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Blame(pub Vec<String>);
+
+impl fmt::Display for Blame {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, name) in self.0.iter().enumerate() {
+            let before = match i {
+                0 => ", because of",
+                _ if i + 1 == self.0.len() => " and",
+                _ => ",",
+            };
+            write!(f, "{before} `{name}`")?;
+        }
+        Ok(())
+    }
+}
+
 /// Why a tree did not grow.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GrowError {
     /// More stems than [`Limits::stems`].
-    #[error("the tree would have more than {limit} stems; fewer branches or splits, or a higher limit")]
+    #[error(
+        "the tree would have more than {limit} stems{blame}; fewer branches or splits, or a higher limit"
+    )]
     TooManyStems {
         /// The limit.
         limit: usize,
+        /// What makes them so many.
+        blame: Blame,
     },
     /// More leaves and blossoms than [`Limits::leaves`].
-    #[error("the tree would have more than {limit} leaves; a smaller leaf number, or a higher limit")]
+    #[error("the tree would have more than {limit} leaves{blame}; a smaller leaf number, or a higher limit")]
     TooManyLeaves {
         /// The limit.
         limit: usize,
+        /// What makes them so many.
+        blame: Blame,
     },
     /// More knots than [`Limits::knots`].
-    #[error("the tree's stems would have more than {limit} knots; fewer or simpler stems, or a higher limit")]
+    #[error(
+        "the tree's stems would have more than {limit} knots{blame}; fewer or simpler stems, or a higher limit"
+    )]
     TooManyKnots {
         /// The limit.
         limit: usize,
+        /// What makes them so many.
+        blame: Blame,
+    },
+    /// More work than [`Limits::work`].
+    #[error("growing the tree takes more than {limit} steps{blame}; smaller numbers, or a higher limit")]
+    TooMuchWork {
+        /// The limit.
+        limit: u64,
+        /// What most of the work is done for.
+        blame: Blame,
     },
     /// Numbers left the range in which positions make sense.
     #[error("{what} is not finite")]

@@ -38,7 +38,7 @@ pub mod stats;
 pub mod trig;
 pub mod turtle;
 
-pub use generator::{Family, Foliage, Generator, GrowError, Growth, Limits, Workspace};
+pub use generator::{Blame, Family, Foliage, Generator, GrowError, Growth, Limits, Workspace};
 pub use param::{CheckedParams, Kind, Layout, Param, ParamSpace, Unit};
 pub use plant::{Knot, Leaf, Stem, StemKind, Tree};
 pub use random::Key;

@@ -119,6 +119,23 @@ impl Tree {
         self.blossoms.clear();
     }
 
+    /// Gives back memory that holds nothing.
+    pub fn shrink_to_fit(&mut self) {
+        self.stems.shrink_to_fit();
+        self.knots.shrink_to_fit();
+        self.leaves.shrink_to_fit();
+        self.blossoms.shrink_to_fit();
+    }
+
+    /// Makes room for all of `others`, to be appended, and for nothing else.
+    pub fn reserve_for(&mut self, others: &[Self]) {
+        let sum = |len: fn(&Self) -> usize| others.iter().map(len).sum();
+        self.stems.reserve_exact(sum(|t| t.stems.len()));
+        self.knots.reserve_exact(sum(|t| t.knots.len()));
+        self.leaves.reserve_exact(sum(|t| t.leaves.len()));
+        self.blossoms.reserve_exact(sum(|t| t.blossoms.len()));
+    }
+
     /// The knots of `stem`.
     #[must_use]
     pub fn knots_of(&self, stem: &Stem) -> &[Knot] {

@@ -3,13 +3,13 @@
 //! Weber and Penn 1995, §4.3; Hewitt 2017, §3.2.1 *Branch Distribution*. Leaves are spaced and
 //! turned like children, so this module serves both.
 
-use crate::grow::{Bench, Job};
+use crate::budget::{Budget, CHILD_STEPS, Cause, Exceeded};
+use crate::grow::{Bench, Job, LEAST_LENGTH};
 use crate::model::{Level, Model, shape_ratio};
 use crate::path::PathPoint;
 use crate::purpose;
 use crate::stem::Seedling;
 use glam::DVec3;
-use pleach_tree::GrowError;
 use pleach_tree::spline::Cubic;
 use pleach_tree::turtle::Turtle;
 use std::f64::consts::{PI, TAU};
@@ -46,14 +46,17 @@ pub(crate) struct Spacing<'a> {
 }
 
 impl Spacing<'_> {
-    /// Calls `each` for every place that is not on the bare base, from base to tip.
-    pub(crate) fn places<E>(
+    /// Calls `each` for every place that is not on the bare base, from base to tip. Bare places
+    /// are work as well, so all of a segment's are counted before the first is tried.
+    pub(crate) fn places(
         &self,
         path: &[PathPoint],
-        mut each: impl FnMut(Place) -> Result<(), E>,
-    ) -> Result<(), E> {
+        (budget, cause): (&mut Budget<'_>, Cause),
+        mut each: impl FnMut(&mut Budget<'_>, Place) -> Result<(), Exceeded>,
+    ) -> Result<(), Exceeded> {
         if self.count < 0.0 {
-            return self.fan(path, each);
+            budget.work(cause, self.stem.depth, -self.count as u64)?;
+            return self.fan(path, |place| each(budget, place));
         }
         let Self { stem, level, next, .. } = *self;
         let segments = f64::from(level.curve_res);
@@ -69,11 +72,15 @@ impl Spacing<'_> {
             let wanted = per_segment * keep + carry;
             let here = wanted.floor().max(0.0);
             carry = wanted - here;
+            if here == 0.0 {
+                continue;
+            }
+            budget.work(cause, stem.depth, here as u64)?;
             let here = here as u32;
             let mut place = |number: u32, t: f64, rotation: f64| {
                 let offset = stem.length * (start + piece as f64 + t) / segments;
                 if offset > bare {
-                    each(Place { number, piece, t, offset, rotation, fan: None })
+                    each(budget, Place { number, piece, t, offset, rotation, fan: None })
                 } else {
                     Ok(())
                 }
@@ -249,7 +256,7 @@ pub(crate) fn collect(
     index: u32,
     child_length: f64,
     first_point: usize,
-) -> Result<(), GrowError> {
+) -> Result<(), Exceeded> {
     let model = job.model;
     let level = &model.levels[stem.depth];
     let spacing = Spacing {
@@ -260,10 +267,10 @@ pub(crate) fn collect(
         forks_cost: true,
     };
     let profile = job.profile(stem);
-    let Bench { path, children, tried, .. } = bench;
+    let Bench { path, children, budget, .. } = bench;
+    let prunes = model.prune.ratio > 0.0;
     let path = &path[first_point..];
-    spacing.places(path, |place| {
-        job.count_try(tried)?;
+    spacing.places(path, (budget, Cause::Children), |budget, place| {
         let radius_here = profile.at(place.offset / stem.length);
         // The tip of a cone has no radius to bear a fan; its base has.
         let radius_limit = if place.fan.is_some() { stem.radius } else { radius_here };
@@ -271,6 +278,11 @@ pub(crate) fn collect(
             return Ok(());
         }
         let length = length(model, stem, child_length, place.offset);
+        // What waits is counted as a stem, so it has to become one; pruning has the last word on it.
+        if !prunes && !(length.is_finite() && length >= LEAST_LENGTH) {
+            return Ok(());
+        }
+        budget.work(Cause::Children, stem.depth, CHILD_STEPS)?;
         let mut child = Seedling {
             key: stem.key.child(purpose::CHILD, place.number),
             depth: stem.depth + 1,
@@ -292,7 +304,7 @@ pub(crate) fn collect(
         child.turtle = turtle;
         child.turtle.position += outward * (radius_here - child.radius.min(radius_here));
         children.push(child);
-        Ok(())
+        budget.wait(children.len())
     })
 }
 

@@ -3,7 +3,7 @@
 use crate::generator::WeberPenn;
 use crate::params::space;
 use crate::solid::{Solid, Surroundings};
-use pleach_tree::species::Appearance;
+use pleach_tree::species::{Appearance, Issue};
 use pleach_tree::{Family, Species, SpeciesDoc, SpeciesError};
 use std::sync::Arc;
 
@@ -27,14 +27,14 @@ impl Family for WeberPennFamily {
         let (values, mut issues) = doc.read(space(), &EXTRA_KEYS);
         let inside = Solid::read_list(doc, "prune_inside", &mut issues);
         let obstacles = Solid::read_list(doc, "prune_obstacles", &mut issues).unwrap_or_default();
-        let mut text = |key: &str| match doc.text(key) {
+        let mut text = |read: Result<Option<&str>, Issue>| match read {
             Ok(text) => text.unwrap_or_default().to_owned(),
             Err(issue) => {
                 issues.push(issue);
                 String::new()
             }
         };
-        let (name, description) = (text("name"), text("description"));
+        let (name, description) = (text(doc.name()), text(doc.description()));
         let tree_seed = doc.tree_seed().unwrap_or_else(|issue| {
             issues.push(issue);
             None
@@ -50,7 +50,10 @@ impl Family for WeberPennFamily {
                 tree_seed,
                 appearance,
             }),
-            _ => Err(SpeciesError { issues }),
+            _ => {
+                issues.sort_by_key(|issue| (issue.line, issue.column));
+                Err(SpeciesError { issues })
+            }
         }
     }
 

@@ -3,6 +3,9 @@
 //! The stems of level 0 are walked in order. Each first-level branch is then independent of the
 //! others, so they can be grown on many threads and put together in order.
 
+use crate::blame;
+use crate::budget::{Budget, Cause, Exceeded, POINT_STEPS, SOLIDS_A_STEP, TRIAL_STEPS};
+use crate::certain;
 use crate::children;
 use crate::leaves;
 use crate::model::Model;
@@ -47,9 +50,9 @@ pub(crate) struct Bench<'a> {
     pub(crate) tree: &'a mut Tree,
     pub(crate) path: &'a mut Vec<PathPoint>,
     clones: &'a mut Vec<Seedling>,
+    /// Stems that wait to be grown. Within a stem's own, the next to grow is the last.
     pub(crate) children: &'a mut Vec<Seedling>,
-    /// Children tried so far, made or not: what keeps an absurd species from trying for ever.
-    pub(crate) tried: usize,
+    pub(crate) budget: Budget<'a>,
 }
 
 pub(crate) fn grow(
@@ -60,6 +63,9 @@ pub(crate) fn grow(
     tree: &mut Tree,
 ) -> Result<(), GrowError> {
     tree.clear();
+    if let Some(error) = certain::refusal(model, growth) {
+        return Err(error);
+    }
     tree.leaf_shape = model.leaf_shape;
     tree.blossom_shape = model.blossom_shape;
     let Scratch { path, clones, children, places } = scratch;
@@ -69,33 +75,47 @@ pub(crate) fn grow(
     let job = Job { model, surroundings, growth };
     let root = Key::root(growth.seed);
 
-    trunks::places(model, root, places);
-    let mut bench = Bench { tree, path, clones, children, tried: 0 };
-    for (i, place) in places.iter().enumerate() {
-        let trunk = job.trunk(root.child(purpose::TRUNK, i as u32), *place, places.len() == 1);
-        // The first trunk carries no error of `seg_splits`; others start in mid-pattern.
-        let mut carry = if i == 0 { 0.0 } else { trunk.key.unit(purpose::SPLIT_PHASE, 0) };
-        job.stem(&mut bench, trunk, &mut carry)?;
+    let budget = Budget::new(growth.limits, model.prune.ratio > 0.0);
+    let mut bench = Bench { tree, path, clones, children, budget };
+    if let Err(exceeded) = job.tree(&mut bench, root, places) {
+        return Err(blame::error(exceeded, model, &bench.budget, bench.tree, bench.children));
     }
     if bench.tree.stems.is_empty() {
         let message = "nothing is left of the tree: its trunk has no length, or pruning took it".to_owned();
         return Err(GrowError::Conflict { message });
-    }
-
-    let branches = bench.children.len();
-    if growth.parallel && branches >= PARALLEL_BRANCHES {
-        job.branches_in_parallel(bench.children, bench.tree)?;
-    } else {
-        for i in 0..branches {
-            let branch = bench.children[i];
-            job.branch(&mut bench, branch)?;
-        }
     }
     let finite = bench.tree.knots.iter().all(|k| k.point.is_finite() && k.radius.is_finite());
     if finite { Ok(()) } else { Err(GrowError::NotFinite { what: "the position of a stem" }) }
 }
 
 impl Job<'_> {
+    /// Grows the trunks, then what they carry.
+    fn tree(&self, bench: &mut Bench<'_>, root: Key, places: &mut Vec<DVec2>) -> Result<(), Exceeded> {
+        trunks::places(self.model, root, places, &mut bench.budget)?;
+        for (i, place) in places.iter().enumerate() {
+            let trunk = self.trunk(root.child(purpose::TRUNK, i as u32), *place, places.len() == 1);
+            // The first trunk carries no error of `seg_splits`; others start in mid-pattern.
+            let mut carry = if i == 0 { 0.0 } else { trunk.key.unit(purpose::SPLIT_PHASE, 0) };
+            self.stem(bench, trunk, &mut carry)?;
+        }
+        let parallel = self.growth.parallel && bench.children.len() >= PARALLEL_BRANCHES;
+        if parallel && self.branches_in_parallel(bench.children, &bench.budget, bench.tree).is_ok() {
+            return Ok(());
+        }
+        self.waiting(bench, 0)
+    }
+
+    /// Grows the stems that wait, down to number `first`.
+    fn waiting(&self, bench: &mut Bench<'_>, first: usize) -> Result<(), Exceeded> {
+        bench.children[first..].reverse();
+        while bench.children.len() > first
+            && let Some(child) = bench.children.pop()
+        {
+            self.branch(bench, child)?;
+        }
+        Ok(())
+    }
+
     /// The trunk at `place`; several turn their downward side away from the middle.
     fn trunk(&self, key: Key, place: DVec2, alone: bool) -> Seedling {
         let model = self.model;
@@ -129,32 +149,43 @@ impl Job<'_> {
     }
 
     /// A child stem and everything on it.
-    fn branch(&self, bench: &mut Bench<'_>, branch: Seedling) -> Result<(), GrowError> {
+    fn branch(&self, bench: &mut Bench<'_>, branch: Seedling) -> Result<(), Exceeded> {
         let seg_splits = self.model.levels[branch.depth].seg_splits;
         let mut carry = if seg_splits > 0.0 { branch.key.unit(purpose::SPLIT_PHASE, 0) } else { 0.0 };
         self.stem(bench, branch, &mut carry)
     }
 
-    fn branches_in_parallel(&self, branches: &[Seedling], tree: &mut Tree) -> Result<(), GrowError> {
+    /// Grows `branches` on many threads and adds them to `tree`, or leaves it alone and fails.
+    fn branches_in_parallel(
+        &self,
+        branches: &[Seedling],
+        budget: &Budget<'_>,
+        tree: &mut Tree,
+    ) -> Result<(), Exceeded> {
+        let pool = budget.pool();
         let part = branches.len().div_ceil(PARTS);
-        let parts: Vec<Result<Tree, GrowError>> = branches
-            .par_chunks(part)
-            .map(|chunk| {
-                let (mut tree, mut scratch) = (Tree::default(), Scratch::default());
-                let Scratch { path, clones, children, .. } = &mut scratch;
-                let mut bench = Bench { tree: &mut tree, path, clones, children, tried: 0 };
-                chunk.iter().try_for_each(|branch| self.branch(&mut bench, *branch)).map(|()| tree)
-            })
-            .collect();
+        let grow = |chunk: &[Seedling]| {
+            let (mut tree, mut scratch) = (Tree::default(), Scratch::default());
+            let Scratch { path, clones, children, .. } = &mut scratch;
+            let mut bench = Bench { tree: &mut tree, path, clones, children, budget: budget.part(&pool) };
+            let grown = chunk.iter().try_for_each(|branch| self.branch(&mut bench, *branch));
+            let grown = grown.and_then(|()| bench.budget.tell());
+            if grown.is_err() {
+                bench.budget.stop_all();
+            }
+            // Room for more would be as much again, all parts together.
+            grown.map(|()| tree.shrink_to_fit()).map(|()| tree)
+        };
+        let parts = branches.par_chunks(part).map(grow).collect::<Result<Vec<Tree>, Exceeded>>()?;
+        tree.reserve_for(&parts);
         for part in parts {
-            tree.append(&part?, |stem| stem.level == 1 && stem.kind == StemKind::Branch);
-            self.check_limits(tree)?;
+            tree.append(&part, |stem| stem.level == 1 && stem.kind == StemKind::Branch);
         }
         Ok(())
     }
 
     /// Grows one stem, what it carries, and its clones.
-    fn stem(&self, bench: &mut Bench<'_>, mut stem: Seedling, carry: &mut f64) -> Result<(), GrowError> {
+    fn stem(&self, bench: &mut Bench<'_>, mut stem: Seedling, carry: &mut f64) -> Result<(), Exceeded> {
         let model = self.model;
         let level = &model.levels[stem.depth];
         let next = model.child_level(stem.depth);
@@ -163,7 +194,7 @@ impl Job<'_> {
             |clone| clone.child_length,
         );
         if model.prune.ratio > 0.0 && stem.clone.is_none_or(|_| level.split_angle_v < 0.0) {
-            let Some(length) = self.prune(bench.path, &stem, *carry) else { return Ok(()) };
+            let Some(length) = self.prune(bench, &stem, *carry)? else { return Ok(()) };
             stem.length = length;
             if stem.depth == 0 {
                 stem.radius = length * model.ratio * level.radius_mod;
@@ -179,6 +210,7 @@ impl Job<'_> {
         let first_clone = bench.clones.len();
         let first_child = bench.children.len();
         let mut forks = Collect { origin: stem, clones: bench.clones };
+        bench.budget.work(Cause::Walk, stem.depth, POINT_STEPS * self.points(&stem))?;
         walk(model, &stem, stem.length, child_length, carry, bench.path, &mut forks);
         let index = bench.tree.stems.len() as u32;
         self.emit(bench, &stem, first_point)?;
@@ -191,11 +223,7 @@ impl Job<'_> {
 
         // The children of trunks wait: they are the branches that may grow in parallel.
         if stem.depth > 0 {
-            for i in first_child..bench.children.len() {
-                let child = bench.children[i];
-                self.branch(bench, child)?;
-            }
-            bench.children.truncate(first_child);
+            self.waiting(bench, first_child)?;
         }
 
         let last_clone = bench.clones.len();
@@ -215,34 +243,44 @@ impl Job<'_> {
     /// The length that pruning leaves of `stem`, or `None` if it is dropped.
     ///
     /// The trunk is judged by its tip alone, as the add-on does: it would not fit at its foot.
-    fn prune(&self, path: &mut Vec<PathPoint>, stem: &Seedling, carry: f64) -> Option<f64> {
-        let first = path.len();
-        prune::pruned_length(self.model.prune.ratio, stem.length, |length| {
-            path.truncate(first);
-            walk(self.model, stem, length, 1.0, &mut carry.clone(), path, &mut crate::path::NoForks);
-            let points = &path[first + 1..];
+    fn prune(&self, bench: &mut Bench<'_>, stem: &Seedling, carry: f64) -> Result<Option<f64>, Exceeded> {
+        let Self { model, surroundings, .. } = *self;
+        let first = bench.path.len();
+        let solids = surroundings.inside.as_ref().map_or(0, Vec::len) + surroundings.obstacles.len();
+        let points = self.points(stem);
+        let judged = if stem.depth == 0 { 1 } else { points };
+        let steps = TRIAL_STEPS * points + judged * (solids as u64 / SOLIDS_A_STEP);
+        prune::pruned_length(model.prune.ratio, stem.length, |length| {
+            bench.budget.work(Cause::Pruning, stem.depth, steps)?;
+            walk(model, stem, length, 1.0, &mut carry.clone(), bench.path, &mut crate::path::NoForks);
+            let points = &bench.path[first + 1..];
             let judged = if stem.depth == 0 { &points[points.len() - 1..] } else { points };
-            let fits = judged.iter().all(|p| prune::fits(self.model, self.surroundings, stem.scale, p.point));
-            path.truncate(first);
-            fits
+            let fits = judged.iter().all(|p| prune::fits(model, surroundings, stem.scale, p.point));
+            bench.path.truncate(first);
+            Ok(fits)
         })
     }
 
+    /// Points of the path of `stem`.
+    fn points(&self, stem: &Seedling) -> u64 {
+        u64::from(self.model.levels[stem.depth].curve_res - stem.start() + 1)
+    }
+
     /// Writes the path of `stem` to the tree as a stem with knots.
-    fn emit(&self, bench: &mut Bench<'_>, stem: &Seedling, first_point: usize) -> Result<(), GrowError> {
-        if bench.tree.stems.len() >= self.growth.limits.stems {
-            return Err(GrowError::TooManyStems { limit: self.growth.limits.stems });
-        }
+    fn emit(&self, bench: &mut Bench<'_>, stem: &Seedling, first_point: usize) -> Result<(), Exceeded> {
         let model = self.model;
         let level = &model.levels[stem.depth];
         let profile = self.profile(stem);
         let path = &bench.path[first_point..];
+        // Flare and beads change the radius faster than the path bends: more knots on the same path.
+        let fine = stem.depth == 0 || level.taper > 1.0;
+        let per_piece = if fine { 100_u32.div_ceil(level.curve_res).max(2) } else { 2 };
+        let made = (path.len() - 1) * (per_piece as usize - 1) + 1;
+        bench.budget.work(Cause::Walk, stem.depth, made as u64)?;
+        bench.budget.stem(made)?;
         let knots = &mut bench.tree.knots;
         let first_knot = knots.len() as u32;
         let place = |i: f64| (f64::from(stem.start()) + i) / f64::from(level.curve_res);
-        // Flare and beads change the radius faster than the path bends: more knots on the same path.
-        let fine = stem.depth == 0 || level.taper > 1.0;
-        let per_piece = if fine { 100_u32.div_ceil(level.curve_res).max(2) } else { 1 };
         if fine {
             resample(path, per_piece, knots, |i| profile.at(place(i)));
         } else {
@@ -253,10 +291,8 @@ impl Job<'_> {
                 radius: profile.at(place(i as f64)),
             }));
         }
-        if knots.len() > self.growth.limits.knots {
-            return Err(GrowError::TooManyKnots { limit: self.growth.limits.knots });
-        }
         let knot_count = knots.len() as u32 - first_knot;
+        debug_assert_eq!(knot_count as usize, made, "knots are counted before they are made");
         let kind = match (stem.depth, stem.clone) {
             (_, Some(_)) => StemKind::Clone,
             (0, None) => StemKind::Trunk,
@@ -280,35 +316,10 @@ impl Job<'_> {
         let flare = if stem.depth == 0 { self.model.flare } else { 0.0 };
         Profile { base: stem.radius, length: stem.length, taper, flare }
     }
-
-    /// Counts a child that is tried; too many in one part of a tree are an error.
-    pub(crate) fn count_try(&self, tried: &mut usize) -> Result<(), GrowError> {
-        *tried += 1;
-        if *tried > TRIES_PER_STEM * self.growth.limits.stems {
-            return Err(GrowError::TooManyStems { limit: self.growth.limits.stems });
-        }
-        Ok(())
-    }
-
-    fn check_limits(&self, tree: &Tree) -> Result<(), GrowError> {
-        let limits = self.growth.limits;
-        if tree.stems.len() > limits.stems {
-            return Err(GrowError::TooManyStems { limit: limits.stems });
-        }
-        if tree.knots.len() > limits.knots {
-            return Err(GrowError::TooManyKnots { limit: limits.knots });
-        }
-        if tree.leaves.len() + tree.blossoms.len() > limits.leaves {
-            return Err(GrowError::TooManyLeaves { limit: limits.leaves });
-        }
-        Ok(())
-    }
 }
 
 /// Stems shorter than this, in metres, are not made.
-const LEAST_LENGTH: f64 = 1e-4;
-/// Children that may be tried for each stem of the limit: those on bare bases are tried and dropped.
-const TRIES_PER_STEM: usize = 8;
+pub(crate) const LEAST_LENGTH: f64 = 1e-4;
 
 /// Collects the clones of a stem.
 struct Collect<'a> {

@@ -2,6 +2,7 @@
 //!
 //! Weber and Penn 1995, §4.9; Hewitt 2017, §3.2.2.
 
+use crate::budget::{Cause, Exceeded};
 use crate::children::{Spacing, Sprout, relative_length};
 use crate::grow::{Bench, Job};
 use crate::purpose;
@@ -10,7 +11,7 @@ use crate::stem::Seedling;
 use glam::{DVec3, Vec3};
 use pleach_tree::trig::{atan2, sin_cos};
 use pleach_tree::turtle::Turtle;
-use pleach_tree::{Foliage, GrowError, Leaf, Tree};
+use pleach_tree::{Foliage, Leaf, Tree};
 
 /// Grows the leaves and blossoms of `stem`, whose index in the tree is `index`.
 pub(crate) fn grow(
@@ -19,7 +20,7 @@ pub(crate) fn grow(
     stem: &Seedling,
     index: u32,
     first_point: usize,
-) -> Result<(), GrowError> {
+) -> Result<(), Exceeded> {
     let model = job.model;
     let relative_scale = stem.scale / model.g_scale;
     let spacing = Spacing {
@@ -40,20 +41,15 @@ pub(crate) fn grow(
     };
     let helix = spacing.level.is_helix();
 
-    let limit = job.growth.limits.leaves;
-    let Bench { tree, path, .. } = bench;
+    let Bench { tree, path, budget, .. } = bench;
     let path = &path[first_point..];
     let mut sprig = Sprig::default();
     let mut numbers = [0; LANES];
-    let mut made = tree.leaves.len() + tree.blossoms.len();
-    spacing.places(path, |place| {
+    spacing.places(path, (budget, Cause::Leaves), |budget, place| {
         if !coarse.keeps(place.number) {
             return Ok(());
         }
-        made += 1;
-        if made > limit {
-            return Err(GrowError::TooManyLeaves { limit });
-        }
+        budget.leaf()?;
         let radius = profile.at(place.offset / stem.length);
         if place.fan.is_some() {
             let Sprout { mut turtle, outward } = spacing.sprout(path, &place);

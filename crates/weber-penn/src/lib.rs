@@ -12,6 +12,9 @@
 //! assert!(tree.leaves.len() > 10_000);
 //! ```
 
+mod blame;
+mod budget;
+mod certain;
 mod children;
 mod family;
 mod generator;

@@ -75,6 +75,8 @@ pub(crate) struct Model {
     pub(crate) ratio: f64,
     pub(crate) ratio_power: f64,
     pub(crate) flare: f64,
+    /// As the file says; 0 leaves the number of trunks to `branches[0]`.
+    pub(crate) floor_splits: u32,
     pub(crate) trunks: u32,
     pub(crate) base_splits: i64,
     pub(crate) tropism: DVec3,
@@ -140,6 +142,7 @@ impl Model {
             ratio,
             ratio_power,
             flare,
+            floor_splits,
             trunks: if floor_splits > 0 { floor_splits } else { (levels[0].branches.abs() as u32).max(1) },
             base_splits,
             tropism,

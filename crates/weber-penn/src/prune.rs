@@ -25,39 +25,51 @@ pub(crate) fn fits(model: &Model, surroundings: &Surroundings, scale: f64, point
 
 /// The length that a stem of nominal length `length` is pruned to, given a test of whether it fits
 /// at a length; `None` if it is dropped. `ratio` is `prune_ratio`, above 0.
-pub(crate) fn pruned_length(ratio: f64, length: f64, mut fits_at: impl FnMut(f64) -> bool) -> Option<f64> {
+///
+/// # Errors
+/// That of the test.
+pub(crate) fn pruned_length<E>(
+    ratio: f64,
+    length: f64,
+    mut fits_at: impl FnMut(f64) -> Result<bool, E>,
+) -> Result<Option<f64>, E> {
     let mut trial = length;
-    while !fits_at(trial) {
+    while !fits_at(trial)? {
         trial *= SHRINK;
         // Also for a length of zero, which no shrinking ends, and for one that is not a number.
         if trial <= LEAST_PART * length || trial.is_nan() {
             if ratio >= 1.0 {
-                return None;
+                return Ok(None);
             }
             trial = 0.0;
             break;
         }
     }
-    Some((1.0 - ratio) * length + ratio * trial)
+    Ok(Some((1.0 - ratio) * length + ratio * trial))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::convert::Infallible;
+
+    fn pruned(ratio: f64, fits_at: impl Fn(f64) -> bool) -> Option<f64> {
+        pruned_length(ratio, 10.0, |length| Ok::<_, Infallible>(fits_at(length))).unwrap()
+    }
 
     #[test]
     fn the_ratio_interpolates_between_the_fitting_length_and_the_whole() {
         let at_most_half = |length: f64| length <= 5.0;
-        let full = pruned_length(1.0, 10.0, at_most_half).unwrap();
+        let full = pruned(1.0, at_most_half).unwrap();
         assert!(full <= 5.0 && full > 4.4, "{full}");
-        let half = pruned_length(0.5, 10.0, at_most_half).unwrap();
+        let half = pruned(0.5, at_most_half).unwrap();
         assert!((half - (10.0 + full) / 2.0).abs() < 1e-12);
-        assert_eq!(pruned_length(1.0, 10.0, |_| true), Some(10.0));
+        assert_eq!(pruned(1.0, |_| true), Some(10.0));
     }
 
     #[test]
     fn what_never_fits_is_dropped_only_at_ratio_one() {
-        assert_eq!(pruned_length(1.0, 10.0, |_| false), None);
-        assert_eq!(pruned_length(0.25, 10.0, |_| false), Some(7.5));
+        assert_eq!(pruned(1.0, |_| false), None);
+        assert_eq!(pruned(0.25, |_| false), Some(7.5));
     }
 }

@@ -8,6 +8,9 @@ use pleach_tree::param::Problem;
 use pleach_tree::species::{Entry, Issue, Node, SpeciesDoc, Value};
 use std::fmt::Write as _;
 
+/// Largest coordinate and size of a solid, in metres.
+const FARTHEST: f64 = 1e6;
+
 /// A solid, fixed in the world. Metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solid {
@@ -100,15 +103,28 @@ impl Solid {
             let problem = Problem::Conflict { message: format!("a {shape} has {}", keys.join(", ")) };
             return Err(doc.issue(entry.span.clone(), &format!("{name}.{}", entry.key), problem));
         }
-        let point = |key: &str| doc.vector_of(&format!("{name}.{key}"), get(key)?).map(DVec3::from);
+        let point = |key: &str| {
+            let node = get(key)?;
+            let full = format!("{name}.{key}");
+            let point = DVec3::from(doc.vector_of(&full, node)?);
+            let far = point.to_array().into_iter().find(|value| value.abs() > FARTHEST);
+            far.map_or(Ok(point), |value| {
+                let problem = Problem::OutOfRange { value, min: -FARTHEST, max: FARTHEST };
+                Err(doc.issue(node.span.clone(), &full, problem))
+            })
+        };
         let size = |key: &str| {
             let node = get(key)?;
             let full = format!("{name}.{key}");
             let value = doc.number_of(&full, node)?;
-            if (0.0..=1e6).contains(&value) {
+            if (0.0..=FARTHEST).contains(&value) {
                 Ok(value)
             } else {
-                Err(doc.issue(node.span.clone(), &full, Problem::OutOfRange { value, min: 0.0, max: 1e6 }))
+                Err(doc.issue(
+                    node.span.clone(),
+                    &full,
+                    Problem::OutOfRange { value, min: 0.0, max: FARTHEST },
+                ))
             }
         };
         match shape {

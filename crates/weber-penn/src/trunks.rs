@@ -4,6 +4,7 @@
 //! add-on, for which bamboo was tuned. Where darts keep failing the disc grows a little, so that
 //! any number of trunks ends.
 
+use crate::budget::{Budget, Cause, DARTS_A_STEP, Exceeded};
 use crate::model::Model;
 use crate::purpose;
 use glam::DVec2;
@@ -15,11 +16,16 @@ const TRIES: u32 = 32;
 const GROWTH: f64 = 1.1;
 
 /// Positions of the trunks on the ground, in metres; a single one stands at the origin.
-pub(crate) fn places(model: &Model, key: Key, places: &mut Vec<DVec2>) {
+pub(crate) fn places(
+    model: &Model,
+    key: Key,
+    places: &mut Vec<DVec2>,
+    budget: &mut Budget<'_>,
+) -> Result<(), Exceeded> {
     places.clear();
     if model.trunks <= 1 {
         places.push(DVec2::ZERO);
-        return;
+        return Ok(());
     }
     let trunk = &model.levels[0];
     let mut disc = (f64::from(model.trunks) / 2.5 * model.g_scale * model.ratio).sqrt();
@@ -28,6 +34,7 @@ pub(crate) fn places(model: &Model, key: Key, places: &mut Vec<DVec2>) {
     for i in 0..model.trunks {
         let dart_key = key.child(purpose::DART, i);
         for attempt in 0.. {
+            budget.work(Cause::Darts, 0, 1 + places.len() as u64 / DARTS_A_STEP)?;
             let distance = disc * dart_key.unit(purpose::DART_DISTANCE, attempt).sqrt();
             let dart = DVec2::from_angle(TAU * dart_key.unit(purpose::DART_AZIMUTH, attempt)) * distance;
             if places.iter().all(|p| p.distance_squared(dart) >= spacing * spacing) {
@@ -39,4 +46,5 @@ pub(crate) fn places(model: &Model, key: Key, places: &mut Vec<DVec2>) {
             }
         }
     }
+    Ok(())
 }

@@ -323,24 +323,36 @@ fn one_more_branch_leaves_the_other_branches_alone() {
 fn mistakes_in_a_file_are_told_with_place_range_and_nearest_name() {
     let message = |text: &str| read(text).unwrap_err().to_string();
     let cases = [
-        ("\nlegth = [1, 0.3, 0.6, 0]", "test.toml:2:1: `legth` unknown name, did you mean `length`?"),
+        ("\nlegth = [1, 0.3, 0.6, 0]", "test.toml:2:1: `legth` is not a known name, did you mean `length`?"),
         ("length = [1, 0.3, 0.6]", "test.toml:1:10: `length` has 3 values, expected 4"),
-        ("ratio = nan", "test.toml:1:9: `ratio` NaN is not a finite number"),
+        ("ratio = nan", "test.toml:1:9: `ratio` is NaN, which is not a finite number"),
         ("ratio = inf", "is not a finite number"),
-        ("levels = 9", "test.toml:1:10: `levels` 9 is out of range, allowed is 1 to 4"),
+        ("levels = 9", "test.toml:1:10: `levels` is 9, which is out of range: allowed is 1 to 4"),
         ("levels = 2.5", "is not a whole number"),
         ("branches = 1e9", "`branches` has 1 value, expected 4"),
-        ("branches = [1, 1e9, 30, 1]", "`branches[1]` 1000000000 is out of range"),
-        ("leaf_scale = -1", "out of range, allowed is 0 to 100"),
+        ("branches = [1, 1e9, 30, 1]", "`branches[1]` is 1000000000, which is out of range"),
+        ("leaf_scale = -1", "out of range: allowed is 0 to 100"),
         ("shape = \"concial\"", "did you mean `conical`?"),
         ("ratio = \"thin\"", "is a string, expected a number"),
         ("ratio = [1]", "is an array, expected a single number"),
         ("ratio = ", "test.toml:1:"),
-        ("prune_inside = [{ shape = \"ball\" }]", "`ball` is not one of sphere, cylinder, box"),
+        ("prune_inside = [{ shape = \"ball\" }]", "is `ball`, which is not one of sphere, cylinder, box"),
         ("prune_inside = [{ shape = \"sphere\", center = [0, 0] }]", "expected 3"),
         ("prune_inside = [{ shape = \"sphere\", center = [0, 0, 1] }]", "`radius`"),
         ("tree_seed = -4", "`tree_seed`"),
         ("name = 3", "`name` is a number, expected a string"),
+        ("g_scale = 1e308", "test.toml:1:11: `g_scale` is 1e308, which is out of range"),
+        ("prune_inside = [{ shape = \"sphere\", center = [0, 1e308, 0], radius = 1 }]", "is 1e308, which is"),
+        (
+            "levels = 3\nname = \"../../escaped\"",
+            "test.toml:2:8: `name` contains `/`, expected a name such as",
+        ),
+        ("name = \"..\"", "`name` is a folder"),
+        ("name = \"\"", "`name` is empty"),
+        ("name = \"a\\u001b[31m\"", "`name` contains the character \\u{1b}"),
+        ("description = \"a\\u202eb\"", "`description` contains the character \\u{202e}"),
+        ("seed = 3", "test.toml:1:1: `seed` is not a known name here: the seed of the tree is `tree_seed`"),
+        ("season = \"autumn\"", "`season` is not a known name here: it belongs to the table `[appearance]`"),
     ];
     for (text, expected) in cases {
         let message = message(text);

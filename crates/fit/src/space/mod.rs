@@ -36,7 +36,7 @@ pub enum TreeSeed {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpaceError {
     /// A pattern that names no parameter.
-    #[error("`{pattern}`: {problem}")]
+    #[error("`{pattern}` {problem}")]
     Pattern {
         /// As it was given.
         pattern: String,

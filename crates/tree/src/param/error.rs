@@ -1,8 +1,10 @@
 //! What can be wrong with a parameter's value, as facts.
 
+use super::shown::shown;
 use std::fmt;
 
-/// What is wrong with one value or name; [`fmt::Display`] makes the sentence.
+/// What is wrong with one value or name. [`fmt::Display`] makes the rest of a sentence that begins
+/// with the name: `g_scale` + "is 5000, …".
 #[derive(Clone, Debug, PartialEq)]
 pub enum Problem {
     /// Outside the allowed range.
@@ -52,6 +54,11 @@ pub enum Problem {
         /// The nearest name, if one is near.
         nearest: Option<String>,
     },
+    /// A name that is known, but belongs elsewhere, or that another program gives to something known.
+    Misplaced {
+        /// What would be right.
+        right: &'static str,
+    },
     /// Something that has to be given is not.
     Missing {
         /// What would be right.
@@ -73,24 +80,40 @@ impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OutOfRange { value, min, max } => {
-                write!(f, "{value} is out of range, allowed is {min} to {max}")
+                let (value, min, max) = (Plain(*value), Plain(*min), Plain(*max));
+                write!(f, "is {value}, which is out of range: allowed is {min} to {max}")
             }
-            Self::NotFinite { value } => write!(f, "{value} is not a finite number"),
-            Self::NotWhole { value } => write!(f, "{value} is not a whole number"),
+            Self::NotFinite { value } => write!(f, "is {value}, which is not a finite number"),
+            Self::NotWhole { value } => write!(f, "is {}, which is not a whole number", Plain(*value)),
             Self::WrongLength { expected, found } => {
                 write!(f, "has {found} value{}, expected {expected}", if *found == 1 { "" } else { "s" })
             }
             Self::WrongType { expected, found } => write!(f, "is {found}, expected {expected}"),
             Self::UnknownChoice { value, known, nearest } => {
-                write!(f, "`{value}` is not one of {}", known.join(", "))?;
+                write!(f, "is `{}`, which is not one of {}", shown(value), known.join(", "))?;
                 suggest(f, nearest.as_deref())
             }
             Self::UnknownName { nearest } => {
-                write!(f, "unknown name")?;
+                write!(f, "is not a known name")?;
                 suggest(f, nearest.as_deref())
             }
+            Self::Misplaced { right } => write!(f, "is not a known name here: {right}"),
             Self::Missing { expected } => write!(f, "is missing, expected {expected}"),
             Self::Syntax { message } | Self::Conflict { message } => f.write_str(message),
+        }
+    }
+}
+
+/// A number without hundreds of digits.
+struct Plain(f64);
+
+impl fmt::Display for Plain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(value) = *self;
+        if value == 0.0 || (1e-6..1e16).contains(&value.abs()) {
+            write!(f, "{value}")
+        } else {
+            write!(f, "{value:e}")
         }
     }
 }
@@ -101,7 +124,7 @@ fn suggest(f: &mut fmt::Formatter<'_>, nearest: Option<&str>) -> fmt::Result {
 
 /// A problem with the value of one slot.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{slot}: {problem}")]
+#[error("`{slot}` {problem}")]
 pub struct SlotError {
     /// The slot's name, such as `length[1]`.
     pub slot: String,
@@ -110,13 +133,68 @@ pub struct SlotError {
 }
 
 /// The known name that `name` most likely stands for, if any is near enough.
+///
+/// A name that contains what was typed comes before those that only look like it.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    /// Shorter pieces are in too many names to mean one.
+    const SHORTEST_PIECE: usize = 3;
     let lower = name.to_lowercase();
+    let is_piece = lower.chars().count() >= SHORTEST_PIECE;
     known
         .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(&lower, &candidate.to_lowercase()), candidate))
-        .filter(|(likeness, _)| *likeness > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate.to_owned())
+        .map(|candidate| {
+            let other = candidate.to_lowercase();
+            let holds = is_piece && other.contains(&lower);
+            (holds, strsim::jaro_winkler(&lower, &other), candidate)
+        })
+        .filter(|(holds, likeness, _)| *holds || *likeness > 0.75)
+        .max_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)))
+        .map(|(.., candidate)| candidate.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sentences_have_a_verb() {
+        let said = |problem: Problem| SlotError { slot: "g_scale".to_owned(), problem }.to_string();
+        assert_eq!(
+            said(Problem::OutOfRange { value: 5000.0, min: 0.01, max: 200.0 }),
+            "`g_scale` is 5000, which is out of range: allowed is 0.01 to 200"
+        );
+        assert_eq!(said(Problem::NotWhole { value: 2.5 }), "`g_scale` is 2.5, which is not a whole number");
+        assert_eq!(
+            said(Problem::NotFinite { value: f64::NAN }),
+            "`g_scale` is NaN, which is not a finite number"
+        );
+        assert_eq!(said(Problem::WrongLength { expected: 4, found: 1 }), "`g_scale` has 1 value, expected 4");
+        let nearest = Some("g_scale_v".to_owned());
+        assert_eq!(
+            said(Problem::UnknownName { nearest }),
+            "`g_scale` is not a known name, did you mean `g_scale_v`?"
+        );
+        let huge = said(Problem::OutOfRange { value: 1e308, min: 0.0, max: 1.0 });
+        assert_eq!(huge, "`g_scale` is 1e308, which is out of range: allowed is 0 to 1");
+    }
+
+    #[test]
+    fn values_are_shown_short() {
+        let value = "y".repeat(5000);
+        let problem = Problem::UnknownChoice { value, known: vec!["a".to_owned()], nearest: None };
+        assert!(problem.to_string().len() < 120, "{problem}");
+    }
+
+    #[test]
+    fn what_contains_the_typed_word_is_meant() {
+        let known = ["apple", "acer", "quaking_aspen", "weeping_willow", "branches", "branch_dist"];
+        let meant = |name| nearest(name, known);
+        assert_eq!(meant("aspen").as_deref(), Some("quaking_aspen"));
+        assert_eq!(meant("Willow").as_deref(), Some("weeping_willow"));
+        assert_eq!(meant("brances").as_deref(), Some("branches"));
+        assert_eq!(meant("appel").as_deref(), Some("apple"));
+        assert_eq!(meant("zzz"), None);
+        assert_eq!(meant(""), None);
+    }
 }

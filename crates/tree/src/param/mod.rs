@@ -11,10 +11,13 @@
 mod checked;
 mod declaration;
 mod error;
+mod shown;
 mod space;
 
 pub use checked::CheckedParams;
 pub use declaration::{Kind, Layout, Param, Source, Unit};
 pub use error::nearest;
 pub use error::{Problem, SlotError};
+pub use shown::shown;
+pub(crate) use shown::{escaped, is_hidden};
 pub use space::{ParamSpace, Slot};

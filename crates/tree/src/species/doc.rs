@@ -1,10 +1,23 @@
 //! A parsed species file that remembers where everything stood.
 
 use super::error::{Issue, SpeciesError};
-use crate::param::{Kind, ParamSpace, Problem, nearest};
+use super::name::check_name;
+use crate::param::{Kind, ParamSpace, Problem, escaped, is_hidden, nearest};
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
+/// Names that are wrong at the top level, and what would be right.
+const MISPLACED: [(&str, &str); 9] = [
+    ("seed", "the seed of the tree is `tree_seed`"),
+    ("season", "it belongs to the table `[appearance]`"),
+    ("bark", "it belongs to the table `[appearance]`"),
+    ("leaf", "it belongs to the table `[appearance]`"),
+    ("autumn", "it belongs to the table `[appearance]`"),
+    ("blossom", "it belongs to the table `[appearance]`"),
+    ("height", "the height of the tree is `g_scale`"),
+    ("leaves", "the number of leaves on a stem is `leaf_blos_num`"),
+    ("species", "the species is called by `name`"),
+];
 /// Keys that every species file may have beside its parameters.
 const COMMON_KEYS: [&str; 5] = ["generator", "name", "description", "tree_seed", "appearance"];
 
@@ -81,10 +94,20 @@ impl SpeciesDoc {
                 Ok(doc)
             }
             Err(error) => {
-                let problem = Problem::Syntax { message: error.message().trim().replace('\n', "; ") };
-                Err(SpeciesError { issues: vec![doc.issue(error.span().unwrap_or(0..0), "", problem)] })
+                Err(SpeciesError { issues: vec![doc.syntax(error.span().unwrap_or(0..0), error.message())] })
             }
         }
+    }
+
+    /// What the parser says, on one line that is not too long.
+    fn syntax(&self, span: Range<usize>, message: &str) -> Issue {
+        /// Most characters of what the parser says; it quotes keys of any length.
+        const LONGEST: usize = 200;
+        let mut short = escaped(&message.trim().replace('\n', "; "), LONGEST);
+        if message.trim().chars().nth(LONGEST).is_some() {
+            short.push('…');
+        }
+        self.issue(span, "", Problem::Syntax { message: short })
     }
 
     /// Where the file came from.
@@ -114,6 +137,34 @@ impl SpeciesDoc {
     /// If it is there and no string.
     pub fn text(&self, key: &str) -> Result<Option<&str>, Issue> {
         self.get(key).map(|node| self.text_of(key, node)).transpose()
+    }
+
+    /// The name of the species, if the file says one.
+    ///
+    /// # Errors
+    /// If it is no string, or cannot be a name: see [`check_name`].
+    pub fn name(&self) -> Result<Option<&str>, Issue> {
+        let Some(node) = self.get("name") else { return Ok(None) };
+        let name = self.text_of("name", node)?;
+        check_name(name)
+            .map_err(|message| self.issue(node.span.clone(), "name", Problem::Conflict { message }))?;
+        Ok(Some(name))
+    }
+
+    /// The description of the species, if the file has one; it may have several lines.
+    ///
+    /// # Errors
+    /// If it is no string, or has control characters.
+    pub fn description(&self) -> Result<Option<&str>, Issue> {
+        let Some(node) = self.get("description") else { return Ok(None) };
+        let text = self.text_of("description", node)?;
+        match text.chars().find(|&c| is_hidden(c) && c != '\n') {
+            None => Ok(Some(text)),
+            Some(c) => {
+                let message = format!("contains the character {}, expected plain text", c.escape_unicode());
+                Err(self.issue(node.span.clone(), "description", Problem::Conflict { message }))
+            }
+        }
     }
 
     /// The string in `node`.
@@ -198,8 +249,12 @@ impl SpeciesDoc {
             }
             let Some((number, param)) = space.find(key) else {
                 let known = space.params().iter().map(|p| p.name.as_ref());
-                let nearest = nearest(key, known.chain(COMMON_KEYS).chain(extra_keys.iter().copied()));
-                issues.push(self.issue(entry.span.clone(), key, Problem::UnknownName { nearest }));
+                let known = known.chain(COMMON_KEYS).chain(extra_keys.iter().copied());
+                let problem = match MISPLACED.iter().find(|(name, _)| *name == key) {
+                    Some((_, right)) => Problem::Misplaced { right },
+                    None => Problem::UnknownName { nearest: nearest(key, known) },
+                };
+                issues.push(self.issue(entry.span.clone(), key, problem));
                 continue;
             };
             let nodes: &[Node] = match &entry.node.value {

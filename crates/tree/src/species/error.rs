@@ -1,6 +1,6 @@
 //! Problems of a species file, each with its place.
 
-use crate::param::Problem;
+use crate::param::{Problem, escaped, shown};
 use std::fmt;
 
 /// One problem at one place.
@@ -21,9 +21,9 @@ pub struct Issue {
 impl fmt::Display for Issue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { origin, line, column, parameter, problem } = self;
-        write!(f, "{origin}:{line}:{column}: ")?;
+        write!(f, "{}:{line}:{column}: ", escaped(origin, usize::MAX))?;
         if !parameter.is_empty() {
-            write!(f, "`{parameter}` ")?;
+            write!(f, "`{}` ", shown(parameter))?;
         }
         write!(f, "{problem}")
     }
@@ -38,13 +38,19 @@ pub struct SpeciesError {
 
 impl fmt::Display for SpeciesError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, issue) in self.issues.iter().enumerate() {
+        /// Lines beyond which nobody reads on.
+        const MOST: usize = 20;
+        for (i, issue) in self.issues.iter().take(MOST).enumerate() {
             if i > 0 {
                 writeln!(f)?;
             }
             write!(f, "{issue}")?;
         }
-        Ok(())
+        match self.issues.len().saturating_sub(MOST) {
+            0 => Ok(()),
+            1 => write!(f, "\nand one more mistake"),
+            more => write!(f, "\nand {more} more mistakes"),
+        }
     }
 }
 

@@ -14,11 +14,13 @@
 mod appearance;
 mod doc;
 mod error;
+mod name;
 mod write;
 
 pub use appearance::{Appearance, Colour, Season};
 pub use doc::{Entry, Node, SpeciesDoc, Value};
 pub use error::{Issue, SpeciesError};
+pub use name::{MAX_NAME_BYTES, MAX_NAME_CHARS, check_name, safe_name};
 
 use crate::generator::{Foliage, Generator, GrowError, Growth, Workspace};
 use crate::param::CheckedParams;
@@ -28,7 +30,8 @@ use std::sync::Arc;
 /// A species: a generator and the numbers that make it grow this kind of tree.
 #[derive(Clone, Debug)]
 pub struct Species {
-    /// Short name, such as `quaking_aspen`.
+    /// Short name, such as `quaking_aspen`. Names that are read from files pass [`check_name`];
+    /// whoever makes a species of other text asks [`safe_name`], or [`Species::file_stem`] later.
     pub name: String,
     /// One line about it, possibly empty.
     pub description: String,
@@ -70,7 +73,8 @@ impl Species {
     }
 
     /// The species as a file that [`SpeciesDoc::parse`] reads back to the same numbers. `comments`
-    /// are lines for its head, without the `#`.
+    /// are lines for its head, without the `#`. A name that no file may have is written as
+    /// [`safe_name`] makes it.
     #[must_use]
     pub fn to_toml(&self, comments: &[String]) -> String {
         write::species(self, comments)

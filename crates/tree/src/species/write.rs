@@ -1,21 +1,26 @@
 //! Species as text.
 
 use super::Species;
-use crate::param::Kind;
+use super::name::safe_name;
+use crate::param::{Kind, is_hidden};
 use std::fmt::Write as _;
 
 pub(super) fn species(species: &Species, comments: &[String]) -> String {
     let mut text = String::new();
     for line in comments {
         text.push_str("# ");
-        text.push_str(line);
+        text.extend(line.chars().map(|c| if is_hidden(c) { ' ' } else { c }));
         text.push('\n');
     }
     let space = species.generator.space();
     line(&mut text, "generator", &quoted(species.generator.family()));
-    line(&mut text, "name", &quoted(&species.name));
+    if !species.name.is_empty() {
+        line(&mut text, "name", &quoted(&safe_name(&species.name)));
+    }
     if !species.description.is_empty() {
-        line(&mut text, "description", &quoted(&species.description));
+        let plain = |c: char| if is_hidden(c) && c != '\n' { ' ' } else { c };
+        let description: String = species.description.chars().map(plain).collect();
+        line(&mut text, "description", &quoted(&description));
     }
     if let Some(seed) = species.tree_seed {
         line(&mut text, "tree_seed", &seed.to_string());

@@ -259,7 +259,7 @@ fn figures(tree: &Tree) -> [f64; 3] {
 /// not grown.
 fn grow(species: &Species, seed: u64) -> Option<Tree> {
     let usual = Limits::default();
-    let limits = Limits { stems: usual.stems / 5, leaves: usual.leaves / 5, knots: usual.knots / 5 };
+    let limits = Limits { stems: usual.stems / 5, leaves: usual.leaves / 5, knots: usual.knots / 5, ..usual };
     species.grow_with(&Growth { limits, ..Growth::seed(seed) }).ok()
 }
 

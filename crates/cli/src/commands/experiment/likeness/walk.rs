@@ -89,7 +89,8 @@ impl Goal {
             values[slot] = value;
             let there = Species { params: space.check(values)?, ..species.clone() };
             let usual = Limits::default();
-            let limits = Limits { stems: usual.stems / 5, leaves: usual.leaves / 5, knots: usual.knots / 5 };
+            let limits =
+                Limits { stems: usual.stems / 5, leaves: usual.leaves / 5, knots: usual.knots / 5, ..usual };
             let tree = there.grow_with(&Growth { limits, parallel: false, ..Growth::seed(SEED) });
             let look = |tree| Seen::new(silhouette(&tree, &self.frame, true));
             Ok(tree.ok().map(|tree| (step, measures::of(&look(tree), &self.seen))))

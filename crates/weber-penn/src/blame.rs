@@ -1,0 +1,101 @@
+//! Which parameters are to blame for a tree that is too large.
+
+use crate::budget::{Budget, Cause, Exceeded};
+use crate::model::Model;
+use crate::stem::Seedling;
+use pleach_tree::{Blame, GrowError, StemKind, Tree};
+
+/// The error of a tree that passed a limit, of which `tree` and `waiting` stems had been made.
+pub(crate) fn error(
+    exceeded: Exceeded,
+    model: &Model,
+    budget: &Budget<'_>,
+    tree: &Tree,
+    waiting: &[Seedling],
+) -> GrowError {
+    let limits = budget.limits();
+    match exceeded {
+        Exceeded::Stems => {
+            GrowError::TooManyStems { limit: limits.stems, blame: stems(model, tree, waiting) }
+        }
+        Exceeded::Leaves => GrowError::TooManyLeaves { limit: limits.leaves, blame: leaves(model) },
+        Exceeded::Knots => GrowError::TooManyKnots { limit: limits.knots, blame: knots(model, tree) },
+        Exceeded::Work => GrowError::TooMuchWork { limit: limits.work, blame: work(model, budget) },
+        Exceeded::Waiting => {
+            let blame = stems(model, tree, waiting);
+            let message =
+                format!("more than {} stems wait to be pruned{blame}; fewer branches", limits.stems);
+            GrowError::Conflict { message }
+        }
+    }
+}
+
+/// What the number of stems of level `level` follows from, most of all first.
+pub(crate) fn counts(model: &Model, level: usize) -> Vec<String> {
+    let crowded = |&level: &usize| count(model, level) >= 10.0;
+    let shallower = (0..level).rev().filter(crowded);
+    std::iter::once(level).chain(shallower).map(|level| count_name(model, level)).collect()
+}
+
+fn count(model: &Model, level: usize) -> f64 {
+    if level == 0 { f64::from(model.trunks) } else { model.levels[level].branches.abs() }
+}
+
+fn count_name(model: &Model, level: usize) -> String {
+    if level == 0 && model.floor_splits > 0 {
+        "floor_splits".to_owned()
+    } else {
+        format!("branches[{level}]")
+    }
+}
+
+pub(crate) fn leaves(model: &Model) -> Blame {
+    let stems = counts(model, model.level_count - 1).into_iter().filter(|_| model.level_count > 1);
+    Blame(std::iter::once("leaf_blos_num".to_owned()).chain(stems).collect())
+}
+
+fn stems(model: &Model, tree: &Tree, waiting: &[Seedling]) -> Blame {
+    let (mut stems, mut clones) = ([0_usize; 4], [0_usize; 4]);
+    for stem in &tree.stems {
+        let level = usize::from(stem.level);
+        stems[level] += 1;
+        clones[level] += usize::from(stem.kind == StemKind::Clone);
+    }
+    waiting.iter().for_each(|stem| stems[stem.depth] += 1);
+    let level = most(&stems);
+    let mut names = counts(model, level);
+    if 2 * clones[level] > stems[level] {
+        names.insert(0, format!("seg_splits[{level}]"));
+    }
+    Blame(names)
+}
+
+fn knots(model: &Model, tree: &Tree) -> Blame {
+    let mut knots = [0_usize; 4];
+    for stem in &tree.stems {
+        knots[usize::from(stem.level)] += stem.knot_count as usize;
+    }
+    let level = most(&knots);
+    let first = if model.levels[level].taper > 1.0 { "taper" } else { "curve_res" };
+    Blame(std::iter::once(format!("{first}[{level}]")).chain(counts(model, level)).collect())
+}
+
+fn work(model: &Model, budget: &Budget<'_>) -> Blame {
+    let (cause, level) = budget.most_work();
+    let first = match cause {
+        Cause::Darts => vec![],
+        Cause::Walk => vec![format!("curve_res[{level}]")],
+        Cause::Pruning => vec!["prune_ratio".to_owned(), format!("curve_res[{level}]")],
+        Cause::Children => {
+            let next = (level + 1).min(3);
+            vec![format!("branches[{next}]"), format!("base_size[{level}]")]
+        }
+        Cause::Leaves => vec!["leaf_blos_num".to_owned(), format!("base_size[{level}]")],
+    };
+    Blame(first.into_iter().chain(counts(model, level)).collect())
+}
+
+/// The deepest level that has the most.
+fn most(counts: &[usize; 4]) -> usize {
+    counts.iter().enumerate().max_by_key(|(_, count)| **count).map_or(0, |(level, _)| level)
+}

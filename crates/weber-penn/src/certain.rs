@@ -1,0 +1,189 @@
+//! How many stems and leaves a tree has for certain, by its numbers alone.
+//!
+//! A bound from below, so that monsters are refused before anything is grown and nothing else is.
+//! It counts children on the lower nine tenths of stems that cannot fork, be pruned or run out of
+//! thickness; where it knows nothing it says zero.
+
+use crate::blame;
+use crate::model::{Level, Model};
+use pleach_tree::{Blame, Foliage, GrowError, Growth};
+
+/// Children are counted up to this part of a stem: its very tip may be too thin for any.
+const COUNTED_PART: f64 = 0.9;
+/// Places that rounding at segments and at the two ends may cost.
+const ROUNDING: f64 = 8.0;
+/// Twice the radius and the length below which a stem bears or is nothing, in metres.
+const SAFE_SIZE: f64 = 2e-4;
+/// Branches have at least this radius in metres, unless their parent is thinner.
+const BRANCH_RADIUS: f64 = 0.005;
+
+/// The least numbers of stems of each level, and of leaves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Certain {
+    pub(crate) stems: [f64; 4],
+    pub(crate) leaves: f64,
+}
+
+/// The error of a tree that is certain to be too large.
+pub(crate) fn refusal(model: &Model, growth: &Growth) -> Option<GrowError> {
+    let certain = Certain::of(model);
+    let limits = growth.limits;
+    let deepest = model.level_count - 1;
+    if certain.stems.iter().sum::<f64>() > limits.stems as f64 {
+        let most = (0..=deepest).max_by(|&a, &b| certain.stems[a].total_cmp(&certain.stems[b]));
+        let blame = Blame(blame::counts(model, most.unwrap_or(0)));
+        return Some(GrowError::TooManyStems { limit: limits.stems, blame });
+    }
+    if growth.foliage == Foliage::All && certain.leaves > limits.leaves as f64 {
+        return Some(GrowError::TooManyLeaves { limit: limits.leaves, blame: blame::leaves(model) });
+    }
+    None
+}
+
+impl Certain {
+    pub(crate) fn of(model: &Model) -> Self {
+        let mut certain = Self::default();
+        if model.prune.ratio > 0.0 {
+            return certain;
+        }
+        let scale = (model.g_scale - model.g_scale_v).max(model.g_scale * 1e-3);
+        let trunk = &model.levels[0];
+        let mut length = scale * (trunk.length - trunk.length_v).max(0.0);
+        let mut radius = length * model.ratio * trunk.radius_mod;
+        if length < SAFE_SIZE {
+            return certain;
+        }
+        certain.stems[0] = f64::from(model.trunks);
+        // Length of a stem over the greatest of its siblings', at least.
+        let mut relative = 1.0;
+        for depth in 0..model.level_count - 1 {
+            let (level, next) = (&model.levels[depth], model.child_level(depth));
+            let forks = level.seg_splits > 0.0 && !level.is_helix();
+            radius *= 1.0 - level.taper * COUNTED_PART;
+            if forks || level.taper > 1.0 || radius < SAFE_SIZE {
+                return certain;
+            }
+            let children = match depth {
+                0 => 0.9 * next.branches,
+                1 => next.branches * (0.2 + 0.8 * relative),
+                _ => 0.5 * next.branches,
+            };
+            let children = if next.branches < 0.0 {
+                next.branches
+            } else {
+                children / (1.0 - level.base_size) * (COUNTED_PART - level.base_size)
+            };
+            relative = if depth == 0 { least_shape_ratio(model.shape) } else { 0.3 };
+            length *= (next.length - next.length_v).max(0.0) * relative;
+            radius = radius.min(BRANCH_RADIUS);
+            if length < SAFE_SIZE {
+                return certain;
+            }
+            certain.stems[depth + 1] = certain.stems[depth] * places(children, level, next);
+        }
+        let deepest = model.level_count - 1;
+        if deepest > 0 {
+            let (level, next) = (&model.levels[deepest], model.child_level(deepest));
+            let count = model.leaf_blos_num * scale / model.g_scale * relative;
+            let count = if count < 0.0 { count } else { count * (1.0 - level.base_size) };
+            certain.leaves = certain.stems[deepest] * places(count, level, next);
+        }
+        certain
+    }
+}
+
+/// Places that are left of `count` after all rounding; a negative count is a fan.
+fn places(count: f64, level: &Level, next: &Level) -> f64 {
+    if count < 0.0 {
+        return (-count * (1.0 - 1e-9)).floor();
+    }
+    let whorls =
+        if next.branch_dist > 1.0 { f64::from(level.curve_res + 1) * (next.branch_dist + 3.0) } else { 0.0 };
+    (count - ROUNDING - whorls).floor().max(0.0)
+}
+
+/// The least relative length of a first-level branch; 0 for shapes that come to a point.
+const fn least_shape_ratio(shape: i64) -> f64 {
+    match shape {
+        3 => 1.0,
+        4 | 7 => 0.5,
+        5 | 8 => 0.0,
+        _ => 0.2,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::space;
+    use pleach_tree::{Key, Kind, Limits, Species};
+
+    fn species() -> Species {
+        crate::preset("lombardy_poplar").unwrap()
+    }
+
+    /// Values with some numbers of the search's and the declared ranges, small enough to grow.
+    fn values(case: u64) -> Vec<f64> {
+        let key = Key::root(case);
+        let space = space();
+        let mut values =
+            if case.is_multiple_of(2) { species().params.values().to_vec() } else { space.defaults() };
+        for (slot, value) in values.iter_mut().enumerate() {
+            let param = space.param_of(slot);
+            let often = matches!(&*param.name, "branches" | "taper" | "base_size" | "branch_dist" | "shape");
+            if key.unit(0, slot as u32) > if often { 0.5 } else { 0.1 } {
+                continue;
+            }
+            let (low, high) = match (&*param.name, param.kind) {
+                ("branches", _) => (-30.0, 60.0),
+                ("leaf_blos_num", _) => (-50.0, 300.0),
+                ("floor_splits", _) => (0.0, 5.0),
+                ("prune_ratio", _) => (0.0, 0.0),
+                ("curve_res", _) => (1.0, 12.0),
+                (_, Kind::Choice { .. }) => param.kind.range(),
+                _ => space.search_range(slot),
+            };
+            *value = param.kind.repair(low + (high - low) * key.unit(1, slot as u32));
+        }
+        values
+    }
+
+    #[test]
+    fn no_tree_has_fewer_than_is_certain() {
+        let (mut grown, mut said) = (0, 0);
+        for case in 0..400 {
+            let values = values(case);
+            let certain = Certain::of(&Model::new(&values));
+            let params = space().check(values).unwrap();
+            // Bounded by work, of which the numbers say nothing.
+            let limits = Limits { work: 2_000_000, ..Limits::default() };
+            let growth = Growth { limits, ..Growth::seed(case) };
+            let Ok(tree) = Species { params, ..species() }.grow_with(&growth) else { continue };
+            grown += 1;
+            let mut stems = [0.0; 4];
+            tree.stems.iter().for_each(|stem| stems[usize::from(stem.level)] += 1.0);
+            for (level, (least, has)) in certain.stems.iter().zip(stems).enumerate() {
+                assert!(*least <= has, "case {case}: {has} stems of level {level}, {least} were certain");
+                said += usize::from(level > 0 && *least > 0.0);
+            }
+            let leaves = (tree.leaves.len() + tree.blossoms.len()) as f64;
+            assert!(certain.leaves <= leaves, "case {case}: {leaves} leaves, {} certain", certain.leaves);
+            said += usize::from(certain.leaves > 0.0);
+        }
+        assert!(grown > 200 && said > 200, "{grown} trees grew, {said} bounds were above zero");
+    }
+
+    #[test]
+    fn monsters_are_seen_by_their_numbers() {
+        let mut values = species().params.values().to_vec();
+        let first = space().select("branches[0]").unwrap()[0];
+        assert!(refusal(&Model::new(&values), &Growth::seed(1)).is_none());
+        values[first] = 10_000.0;
+        let told = refusal(&Model::new(&values), &Growth::seed(1)).unwrap().to_string();
+        assert!(told.contains("stems") && told.contains("`branches[0]`"), "{told}");
+        values[space().select("levels").unwrap()[0]] = 4.0;
+        values[first..first + 4].copy_from_slice(&[1.0, 1000.0, 1000.0, 1000.0]);
+        let told = refusal(&Model::new(&values), &Growth::seed(1)).unwrap().to_string();
+        assert!(told.contains("because of `branches[3]`, `branches[2]` and `branches[1]`"), "{told}");
+    }
+}

@@ -1,0 +1,118 @@
+//! Whatever list of numbers is grown: memory stays in proportion to the limits, and threads change
+//! neither the tree nor the error.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use pleach_tree::{
+    CheckedParams, Foliage, GrowError, Growth, Key, Kind, Knot, Leaf, Limits, Stem, Tree, Workspace,
+};
+use pleach_weber_penn::{WeberPenn, space};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use std::alloc::System;
+
+#[global_allocator]
+static GLOBAL: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+const LIMITS: Limits = Limits { stems: 3000, leaves: 20_000, knots: 30_000, work: 500_000 };
+
+/// How a case's numbers are drawn: from the search's ranges, the declared ranges, their corners, or a
+/// few corners on top of the defaults.
+fn values(case: u64) -> Vec<f64> {
+    let key = Key::root(case);
+    let space = space();
+    let mut values = space.defaults();
+    for (slot, value) in values.iter_mut().enumerate() {
+        let (kind, i) = (space.kind_of(slot), slot as u32);
+        let (low, high) = kind.range();
+        let (unit, corner) = (key.unit(1, i), if key.unit(2, i) < 0.5 { low } else { high });
+        let between = |(low, high): (f64, f64)| kind.repair(low + (high - low) * unit);
+        *value = match case % 5 {
+            0 => between(space.search_range(slot)),
+            1 => between((low, high)),
+            2 => corner,
+            3 if key.unit(3, i) < 0.1 => corner,
+            // Counts are mostly far below what is allowed.
+            4 if !matches!(kind, Kind::Choice { .. }) => kind.repair(between((low, high)) * unit.powi(4)),
+            _ => *value,
+        };
+    }
+    values
+}
+
+/// Bytes that limits allow: each part twice over, once where it grows and once where it is put
+/// together, and twice that for arrays that double as they grow; and something for each thread.
+fn allowed(limits: &Limits) -> usize {
+    let tree = limits.stems * size_of::<Stem>()
+        + limits.knots * size_of::<Knot>()
+        + limits.leaves * size_of::<Leaf>();
+    // A stem that waits takes a quarter of a kilobyte.
+    4 * (tree + 256 * limits.stems) + (4 << 20)
+}
+
+fn grow(params: &CheckedParams, growth: &Growth) -> (Result<Tree, GrowError>, usize) {
+    use pleach_tree::Generator as _;
+    let region = Region::new(GLOBAL);
+    let mut tree = Tree::default();
+    let grown = WeberPenn::default().grow(params, growth, &mut Workspace::default(), &mut tree);
+    (grown.map(|()| tree), region.change().bytes_allocated)
+}
+
+/// One test, since the counter counts every thread of the process.
+#[test]
+fn memory_is_bounded_and_threads_change_nothing() {
+    let (mut grown, mut refused) = (0, [0; 4]);
+    for case in 0..600 {
+        let params = space().check(values(case)).unwrap();
+        let foliage = if case % 3 == 0 { Foliage::OneIn(3) } else { Foliage::All };
+        let growth = Growth { limits: LIMITS, foliage, ..Growth::seed(case) };
+        let (serial, bytes) = grow(&params, &growth);
+        assert!(bytes < allowed(&LIMITS), "case {case} took {bytes} bytes");
+        let (parallel, bytes) = grow(&params, &Growth { parallel: true, ..growth });
+        assert!(bytes < 2 * allowed(&LIMITS), "case {case} took {bytes} bytes on threads");
+        assert!(serial == parallel, "case {case}: {:?} and {:?}", serial.err(), parallel.err());
+        match serial {
+            Ok(tree) => {
+                grown += 1;
+                tree.well_formed().unwrap_or_else(|broken| panic!("case {case}: {broken}"));
+                assert!(tree.stems.len() <= LIMITS.stems && tree.knots.len() <= LIMITS.knots);
+                assert!(tree.leaves.len() + tree.blossoms.len() <= LIMITS.leaves);
+            }
+            Err(GrowError::TooManyStems { blame, .. }) => {
+                refused[0] += 1;
+                assert!(blame.0[0].contains('['), "case {case}: {blame}");
+            }
+            Err(GrowError::TooManyLeaves { blame, .. }) => {
+                refused[1] += 1;
+                assert!(blame.0[0] == "leaf_blos_num", "case {case}: {blame}");
+            }
+            Err(GrowError::TooManyKnots { blame, .. } | GrowError::TooMuchWork { blame, .. }) => {
+                refused[2] += 1;
+                assert!(!blame.0.is_empty(), "case {case}");
+            }
+            Err(GrowError::Conflict { .. } | GrowError::NotFinite { .. }) => refused[3] += 1,
+        }
+    }
+    assert!(grown > 30 && refused.iter().all(|&n| n > 5), "{grown} grew, {refused:?} did not");
+
+    // The same tree fits exactly: the limits are of the whole tree on any number of threads.
+    let species = pleach_weber_penn::preset("black_tupelo").unwrap();
+    let tree = species.grow(3).unwrap();
+    let exact = Limits {
+        stems: tree.stems.len(),
+        leaves: tree.leaves.len() + tree.blossoms.len(),
+        knots: tree.knots.len(),
+        ..Limits::default()
+    };
+    let growth = Growth { limits: exact, parallel: true, ..Growth::seed(3) };
+    assert!(species.grow_with(&growth).as_ref() == Ok(&tree), "a limit that is just met is met");
+    let less = [
+        Limits { stems: exact.stems - 1, ..exact },
+        Limits { leaves: exact.leaves - 1, ..exact },
+        Limits { knots: exact.knots - 1, ..exact },
+    ];
+    for limits in less {
+        let refused = species.grow_with(&Growth { limits, ..growth });
+        let alone = species.grow_with(&Growth { limits, parallel: false, ..growth });
+        assert!(refused.is_err() && refused == alone, "{:?} and {:?}", refused.err(), alone.err());
+    }
+}
