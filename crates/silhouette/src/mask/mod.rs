@@ -18,7 +18,7 @@ mod error;
 mod horizon;
 mod oklab;
 mod photo;
-mod pieces;
+pub(crate) mod pieces;
 mod score;
 #[cfg(test)]
 mod tests;
@@ -78,6 +78,15 @@ pub struct Touches {
     pub top: bool,
     /// The right edge.
     pub right: bool,
+}
+
+impl Touches {
+    /// The names of the sides that are touched.
+    #[must_use]
+    pub fn sides(&self) -> Vec<&'static str> {
+        let sides = [(self.left, "left"), (self.top, "top"), (self.right, "right")];
+        sides.into_iter().filter_map(|(touches, name)| touches.then_some(name)).collect()
+    }
 }
 
 /// A tree in a photograph.
