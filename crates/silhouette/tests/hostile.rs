@@ -30,12 +30,12 @@ fn goal(bytes: &[u8]) -> Result<Goal, GoalError> {
 
 /// A crown on a trunk, dark on light.
 fn is_tree(x: u32, y: u32) -> bool {
-    (f64::from(x) - 30.0).hypot(f64::from(y) - 22.0) < 18.0 || ((28..33).contains(&x) && y > 30)
+    (f64::from(x) - 30.0).hypot(f64::from(y) - 16.0) < 12.0 || ((28..32).contains(&x) && y > 20)
 }
 
 fn picture() -> DynamicImage {
     RgbaImage::from_fn(60, 52, |x, y| {
-        let v = if is_tree(x, y) { (x % 7 * 9) as u8 } else { 200 + (y % 5 * 9) as u8 };
+        let v = if is_tree(x, y) { (x % 5 * 3) as u8 } else { 230 + (y % 5 * 2) as u8 };
         image::Rgba([v, v / 2 + 40, v, 255])
     })
     .into()
@@ -48,8 +48,7 @@ fn encoded(format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-const FORMATS: [ImageFormat; 4] =
-    [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::WebP, ImageFormat::Tiff];
+const FORMATS: [ImageFormat; 4] = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::WebP, ImageFormat::Tiff];
 
 /// A chunk of a PNG.
 fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
@@ -135,7 +134,8 @@ fn what_a_png_carries_beside_its_pixels_does_not_unpack_to_a_gigabyte() {
 fn sides_that_no_picture_has_are_told_as_sizes() {
     for side in [8193_u32, 1 << 20, 1 << 31, u32::MAX] {
         let head = [&side.to_be_bytes()[..], &side.to_be_bytes(), &[8, 6, 0, 0, 0]].concat();
-        let png = [&b"\x89PNG\r\n\x1a\n"[..], &chunk(b"IHDR", &head), &chunk(b"IDAT", &[0x78, 0x9c])].concat();
+        let png =
+            [&b"\x89PNG\r\n\x1a\n"[..], &chunk(b"IHDR", &head), &chunk(b"IDAT", &[0x78, 0x9c])].concat();
         let (result, memory) = measured(|| goal(&png));
         let error = result.unwrap_err();
         assert!(matches!(error, GoalError::TooLarge { width, .. } if width == side), "{side}: {error}");
@@ -152,7 +152,8 @@ fn sides_that_no_picture_has_are_told_as_sizes() {
         }
         let (result, memory) = measured(|| goal(&tiff));
         let error = result.unwrap_err();
-        let told = matches!(error, GoalError::TooLarge { width, height, .. } if (width, height) == (side, side));
+        let told =
+            matches!(error, GoalError::TooLarge { width, height, .. } if (width, height) == (side, side));
         assert!(told, "{side}: {error}");
         assert!(memory < 1 << 20);
     }
@@ -192,7 +193,8 @@ fn whatever_breaks_off_is_refused() {
 fn chunks_of_a_webp_end_within_it() {
     let webp = encoded(ImageFormat::WebP);
     let image = &webp[12..];
-    let canvas = |flags: u8, side: u8| [b"VP8X\x0a\0\0\0", &[flags, 0, 0, 0, side, 0, 0, 51, 0, 0][..]].concat();
+    let canvas =
+        |flags: u8, side: u8| [b"VP8X\x0a\0\0\0", &[flags, 0, 0, 0, side, 0, 0, 51, 0, 0][..]].concat();
     let riff = |chunks: &[&[u8]]| {
         let body = chunks.concat();
         [b"RIFF", &u32::try_from(body.len() + 4).unwrap().to_le_bytes()[..], b"WEBP", &body].concat()
@@ -226,7 +228,8 @@ fn of_an_animation_and_of_pages_the_first_is_taken_and_that_is_said() {
     let animated = goal(&[b"RIFF", &length[..], b"WEBP", &body].concat()).unwrap();
     // An animated PNG, and a TIFF whose first page is followed by itself.
     let control = chunk(b"acTL", &[0, 0, 0, 2, 0, 0, 0, 0]);
-    let frame = chunk(b"fcTL", &[&[0; 4][..], &[0, 0, 0, 60, 0, 0, 0, 52], &[0; 8], &[0, 1, 0, 9, 0, 0]].concat());
+    let frame =
+        chunk(b"fcTL", &[&[0; 4][..], &[0, 0, 0, 60, 0, 0, 0, 52], &[0; 8], &[0, 1, 0, 9, 0, 0]].concat());
     let png = goal(&png_with(&[control, frame])).unwrap();
     let mut pages = encoded(ImageFormat::Tiff);
     let first = u32::from_le_bytes(*pages[4..].first_chunk().unwrap()) as usize;
@@ -243,11 +246,18 @@ fn of_an_animation_and_of_pages_the_first_is_taken_and_that_is_said() {
 fn tiff_is_read_in_its_common_kinds() {
     let expected = goal(&encoded(ImageFormat::Png)).unwrap().bitmap;
     let rgb = DynamicImage::from(picture().to_rgb8());
-    let grey = DynamicImage::from(GrayImage::from_fn(60, 52, |x, y| Luma([if is_tree(x, y) { 0 } else { 255 }])));
-    let clear = RgbaImage::from_fn(60, 52, |x, y| image::Rgba([9, 9, 9, if is_tree(x, y) { 255 } else { 0 }]));
-    for picture in
-        [rgb.clone(), rgb.to_rgba8().into(), rgb.to_rgb16().into(), grey.clone(), grey.to_luma16().into(), clear.into()]
-    {
+    let grey =
+        DynamicImage::from(GrayImage::from_fn(60, 52, |x, y| Luma([if is_tree(x, y) { 0 } else { 255 }])));
+    let clear =
+        RgbaImage::from_fn(60, 52, |x, y| image::Rgba([9, 9, 9, if is_tree(x, y) { 255 } else { 0 }]));
+    for picture in [
+        rgb.clone(),
+        rgb.to_rgba8().into(),
+        rgb.to_rgb16().into(),
+        grey.clone(),
+        grey.to_luma16().into(),
+        clear.into(),
+    ] {
         let mut bytes = Cursor::new(Vec::new());
         picture.write_to(&mut bytes, ImageFormat::Tiff).unwrap();
         assert_eq!(goal(&bytes.into_inner()).unwrap().bitmap, expected, "{:?}", picture.color());
@@ -301,7 +311,11 @@ fn mutated() -> impl Strategy<Value = Vec<u8>> {
                 1 => bytes[at] = value as u8,
                 2 if at + 4 <= length => {
                     let huge = if value % 3 == 0 { u32::MAX } else { value };
-                    bytes[at..at + 4].copy_from_slice(&if value % 2 == 0 { huge.to_be_bytes() } else { huge.to_le_bytes() });
+                    bytes[at..at + 4].copy_from_slice(&if value % 2 == 0 {
+                        huge.to_be_bytes()
+                    } else {
+                        huge.to_le_bytes()
+                    });
                 }
                 3 => bytes.truncate(at.max(16)),
                 4 => {

@@ -137,9 +137,9 @@ impl Goal {
         };
         let (ink, split) = ink::ink_of(&tones, options.polarity);
         let mut warnings = Vec::new();
-        if let Split::Brightness { threshold, .. } = split
+        if let Split::Brightness { threshold, dark_tree } = split
             && options.mask.is_none()
-            && photograph::is_photograph(&tones, threshold)
+            && photograph::is_photograph(&tones, threshold, dark_tree)
         {
             warnings.push(GoalWarning::Photograph);
         }

@@ -8,25 +8,33 @@ const LIKE: i32 = 40;
 const MOST_ODD: f64 = 0.35;
 /// Part of the pixels that may be off the line between the two tones: as colours, not as mixtures.
 const MOST_OFF: f64 = 0.05;
+/// Levels of 255 within which paper is even ...
+const EVEN: i32 = 10;
+/// ... for at least this part of it; a sky fades.
+const LEAST_EVEN: f64 = 0.5;
 /// Sides with less than this part of the picture say nothing.
 const LEAST_SIDE: f64 = 0.005;
 
 /// Whether the pixels on either side of the brightness `threshold` have so many tones, or colours, that
-/// brightness is no good way to tell the tree.
-pub(super) fn is_photograph(tones: &Tones, threshold: u8) -> bool {
+/// brightness is no good way to tell the tree; `dark_tree` says which side is the tree.
+pub(super) fn is_photograph(tones: &Tones, threshold: u8, dark_tree: bool) -> bool {
     let mut heaps = [[0_u64; 256]; 2];
     for &light in &tones.light {
         heaps[usize::from(light > threshold)][usize::from(light)] += 1;
     }
     let pixels = tones.light.len() as f64;
     let middles = heaps.map(|heap| middle(&heap));
-    let odd = heaps.iter().zip(middles).any(|(heap, middle)| {
-        let all: u64 = heap.iter().sum();
-        let far = |(level, _): &(i32, &u64)| (level - i32::from(middle)).abs() > LIKE;
-        let odd: u64 = (0..).zip(heap).filter(far).map(|(_, count)| count).sum();
-        all as f64 > LEAST_SIDE * pixels && odd as f64 > MOST_ODD * all as f64
-    });
-    odd || off(tones, threshold) > MOST_OFF
+    // Part of a side that is farther than `reach` from its median.
+    let far = |side: usize, reach: i32| {
+        let heap = &heaps[side];
+        let is_far = |(level, _): &(i32, &u64)| (level - i32::from(middles[side])).abs() > reach;
+        let far: u64 = (0..).zip(heap).filter(is_far).map(|(_, count)| count).sum();
+        far as f64 / (heap.iter().sum::<u64>() as f64).max(LEAST_SIDE * pixels)
+    };
+    let paper = usize::from(dark_tree);
+    far(paper, EVEN) > 1.0 - LEAST_EVEN
+        || (0..2).any(|side| far(side, LIKE) > MOST_ODD)
+        || off(tones, threshold) > MOST_OFF
 }
 
 /// The median of a heap of levels.

@@ -13,9 +13,11 @@ const CELLS: u32 = 256;
 const NEAR: f64 = 0.02;
 /// Least part of the largest piece's ink that makes a further one of similar size.
 const SIMILAR: f64 = 0.25;
-/// A crown that ends at the picture's edge has ink along more than this part of it; a tight crop only
-/// has tips there.
-const CUT: f64 = 0.04;
+/// A crown that is cut off by the left or right edge has ink along more than this part of it; a tight crop
+/// only has tips there.
+const CUT: f64 = 0.08;
+/// The same of the top edge, which in a tight crop of a narrow tree is short.
+const CUT_TOP: f64 = 0.15;
 /// Rows of ground are inked in more than this part of the picture's width ...
 const WIDE: f64 = 0.9;
 /// ... or in more than this part of the ink's, right below rows with less than [`NARROW`] of it.
@@ -37,7 +39,7 @@ const BARE: f64 = 0.25;
 const TALL: f64 = 0.1;
 
 /// What is to be said of a silhouette.
-pub(super) fn warnings(ink: &Bitmap) -> Vec<GoalWarning> {
+pub(crate) fn warnings(ink: &Bitmap) -> Vec<GoalWarning> {
     let mut found = Vec::new();
     let Some(shape) = Shape::of(ink) else { return found };
     let ground = shape.ground();
@@ -97,7 +99,10 @@ impl<'a> Shape<'a> {
         let row = self.ink.row(y);
         let first = row.iter().position(|&word| word != 0)?;
         let last = row.iter().rposition(|&word| word != 0)?;
-        Some((first as u32 * 64 + row[first].trailing_zeros(), last as u32 * 64 + 63 - row[last].leading_zeros()))
+        Some((
+            first as u32 * 64 + row[first].trailing_zeros(),
+            last as u32 * 64 + 63 - row[last].leading_zeros(),
+        ))
     }
 
     /// How wide a row is from its first to its last ink.
@@ -109,11 +114,11 @@ impl<'a> Shape<'a> {
     fn touches(&self, ground: u32) -> Touches {
         let (width, height) = (self.ink.width(), self.ink.height());
         let column = |x| (0..ground).filter(|&y| self.ink.get(x, y)).count() as f64;
-        let cut = |inked: f64, side: u32| inked > (CUT * f64::from(side)).max(2.0);
+        let cut = |inked: f64, most: f64| inked > most.max(2.0);
         Touches {
-            left: cut(column(0), height),
-            top: cut(if ground > 0 { self.inked(0) } else { 0.0 }, width),
-            right: cut(column(width - 1), height),
+            left: cut(column(0), CUT * f64::from(height)),
+            top: cut(if ground > 0 { self.inked(0) } else { 0.0 }, CUT_TOP * f64::from(width)),
+            right: cut(column(width - 1), CUT * f64::from(height)),
         }
     }
 
@@ -223,11 +228,8 @@ impl<'a> Shape<'a> {
             }
         }
         let around: Vec<[f64; 2]> = right.into_iter().chain(left.into_iter().rev()).collect();
-        let doubled: f64 = around
-            .iter()
-            .zip(around.iter().cycle().skip(1))
-            .map(|(a, b)| a[0] * b[1] - a[1] * b[0])
-            .sum();
+        let doubled: f64 =
+            around.iter().zip(around.iter().cycle().skip(1)).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum();
         self.ink.ink() as f64 / (doubled / 2.0).abs().max(1.0)
     }
 

@@ -24,7 +24,10 @@ pub(super) fn structure(format: ImageFormat, bytes: &[u8]) -> Result<Structure, 
         ImageFormat::Png => Ok(Structure { size: png_size(bytes), several: is_animated_png(bytes), ..whole }),
         ImageFormat::Jpeg => Ok(Structure { end: jpeg_end(bytes).ok_or("it breaks off")?, ..whole }),
         ImageFormat::WebP => webp(bytes),
-        ImageFormat::Tiff => Ok(Structure { several: has_pages(bytes).unwrap_or(false), ..whole }),
+        ImageFormat::Tiff => {
+            let (size, several) = tiff(bytes).unwrap_or_default();
+            Ok(Structure { size, several, ..whole })
+        }
         _ => Ok(whole),
     }
 }
@@ -88,25 +91,41 @@ fn jpeg_end(bytes: &[u8]) -> Option<usize> {
     }
 }
 
-/// Whether a TIFF has a second page; none if it breaks off.
-fn has_pages(bytes: &[u8]) -> Option<bool> {
+/// Size of a TIFF's first page, and whether it has another (TIFF 6.0, section 2); none if it breaks off.
+fn tiff(bytes: &[u8]) -> Option<(Option<(u32, u32)>, bool)> {
+    const WIDTH: u64 = 256;
+    const HEIGHT: u64 = 257;
     let big_endian = bytes.starts_with(b"MM");
-    let number = |at: usize, length: usize| -> Option<usize> {
+    let number = |at: usize, length: usize| -> Option<u64> {
         let bytes = bytes.get(at..at.checked_add(length)?)?;
         let join = |sum: u64, b: &u8| sum << 8 | u64::from(*b);
-        let value = if big_endian {
-            bytes.iter().fold(0, join)
-        } else {
-            bytes.iter().rev().fold(0, join)
-        };
-        usize::try_from(value).ok()
+        Some(if big_endian { bytes.iter().fold(0, join) } else { bytes.iter().rev().fold(0, join) })
     };
+    let place = |at, length| usize::try_from(number(at, length)?).ok();
     // 43 is BigTIFF: wider offsets, counts and entries.
     let (offset, count, entry, start) = if number(2, 2)? == 43 { (8, 8, 20, 8) } else { (4, 2, 12, 4) };
-    let first = number(start, offset)?;
-    let entries = number(first, count)?;
-    let next = first.checked_add(count)?.checked_add(entries.checked_mul(entry)?)?;
-    Some(number(next, offset)? != 0)
+    let first = place(start, offset)?;
+    let entries = place(first, count)?;
+    let first = first.checked_add(count)?;
+    let (mut width, mut height) = (None, None);
+    // Entries are sorted by their tags.
+    for at in (0..entries).map_while(|i| first.checked_add(i * entry).filter(|at| *at < bytes.len())) {
+        // A short, a long, or what BigTIFF adds.
+        let length = match number(at + 2, 2)? {
+            3 => 2,
+            16 => 8,
+            _ => 4,
+        };
+        let value = || number(at + entry - offset, length).map(|v| u32::try_from(v).unwrap_or(u32::MAX));
+        match number(at, 2)? {
+            WIDTH => width = value(),
+            HEIGHT => height = value(),
+            tag if tag > HEIGHT => break,
+            _ => {}
+        }
+    }
+    let next = first.checked_add(entries.checked_mul(entry)?)?;
+    Some((width.zip(height), number(next, offset).is_some_and(|next| next != 0)))
 }
 
 /// Walks the chunks of a WebP (RFC 9649, section 2): all must end within the file, and pictures within
@@ -190,14 +209,18 @@ mod tests {
     }
 
     #[test]
-    fn pages_are_counted_in_either_order_of_bytes() {
+    fn pages_and_sizes_are_told_in_either_order_of_bytes() {
         for (next, several) in [(0, false), (200, true)] {
-            let little = [b"II*\0", &[8, 0, 0, 0][..], &[1, 0], &[0; 12], &[next, 0, 0, 0]].concat();
-            assert_eq!(has_pages(&little), Some(several));
-            let big = [b"MM\0*", &[0, 0, 0, 8][..], &[0, 1], &[0; 12], &[0, 0, 0, next]].concat();
-            assert_eq!(has_pages(&big), Some(several));
+            let entries =
+                [[0, 1, 3, 0, 1, 0, 0, 0, 44, 1, 9, 9], [1, 1, 4, 0, 1, 0, 0, 0, 7, 0, 1, 0]].concat();
+            let little = [b"II*\0", &[8, 0, 0, 0][..], &[2, 0], &entries, &[next, 0, 0, 0]].concat();
+            assert_eq!(tiff(&little), Some((Some((300, 65_543)), several)));
+            let entries =
+                [[1, 0, 0, 3, 0, 0, 0, 1, 1, 44, 9, 9], [1, 1, 0, 4, 0, 0, 0, 1, 0, 1, 0, 7]].concat();
+            let big = [b"MM\0*", &[0, 0, 0, 8][..], &[0, 2], &entries, &[0, 0, 0, next]].concat();
+            assert_eq!(tiff(&big), Some((Some((300, 65_543)), several)));
         }
-        assert_eq!(has_pages(b"II*\0\xff\xff\xff\xff"), None);
-        assert_eq!(has_pages(b"II+\0\x08\0\0\0\x10\0\0\0\0\0\0\0\xff\xff\xff\xff\xff\xff\xff\xff"), None);
+        assert_eq!(tiff(b"II*\0\xff\xff\xff\xff"), None);
+        assert_eq!(tiff(b"II+\0\x08\0\0\0\x10\0\0\0\0\0\0\0\xff\xff\xff\xff\xff\xff\xff\xff"), None);
     }
 }

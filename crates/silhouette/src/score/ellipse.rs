@@ -215,7 +215,11 @@ impl Rows {
     fn at_least_plain(&self, found: (f64, Ellipse), least: f64) -> (f64, Ellipse) {
         let plain = self.plain().into_iter().map(|ellipse| (self.iou(&ellipse), ellipse));
         let better = plain.fold(found, |best, other| if other.0 > best.0 { other } else { best });
-        if better.0 > found.0 + MISSED { self.climb(better.1, [4.0, 4.0, 4.0, 4.0, 0.2], least) } else { found }
+        if better.0 > found.0 + MISSED {
+            self.climb(better.1, [4.0, 4.0, 4.0, 4.0, 0.2], least)
+        } else {
+            found
+        }
     }
 
     fn plain(&self) -> Vec<Ellipse> {
@@ -328,8 +332,7 @@ mod tests {
     fn bands_have_a_best_ellipse_at_sizes_that_are_no_multiples() {
         // The mask of a photograph with a wide crown, cut off at the sides, over a strip of lawn.
         for (width, height) in [(700, 740), (696, 738), (701, 733), (130, 259), (513, 513)] {
-            let goal =
-                Bitmap::from_fn(width, height, |x, y| tree_on_lawn(width, height, 4.0, 0.12, x, y));
+            let goal = Bitmap::from_fn(width, height, |x, y| tree_on_lawn(width, height, 4.0, 0.12, x, y));
             let found = best_ellipse_iou(&goal);
             assert!(found > 0.5, "{width} × {height}: {found}");
         }

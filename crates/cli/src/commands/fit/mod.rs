@@ -381,7 +381,7 @@ impl Fit {
         let path = self
             .out
             .clone()
-            .unwrap_or_else(|| Path::new(RUNS).join(goal.file_stem().unwrap_or_else(|| "goal".as_ref())));
+            .unwrap_or_else(|| Path::new(RUNS).join(input::stem(goal).unwrap_or_else(|| "goal".as_ref())));
         RunFolder::open(path, self.resume, self.overwrite)
     }
 }
