@@ -86,6 +86,12 @@ pub struct Run {
 }
 
 impl Run {
+    /// A run of a command that a test put together itself.
+    #[must_use]
+    pub const fn of(what: String, output: Output) -> Self {
+        Self { what, output }
+    }
+
     /// Exit code; −1 for a signal.
     #[must_use]
     pub fn code(&self) -> i32 {

@@ -96,10 +96,10 @@ fn what_is_no_photograph_of_a_tree_is_told() {
     mask("photo.png", &["--background", "sea"]).fails(2, &["auto", "sky", "plain"]);
     mask("missing.png", &[]).fails(1, &["missing.png"]);
     let _ = dir.file("text.jpg", "no picture");
-    mask("text.jpg", &[]).fails(1, &["text.jpg", "no picture"]);
+    mask("text.jpg", &[]).fails(1, &["text.jpg", "not a picture"]);
     mask("photo.png", &["--overlay", "m.png"]).fails(1, &["m.png", "both"]);
     dir.run(["mask", "photo.png", "-o", "photo.png"]).fails(1, &["photo.png", "photograph itself"]);
-    dir.run(["mask", "photo.png", "-o", "m.jpg"]).fails(1, &["m.jpg", "no .png"]);
+    dir.run(["mask", "photo.png", "-o", "m.jpg"]).fails(1, &["m.jpg", "not a .png file"]);
     assert!(!dir.path("m.png").exists());
 }
 
@@ -123,4 +123,93 @@ fn a_fit_makes_the_same_mask() {
     let batch = fit("photo.png", "batch", &["blank.png", "--mask", "auto"]);
     batch.fails(1, &["blank.png: failed: ", "no tree found", "1 of 2 goals failed"]);
     assert!(dir.path("batch/photo/best.toml").exists());
+}
+
+#[test]
+fn many_photographs_become_a_folder_and_a_table() {
+    let dir = Dir::new();
+    photograph(&dir, 0);
+    std::fs::create_dir(dir.path("photos")).unwrap();
+    std::fs::rename(dir.path("photo.png"), dir.path("photos/one.png")).unwrap();
+    photograph(&dir, 40);
+    std::fs::rename(dir.path("photo.png"), dir.path("photos/two.png")).unwrap();
+    let blank = RgbImage::from_pixel(64, 64, Rgb([9, 99, 200]));
+    blank.save(dir.path("photos/blank.png")).unwrap();
+    let photos = ["photos/one.png", "photos/blank.png", "photos/two.png"];
+    let run = dir.run([&["mask"], &photos[..], &["-o", "masks/", "--overlay", "looks/"]].concat());
+    run.fails(1, &["[2/3] photos/blank.png: failed: ", "no tree found", "1 of 3 photographs have no mask"]);
+    assert_eq!(run.stdout().trim(), "masks  masks/masks.csv");
+    // The same bits as one by one.
+    for name in ["one", "two"] {
+        let _ = dir.run(["mask", &format!("photos/{name}.png"), "-o", "single.png"]).ok();
+        let same = std::fs::read(dir.path("single.png")).unwrap();
+        assert!(same == std::fs::read(dir.path(&format!("masks/{name}.png"))).unwrap(), "{name}");
+        assert!(dir.path(&format!("looks/{name}.png")).exists());
+    }
+    assert!(!dir.path("masks/blank.png").exists());
+    let table = std::fs::read_to_string(dir.path("masks/masks.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    let head = "file,mask,confidence,ink,ground_row,trunk_column,top_row,touches,warnings,error";
+    assert_eq!((lines.len(), lines[0]), (4, head));
+    assert!(lines[1].starts_with("photos/one.png,masks/one.png,0."), "{table}");
+    assert!(
+        lines[2].starts_with("photos/blank.png,,,,,,,,,") && lines[2].contains("no tree found"),
+        "{table}"
+    );
+    // The same as JSON, a line each.
+    let json = dir.run(["mask", photos[0], photos[2], "-o", "masks", "--json"]).ok();
+    let found: Vec<serde_json::Value> = json.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
+    assert_eq!((&found[0]["file"], &found[1]["mask"]), (&photos[0].into(), &"masks/two.png".into()));
+    assert!(found[0]["confidence"].as_f64().unwrap() > 0.5, "{json}");
+    assert_eq!(found[0]["warnings"], serde_json::json!([]));
+}
+
+#[test]
+fn many_photographs_are_refused_where_masks_would_be_lost() {
+    let dir = Dir::new();
+    photograph(&dir, 0);
+    std::fs::create_dir(dir.path("other")).unwrap();
+    std::fs::copy(dir.path("photo.png"), dir.path("other/photo.png")).unwrap();
+    std::fs::copy(dir.path("photo.png"), dir.path("other/second.png")).unwrap();
+    let mask = |args: &[&str]| dir.run([&["mask"], args].concat());
+    mask(&["photo.png", "other/photo.png", "-o", "m/"])
+        .fails(1, &["photo.png", "would both become m/photo.png"]);
+    mask(&["photo.png", "other/second.png", "-o", "m.png"]).fails(1, &["m.png", "need a folder"]);
+    mask(&["photo.png", "other/second.png", "-o", "-"]).fails(1, &["need a folder"]);
+    mask(&["photo.png", "-o", "."]).fails(1, &["photo.png", "choose another folder"]);
+    mask(&["photo.png", "other/second.png", "-o", "m/", "--overlay", "m/"]).fails(1, &["the same files"]);
+    mask(&["photo.png", "other/second.png", "-o", "m/", "--seed-point", "4,4"]).fails(1, &["--seed-point"]);
+    assert!(!dir.path("m").exists() && !dir.path("m.png").exists());
+}
+
+#[test]
+fn masks_go_through_pipes() {
+    let dir = Dir::new();
+    photograph(&dir, 0);
+    let _ = dir.run(["mask", "photo.png", "-o", "mask.png"]).ok();
+    let photo = || std::process::Stdio::from(std::fs::File::open(dir.path("photo.png")).unwrap());
+    let output = dir.command(["mask", "-", "-o", "-"]).stdin(photo()).output().unwrap();
+    assert!(output.status.success());
+    assert!(output.stdout == std::fs::read(dir.path("mask.png")).unwrap());
+    assert!(String::from_utf8_lossy(&output.stderr).contains("the crown is all in the picture"));
+    let output = dir.command(["mask", "-", "-o", "masks/"]).stdin(photo()).output().unwrap();
+    assert!(output.status.success());
+    assert!(output.stdout.starts_with(b"masks  masks/masks.csv") && dir.path("masks/stdin.png").exists());
+    dir.run(["mask", "photo.png", "-o", "-", "--json"]).fails(1, &["--json", "standard output"]);
+}
+
+/// A tree that the frame cuts through: what the mask says, the fit says as well.
+#[test]
+fn a_fit_tells_what_its_mask_tells() {
+    let dir = Dir::new();
+    photograph(&dir, 0);
+    let photo = image::open(dir.path("photo.png")).unwrap();
+    photo.crop_imm(70, 0, SIDE - 70, photo.height()).save(dir.path("cut.png")).unwrap();
+    let mask = dir.run(["mask", "cut.png", "-o", "m.png", "--background", "plain"]);
+    let _ = mask.ok();
+    assert!(mask.stderr().contains("warning: the crown touches the frame: left"), "{mask}");
+    let args = ["fit", "cut.png", "--mask", "auto", "--size", "64", "--from", "acer", "--evaluations", "9"];
+    let fit = dir.run(args);
+    let _ = fit.ok();
+    assert!(fit.stderr().contains("warning: cut.png: the crown touches the frame: left"), "{fit}");
 }

@@ -2,8 +2,11 @@
 
 use pleach_generators::RegistryError;
 use pleach_silhouette::View;
+use pleach_silhouette::goal::{Encoded, GoalError};
 use pleach_tree::{Limits, Species};
+use std::ffi::OsStr;
 use std::ops::Range;
+use std::path::Path;
 
 /// A species by name or file, or from standard input by `-`.
 pub(crate) fn species(name: &str) -> Result<Species, RegistryError> {
@@ -11,6 +14,26 @@ pub(crate) fn species(name: &str) -> Result<Species, RegistryError> {
         return pleach_generators::read(std::io::stdin().lock(), "stdin");
     }
     pleach_generators::species(name)
+}
+
+/// Whether a path means standard input, or standard output.
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// A picture that is not yet decoded, from a file or, for `-`, from standard input.
+pub(crate) fn picture(path: &Path) -> Result<Encoded, GoalError> {
+    if is_standard(path) {
+        Encoded::read("standard input", std::io::stdin().lock())
+    } else {
+        Encoded::load(path)
+    }
+}
+
+/// What is made of a picture is called by this: the file's name without its extension, or `stdin`. None if
+/// the path has no file name.
+pub(crate) fn stem(path: &Path) -> Option<&OsStr> {
+    if is_standard(path) { Some("stdin".as_ref()) } else { path.file_stem() }
 }
 
 /// Seeds must survive a round trip through a species file and JSON: below 2⁵³.

@@ -22,6 +22,6 @@ pub mod score;
 pub mod view;
 
 pub use bitmap::Bitmap;
-pub use goal::{Goal, GoalError, GoalOptions, Polarity};
+pub use goal::{Goal, GoalError, GoalOptions, GoalWarning, Polarity};
 pub use raster::{Detail, Part, Rasteriser};
 pub use view::{Camera, Frame, Projection, View};

@@ -1,6 +1,8 @@
 //! The goals in `targets/`: they load, and stand where they were put.
 
+use pleach_silhouette::Bitmap;
 use pleach_silhouette::goal::{Goal, GoalOptions};
+use std::fmt::Write;
 use std::path::PathBuf;
 
 fn targets() -> PathBuf {
@@ -47,4 +49,45 @@ fn foreign_goals_load_whole_and_reduced() {
         );
     }
     assert_eq!(seen, 10);
+}
+
+/// FNV-1a over the words of a picture.
+fn fingerprint(bitmap: &Bitmap) -> u64 {
+    bitmap.words().iter().flat_map(|word| word.to_le_bytes()).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+/// Fits are only comparable as long as the goals stay the same bits.
+#[test]
+fn goals_are_read_as_the_same_bits_as_ever() {
+    let silhouettes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/data/silhouettes");
+    let mut paths: Vec<PathBuf> = [targets(), silhouettes]
+        .iter()
+        .flat_map(|folder| folder.read_dir().unwrap().map(|entry| entry.unwrap().path()))
+        .filter(|path| path.extension().is_some_and(|e| e == "png"))
+        .collect();
+    paths.sort_by_key(|path| path.file_name().unwrap().to_owned());
+    let mut found = String::new();
+    for path in paths {
+        let whole = Goal::load(&path, &GoalOptions::default()).unwrap();
+        let small =
+            Goal::load(&path, &GoalOptions { max_side: Some(200), ..GoalOptions::default() }).unwrap();
+        writeln!(
+            found,
+            "{} {}x{} {} {:016x} {:016x} {:.3} {:.3} {:.3}",
+            path.file_name().unwrap().to_string_lossy(),
+            whole.bitmap.width(),
+            whole.bitmap.height(),
+            whole.bitmap.ink(),
+            fingerprint(&whole.bitmap),
+            fingerprint(&small.bitmap),
+            whole.ground_row,
+            whole.axis_column,
+            whole.top_row,
+        )
+        .unwrap();
+    }
+    let expected = include_str!("goals.txt");
+    assert!(found == expected, "crates/silhouette/tests/goals.txt holds\n{expected}\nand was found\n{found}");
 }

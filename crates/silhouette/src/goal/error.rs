@@ -18,13 +18,21 @@ pub enum GoalError {
         cause: io::Error,
     },
     /// The file begins like none of the formats that are read.
-    #[error("{path} is no picture that can be read here: PNG, JPEG or WebP is needed", path = path.display())]
+    #[error("{path} is not a picture that can be read here: PNG, JPEG, WebP and TIFF are", path = path.display())]
     NotAnImage {
         /// The file.
         path: PathBuf,
     },
+    /// The file is a picture of a kind that its decoder does not know.
+    #[error("{path} is a kind of picture that cannot be read here: {detail}; save it as an ordinary PNG", path = path.display())]
+    Unsupported {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder reports.
+        detail: String,
+    },
     /// The file begins like a picture, and then breaks off or makes no sense.
-    #[error("{path} is damaged or breaks off: {detail}", path = path.display())]
+    #[error("{path} is damaged or incomplete: {detail}", path = path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -54,6 +62,18 @@ pub enum GoalError {
         path: PathBuf,
         /// Bytes of the file or of the decoded picture.
         bytes: u64,
+        /// The most that is read.
+        limit: u64,
+    },
+    /// The file carries more beside its pixels than is read.
+    #[error(
+        "{path} carries more than {limit} bytes beside its pixels, as a colour profile or as text: save it \
+         without them",
+        path = path.display()
+    )]
+    TooMuchBeside {
+        /// The file.
+        path: PathBuf,
         /// The most that is read.
         limit: u64,
     },

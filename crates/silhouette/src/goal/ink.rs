@@ -134,7 +134,7 @@ mod tests {
     fn tones(width: u32, height: u32, light: impl Fn(u32, u32) -> (u8, u8)) -> Tones {
         let at = |i: u32| light(i % width, i / width);
         let (light, opacity) = (0..width * height).map(at).unzip();
-        Tones { width, height, light, opacity }
+        Tones { width, height, light, opacity, colours: Vec::new(), stride: 1, several: false }
     }
 
     /// A trunk on the bottom edge.

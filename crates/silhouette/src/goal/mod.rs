@@ -1,28 +1,38 @@
 //! Goal images: from a file to ink, with the place where the tree stands.
 //!
-//! 1. The file is decoded within limits: at most [`MOST_SIDE`] pixels to a side and [`MOST_BYTES`].
+//! 1. The file is read to its end and its structure checked; then it is decoded within limits: at most
+//!    [`MOST_SIDE`] pixels to a side and [`MOST_BYTES`]. Of an animation or of pages, the first is taken.
 //! 2. What is tree is told by opacity where that varies, else by Otsu's threshold on brightness; or
 //!    a mask file says.
 //! 3. Ground row and axis column are read off the ink, unless set by hand.
-//! 4. On request the picture is reduced to a working size, black from half coverage.
+//! 4. What is not as in a silhouette of a tree is told: [`GoalWarning`].
+//! 5. On request the picture is reduced to a working size, black from half coverage.
 //!
 //! How tall the tree is cannot be seen in a silhouette: [`Goal::frame`] takes it in metres.
 
 mod error;
 pub(crate) mod ink;
+mod photograph;
 pub(crate) mod read;
+pub(crate) mod shape;
 mod shrink;
+mod source;
 mod stand;
+mod structure;
 #[cfg(test)]
 mod tests;
+mod warning;
 
 pub use error::GoalError;
 pub use ink::{Polarity, Split};
 pub use read::{LEAST_SIDE, MOST_BYTES, MOST_SIDE};
+pub use source::Encoded;
 pub use stand::Origin;
+pub use warning::GoalWarning;
 
 use crate::bitmap::Bitmap;
 use crate::view::Frame;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// What may be set by hand about a goal image.
@@ -70,29 +80,74 @@ pub struct Goal {
     pub top_row: f64,
     /// How the picture was understood.
     pub findings: Findings,
+    /// What about the picture is not as a fit expects, in the order of [`GoalWarning`]'s variants.
+    pub warnings: Vec<GoalWarning>,
 }
 
 impl Goal {
-    /// Reads a goal image: PNG, JPEG or WebP, told by content, not by name.
+    /// Reads a goal image: PNG, JPEG, WebP or TIFF, told by content, not by name.
     ///
     /// # Errors
     /// See [`GoalError`]: files that cannot be read, are no pictures, are damaged, too large, too
     /// small or of one tone, and places set by hand that are not in the picture.
     pub fn load(path: impl AsRef<Path>, options: &GoalOptions) -> Result<Self, GoalError> {
-        let path = path.as_ref();
-        let (source, tones) = if let Some(mask) = &options.mask {
-            let image_size = read::dimensions(path)?;
-            let tones = read::tones(mask)?;
+        Self::from_encoded(&Encoded::load(path)?, options)
+    }
+
+    /// Reads a goal image from bytes at hand; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// As [`Goal::load`].
+    pub fn from_bytes(
+        name: impl Into<PathBuf>,
+        bytes: Vec<u8>,
+        options: &GoalOptions,
+    ) -> Result<Self, GoalError> {
+        Self::from_encoded(&Encoded::new(name, bytes), options)
+    }
+
+    /// Reads a goal image from whatever can be read to its end, such as standard input; `name` is what
+    /// errors call it.
+    ///
+    /// # Errors
+    /// As [`Goal::load`].
+    pub fn from_reader(
+        name: impl Into<PathBuf>,
+        reader: impl Read,
+        options: &GoalOptions,
+    ) -> Result<Self, GoalError> {
+        Self::from_encoded(&Encoded::read(name, reader)?, options)
+    }
+
+    /// Decodes a goal image.
+    ///
+    /// # Errors
+    /// As [`Goal::load`].
+    pub fn from_encoded(source: &Encoded, options: &GoalOptions) -> Result<Self, GoalError> {
+        let (name, tones) = if let Some(mask) = &options.mask {
+            let image_size = read::dimensions(source)?;
+            let tones = read::tones(&Encoded::load(mask)?)?;
             let mask_size = (tones.width, tones.height);
             if mask_size != image_size {
                 return Err(GoalError::MaskSize { mask: mask.clone(), mask_size, image_size });
             }
             (mask.as_path(), tones)
         } else {
-            (path, read::tones(path)?)
+            (source.name(), read::tones(source)?)
         };
         let (ink, split) = ink::ink_of(&tones, options.polarity);
-        Self::build(ink, split, &source.display().to_string(), options)
+        let mut warnings = Vec::new();
+        if let Split::Brightness { threshold, dark_tree } = split
+            && options.mask.is_none()
+            && photograph::is_photograph(&tones, threshold, dark_tree)
+        {
+            warnings.push(GoalWarning::Photograph);
+        }
+        if tones.several {
+            warnings.push(GoalWarning::SeveralPictures);
+        }
+        drop(tones);
+        Self::build(ink, split, &name.display().to_string(), options, warnings)
     }
 
     /// A goal from a picture of ink at hand, its places detected.
@@ -108,10 +163,16 @@ impl Goal {
     /// # Errors
     /// As [`Goal::from_bitmap`], and for places set by hand that are not in the picture.
     pub fn from_ink(bitmap: Bitmap, options: &GoalOptions) -> Result<Self, GoalError> {
-        Self::build(bitmap, Split::None, "the picture", options)
+        Self::build(bitmap, Split::None, "the picture", options, Vec::new())
     }
 
-    fn build(ink: Bitmap, split: Split, name: &str, options: &GoalOptions) -> Result<Self, GoalError> {
+    fn build(
+        ink: Bitmap,
+        split: Split,
+        name: &str,
+        options: &GoalOptions,
+        mut warnings: Vec<GoalWarning>,
+    ) -> Result<Self, GoalError> {
         let original_size = (ink.width(), ink.height());
         let (width, height) = original_size;
         let name = || name.to_owned();
@@ -132,6 +193,7 @@ impl Goal {
         let foot = (ground_row.ceil() as u32).min(bounds.3 + 1);
         let (axis_column, axis) = given("the axis column", options.axis_column, width)?
             .unwrap_or_else(|| stand::axis(&ink, bounds, foot));
+        warnings.extend(shape::warnings(&ink));
         let reduction = options
             .max_side
             .map_or(1.0, |side| f64::from(side.max(LEAST_SIDE)) / f64::from(width.max(height)))
@@ -147,6 +209,7 @@ impl Goal {
             axis_column: axis_column * reduction,
             top_row: top_row * reduction,
             findings: Findings { original_size, reduction, split, masked, ground, axis },
+            warnings,
         })
     }
 

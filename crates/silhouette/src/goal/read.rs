@@ -1,10 +1,11 @@
-//! From a file to brightness and opacity, without trusting it.
+//! From bytes to brightness and opacity, without trusting them.
 
 use super::error::GoalError;
-use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
-use std::fs::File;
-use std::io::BufReader;
-use std::path::Path;
+use super::source::Encoded;
+use super::structure::{Structure, structure};
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use std::io::Cursor;
 
 /// Most pixels to a side that are read.
 pub const MOST_SIDE: u32 = 8192;
@@ -12,6 +13,11 @@ pub const MOST_SIDE: u32 = 8192;
 pub const LEAST_SIDE: u32 = 8;
 /// Most bytes that a file, or a decoded picture, may have: 8192² pixels of four bytes.
 pub const MOST_BYTES: u64 = 4 * MOST_SIDE as u64 * MOST_SIDE as u64;
+/// Most bytes that a PNG may carry beside its pixels, unpacked: colour profile and texts.
+pub(super) const MOST_BESIDE: u64 = 32 << 20;
+
+/// Most pixels whose colours are looked at to tell a photograph from a silhouette.
+const MOST_SAMPLES: usize = 1 << 17;
 
 /// A decoded picture: per pixel how bright and how opaque it is, 0 to 255, row by row.
 #[derive(Debug)]
@@ -20,85 +26,119 @@ pub(super) struct Tones {
     pub(super) height: u32,
     pub(super) light: Vec<u8>,
     pub(super) opacity: Vec<u8>,
+    /// Colours of every `stride`-th pixel.
+    pub(super) colours: Vec<[u8; 3]>,
+    pub(super) stride: usize,
+    /// Whether the file holds further pictures.
+    pub(super) several: bool,
 }
 
-/// Decodes a file to what goals are made of.
-pub(super) fn tones(path: &Path) -> Result<Tones, GoalError> {
-    let both = picture(path)?.into_luma_alpha8();
+/// Decodes a picture to what goals are made of.
+pub(super) fn tones(source: &Encoded) -> Result<Tones, GoalError> {
+    let (picture, several) = picture(source)?;
+    let pixels = picture.width() as usize * picture.height() as usize;
+    let stride = pixels.div_ceil(MOST_SAMPLES).max(1);
+    let colours = colours(&picture, stride);
+    let both = picture.into_luma_alpha8();
     let (width, height) = both.dimensions();
     let both = both.into_raw();
     let (pairs, _) = both.as_chunks::<2>();
     let light = pairs.iter().map(|p| p[0]).collect();
     let opacity = pairs.iter().map(|p| p[1]).collect();
-    Ok(Tones { width, height, light, opacity })
+    Ok(Tones { width, height, light, opacity, colours, stride, several })
 }
 
-/// Decodes a file and turns it upright. Its size and the size that its header claims are checked
-/// before any pixel is.
-pub(crate) fn picture(path: &Path) -> Result<DynamicImage, GoalError> {
-    let mut decoder = open(path)?;
-    checked_dimensions(path, &decoder)?;
+/// Colours of every `stride`-th pixel of a picture with 8 bits a channel; greys are not looked at, nor are
+/// deeper pictures.
+fn colours(picture: &DynamicImage, stride: usize) -> Vec<[u8; 3]> {
+    match picture {
+        DynamicImage::ImageRgb8(p) => p.as_raw().as_chunks::<3>().0.iter().step_by(stride).copied().collect(),
+        DynamicImage::ImageRgba8(p) => {
+            p.as_raw().as_chunks::<4>().0.iter().step_by(stride).map(|&[r, g, b, _]| [r, g, b]).collect()
+        }
+        DynamicImage::ImageRgb16(p) => {
+            let eight = |p: &[u16; 3]| p.map(|v| (v >> 8) as u8);
+            p.as_raw().as_chunks::<3>().0.iter().step_by(stride).map(eight).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Decodes a picture and turns it upright; of several in a file, the first. Its size and the size that its
+/// header claims are checked before any pixel is. Tells whether there are several.
+pub(crate) fn picture(source: &Encoded) -> Result<(DynamicImage, bool), GoalError> {
+    let (mut decoder, several) = open(source)?;
     let bytes = decoder.total_bytes();
     if bytes > MOST_BYTES {
-        return Err(GoalError::TooManyBytes { path: path.into(), bytes, limit: MOST_BYTES });
+        return Err(GoalError::TooManyBytes { path: source.name().into(), bytes, limit: MOST_BYTES });
     }
-    let damaged = |e: image::ImageError| GoalError::Damaged { path: path.into(), detail: e.to_string() };
+    let damaged = |e| undecoded(source, e);
     let mut limits = Limits::default();
     limits.max_image_width = Some(MOST_SIDE);
     limits.max_image_height = Some(MOST_SIDE);
     limits.max_alloc = Some(2 * MOST_BYTES);
     decoder.set_limits(limits).map_err(damaged)?;
     // Photographs lie on their side more often than not; a picture without a note stands as it is.
-    let orientation = decoder.orientation().unwrap_or(image::metadata::Orientation::NoTransforms);
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
     picture.apply_orientation(orientation);
-    Ok(picture)
+    Ok((picture, several))
 }
 
-/// Width and height that the header of a file claims, the note on orientation followed.
-pub(super) fn dimensions(path: &Path) -> Result<(u32, u32), GoalError> {
-    use image::metadata::Orientation::{Rotate90, Rotate90FlipH, Rotate270, Rotate270FlipH};
-    let mut decoder = open(path)?;
-    let (width, height) = checked_dimensions(path, &decoder)?;
+/// Width and height that the header of a picture claims, the note on orientation followed.
+pub(super) fn dimensions(source: &Encoded) -> Result<(u32, u32), GoalError> {
+    use Orientation::{Rotate90, Rotate90FlipH, Rotate270, Rotate270FlipH};
+    let (mut decoder, _) = open(source)?;
+    let (width, height) = decoder.dimensions();
     Ok(match decoder.orientation() {
         Ok(Rotate90 | Rotate90FlipH | Rotate270 | Rotate270FlipH) => (height, width),
         _ => (width, height),
     })
 }
 
-fn open(path: &Path) -> Result<impl ImageDecoder, GoalError> {
-    let unreadable = |cause| GoalError::Unreadable { path: path.into(), cause };
-    let file = File::open(path).map_err(unreadable)?;
-    let meta = file.metadata().map_err(unreadable)?;
-    if meta.is_dir() {
-        return Err(unreadable(std::io::ErrorKind::IsADirectory.into()));
+/// A decoder of a picture whose structure and size are right, and whether there are further pictures.
+fn open(source: &Encoded) -> Result<(impl ImageDecoder, bool), GoalError> {
+    let path = || source.name().into();
+    let format = source.format().ok_or_else(|| GoalError::NotAnImage { path: path() })?;
+    let Structure { size, several, end } = structure(format, source.bytes())
+        .map_err(|detail| GoalError::Damaged { path: path(), detail: detail.to_owned() })?;
+    if let Some(size) = size {
+        check(source, size)?;
     }
-    // Some decoders read the whole file at once.
-    if meta.len() > MOST_BYTES {
-        return Err(GoalError::TooManyBytes { path: path.into(), bytes: meta.len(), limit: MOST_BYTES });
+    let mut reader = ImageReader::with_format(Cursor::new(&source.bytes()[..end]), format);
+    // Of what is read before the pixels, only PNG's colour profile and texts can unpack to more than the
+    // file has. Limits on sizes come with sentences of our own.
+    let mut limits = Limits::no_limits();
+    if format == ImageFormat::Png {
+        limits.max_alloc = Some(MOST_BESIDE);
     }
-    let mut reader = ImageReader::new(BufReader::new(file)).with_guessed_format().map_err(unreadable)?;
-    if reader.format().is_none() {
-        return Err(GoalError::NotAnImage { path: path.into() });
-    }
-    // The limits come with a sentence of our own, once the header has been read.
-    reader.no_limits();
-    reader.into_decoder().map_err(|e| match e {
-        image::ImageError::Unsupported(_) => GoalError::NotAnImage { path: path.into() },
-        image::ImageError::IoError(cause) if cause.kind() != std::io::ErrorKind::UnexpectedEof => {
-            GoalError::Unreadable { path: path.into(), cause }
-        }
-        other => GoalError::Damaged { path: path.into(), detail: other.to_string() },
-    })
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(|e| match e {
+        ImageError::Limits(_) => GoalError::TooMuchBeside { path: path(), limit: MOST_BESIDE },
+        other => undecoded(source, other),
+    })?;
+    check(source, decoder.dimensions())?;
+    Ok((decoder, several))
 }
 
-fn checked_dimensions(path: &Path, decoder: &impl ImageDecoder) -> Result<(u32, u32), GoalError> {
-    let (width, height) = decoder.dimensions();
+/// What a decoder reports; it reads from memory, so that it is never the file's reader that failed.
+fn undecoded(source: &Encoded, error: ImageError) -> GoalError {
+    let path = source.name().into();
+    match error {
+        ImageError::Unsupported(what) => GoalError::Unsupported { path, detail: what.to_string() },
+        ImageError::IoError(cause) if cause.kind() == std::io::ErrorKind::UnexpectedEof => {
+            GoalError::Damaged { path, detail: "it breaks off".to_owned() }
+        }
+        other => GoalError::Damaged { path, detail: other.to_string() },
+    }
+}
+
+fn check(source: &Encoded, (width, height): (u32, u32)) -> Result<(), GoalError> {
     if width.max(height) > MOST_SIDE {
-        return Err(GoalError::TooLarge { path: path.into(), width, height });
+        return Err(GoalError::TooLarge { path: source.name().into(), width, height });
     }
     if width.min(height) < LEAST_SIDE {
-        return Err(GoalError::TooSmall { name: path.display().to_string(), width, height });
+        return Err(GoalError::TooSmall { name: source.name().display().to_string(), width, height });
     }
-    Ok((width, height))
+    Ok(())
 }

@@ -14,11 +14,12 @@
 //! are beyond it.
 
 mod backdrop;
+mod confidence;
 mod error;
 mod horizon;
 mod oklab;
 mod photo;
-mod pieces;
+pub(crate) mod pieces;
 mod score;
 #[cfg(test)]
 mod tests;
@@ -29,6 +30,7 @@ pub use photo::Photo;
 
 use crate::bitmap::Bitmap;
 use crate::goal::ink::LEAST_ALPHA_RANGE;
+use crate::goal::{GoalWarning, shape};
 use crate::picture::{MISSED, Picture};
 
 /// What is behind the tree.
@@ -80,6 +82,15 @@ pub struct Touches {
     pub right: bool,
 }
 
+impl Touches {
+    /// The names of the sides that are touched.
+    #[must_use]
+    pub fn sides(&self) -> Vec<&'static str> {
+        let sides = [(self.left, "left"), (self.top, "top"), (self.right, "right")];
+        sides.into_iter().filter_map(|(touches, name)| touches.then_some(name)).collect()
+    }
+}
+
 /// A tree in a photograph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mask {
@@ -93,6 +104,14 @@ pub struct Mask {
     pub filled: u64,
     /// Where the crown is cut off by the picture's edge.
     pub touches: Touches,
+    /// How likely the mask is a good one, in 0..=1, to sort masks by: those below 0.4 want a look.
+    ///
+    /// It falls with what would be tree or not if the least distance from the background were a little
+    /// other, with what else stood out, with how much of the picture's edge is tree, and with a foot that
+    /// is wide as a hill's. 1 for a mask that is an alpha channel.
+    pub confidence: f64,
+    /// What about the mask is not as a fit expects, as of a goal.
+    pub warnings: Vec<GoalWarning>,
 }
 
 /// Pixels of the picture to one of the smallest piece that is kept.
@@ -125,10 +144,12 @@ impl Mask {
             let bitmap = Bitmap::from_fn(width, height, |x, y| photo.opacity(x, y) >= 128);
             return Ok(Self {
                 touches: touches(&bitmap),
+                warnings: warnings(&bitmap, photo, 1.0),
                 bitmap,
                 means: Means::Opacity,
                 dropped: 0,
                 filled: 0,
+                confidence: 1.0,
             });
         }
         let standing = score::standing(photo, options.background)?;
@@ -145,12 +166,15 @@ impl Mask {
         check(&bitmap)?;
         let largest = options.fill_holes.unwrap_or(bitmap.area() / HOLE);
         let filled = pieces::fill_holes(&mut bitmap, largest);
+        let confidence = confidence::Evidence::of(&bitmap, &standing).confidence();
         Ok(Self {
             touches: touches(&bitmap),
+            warnings: warnings(&bitmap, photo, confidence),
             bitmap,
             means: Means::Colour { threshold: standing.threshold, horizon: standing.horizon },
             dropped,
             filled,
+            confidence,
         })
     }
 
@@ -194,6 +218,22 @@ fn check(ink: &Bitmap) -> Result<(), MaskError> {
         return no_tree("nearly all of the picture differs from its frame");
     }
     Ok(())
+}
+
+/// Masks of less confidence are called doubtful.
+const DOUBTFUL: f64 = 0.4;
+
+/// What is to be said of a mask.
+fn warnings(ink: &Bitmap, photo: &Photo, confidence: f64) -> Vec<GoalWarning> {
+    let mut warnings = Vec::new();
+    if photo.has_further() {
+        warnings.push(GoalWarning::SeveralPictures);
+    }
+    warnings.extend(shape::warnings(ink));
+    if confidence < DOUBTFUL {
+        warnings.push(GoalWarning::DoubtfulMask { confidence });
+    }
+    warnings
 }
 
 fn touches(ink: &Bitmap) -> Touches {

@@ -1,8 +1,8 @@
 //! A photograph in memory.
 
-use crate::goal::GoalError;
 use crate::goal::read;
-use std::path::Path;
+use crate::goal::{Encoded, GoalError};
+use std::path::{Path, PathBuf};
 
 /// A picture in colour with opacity.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -10,26 +10,44 @@ pub struct Photo {
     width: u32,
     height: u32,
     pixels: Vec<[u8; 4]>,
+    several: bool,
 }
 
 impl Photo {
-    /// Reads PNG, JPEG or WebP, turned as its note on orientation says.
+    /// Reads PNG, JPEG, WebP or TIFF, turned as its note on orientation says.
     ///
     /// # Errors
     /// As for a goal image: files that cannot be read, are no pictures, are damaged, too large or
     /// too small.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, GoalError> {
-        let picture = read::picture(path.as_ref())?.into_rgba8();
+        Self::from_encoded(&Encoded::load(path)?)
+    }
+
+    /// Reads a photograph from bytes at hand; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// As [`Photo::load`].
+    pub fn from_bytes(name: impl Into<PathBuf>, bytes: Vec<u8>) -> Result<Self, GoalError> {
+        Self::from_encoded(&Encoded::new(name, bytes))
+    }
+
+    /// Decodes a photograph.
+    ///
+    /// # Errors
+    /// As [`Photo::load`].
+    pub fn from_encoded(source: &Encoded) -> Result<Self, GoalError> {
+        let (picture, several) = read::picture(source)?;
+        let picture = picture.into_rgba8();
         let (width, height) = picture.dimensions();
         let pixels = picture.into_raw().as_chunks::<4>().0.to_vec();
-        Ok(Self { width, height, pixels })
+        Ok(Self { width, height, pixels, several })
     }
 
     /// The picture whose pixels are `at(x, y)`: red, green, blue and opacity.
     #[must_use]
     pub fn from_fn(width: u32, height: u32, mut at: impl FnMut(u32, u32) -> [u8; 4]) -> Self {
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| at(x, y));
-        Self { width, height, pixels: pixels.collect() }
+        Self { width, height, pixels: pixels.collect(), several: false }
     }
 
     /// Width in pixels.
@@ -42,6 +60,12 @@ impl Photo {
     #[must_use]
     pub const fn height(&self) -> u32 {
         self.height
+    }
+
+    /// Whether the file held further pictures, as pages or an animation; this is the first.
+    #[must_use]
+    pub const fn has_further(&self) -> bool {
+        self.several
     }
 
     pub(super) fn rgb(&self, x: u32, y: u32) -> [u8; 3] {

@@ -29,7 +29,7 @@ fn flood(
 }
 
 /// The ink without pieces of fewer than `least` pixels.
-pub(super) fn without_specks(ink: &Bitmap, least: u64) -> Bitmap {
+pub(crate) fn without_specks(ink: &Bitmap, least: u64) -> Bitmap {
     let mut seen = Bitmap::new(ink.width(), ink.height());
     let mut out = ink.clone();
     let mut piece = Vec::new();
@@ -60,7 +60,7 @@ pub(super) fn without_specks(ink: &Bitmap, least: u64) -> Bitmap {
 }
 
 /// Ink with all that lies within `reach` pixels of it, in rows and columns.
-pub(super) fn widened(ink: &Bitmap, reach: u32) -> Bitmap {
+pub(crate) fn widened(ink: &Bitmap, reach: u32) -> Bitmap {
     let (width, height) = (ink.width(), ink.height());
     let mut across = Bitmap::new(width, height);
     for y in 0..height {
@@ -89,7 +89,7 @@ pub(super) fn widened(ink: &Bitmap, reach: u32) -> Bitmap {
 
 /// Of the pieces of `grounds`, the one that holds `start`, or else the one with the most ink: its
 /// ink. None if `start` lies outside `grounds`, or there is no ink.
-pub(super) fn piece(ink: &Bitmap, grounds: &Bitmap, start: Option<(u32, u32)>) -> Option<Bitmap> {
+pub(crate) fn piece(ink: &Bitmap, grounds: &Bitmap, start: Option<(u32, u32)>) -> Option<Bitmap> {
     let size = || Bitmap::new(ink.width(), ink.height());
     let start = match start {
         Some((x, y)) => grounds.get(x, y).then_some((x, y))?,
@@ -124,8 +124,34 @@ pub(super) fn piece(ink: &Bitmap, grounds: &Bitmap, start: Option<(u32, u32)>) -
     Some(out)
 }
 
+/// Ink of the pieces of `grounds`, most first.
+pub(crate) fn sizes(ink: &Bitmap, grounds: &Bitmap) -> Vec<u64> {
+    let mut seen = Bitmap::new(ink.width(), ink.height());
+    let mut sizes = Vec::new();
+    for y in 0..ink.height() {
+        for x in ink.ink_in_row(y) {
+            if seen.get(x, y) {
+                continue;
+            }
+            let mut size = 0;
+            flood(
+                |x, y| grounds.get(x, y),
+                (x, y),
+                true,
+                &mut seen,
+                |x, y| {
+                    size += u64::from(ink.get(x, y));
+                },
+            );
+            sizes.push(size);
+        }
+    }
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    sizes
+}
+
 /// Makes ink of paper that ink surrounds, where that is at most `most` pixels; returns how many.
-pub(super) fn fill_holes(ink: &mut Bitmap, most: u64) -> u64 {
+pub(crate) fn fill_holes(ink: &mut Bitmap, most: u64) -> u64 {
     if most == 0 {
         return 0;
     }
@@ -196,6 +222,8 @@ mod tests {
         assert_eq!(piece(&ink, &grounds, Some((9, 2))), Some(small));
         assert_eq!(piece(&ink, &grounds, Some((6, 2))), None);
         assert_eq!(piece(&Bitmap::new(9, 9), &Bitmap::new(9, 9), None), None);
+        assert_eq!(sizes(&ink, &grounds), [8, 2]);
+        assert_eq!(sizes(&Bitmap::new(9, 9), &Bitmap::new(9, 9)), []);
     }
 
     #[test]

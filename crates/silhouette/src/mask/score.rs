@@ -25,12 +25,22 @@ const HALF: f64 = 0.55;
 /// Levels of a spread: 255 of them reach from black to white.
 const LEVELS: f64 = 5.1;
 
+/// Factors on the least distance of what stands out firmly, and loosely.
+const FIRM: f64 = 1.5;
+const LOOSE: f64 = 1.0 / 1.5;
+/// The farthest that a pixel may have to be.
+const MOST_LEVEL: u8 = 254;
+
 /// What stands out from the background, before it is tidied up.
 pub(super) struct Standing {
     pub(super) ink: Bitmap,
     pub(super) horizon: Option<Horizon>,
     /// Distance, in spreads of the background, from which on pixels are tree.
     pub(super) threshold: f64,
+    /// What stands out even if the least distance is half as far again.
+    pub(super) firm: Bitmap,
+    /// What stands out if the least distance is a third nearer.
+    pub(super) loose: Bitmap,
 }
 
 /// Tells what stands out from the background.
@@ -79,10 +89,14 @@ pub(super) fn standing(photo: &Photo, background: Background) -> Result<Standing
     let level = ((root * root / 255) as u8).max(least);
     let row = width as usize;
     let local = Local::of(&levels, width, height, level);
-    let ink = Bitmap::from_fn(width, height, |x, y| {
-        levels[y as usize * row + x as usize] > level.max(local.half_way(x, y))
-    });
-    Ok(Standing { ink, horizon, threshold: f64::from(level) / LEVELS })
+    let beyond = |part: f64| {
+        Bitmap::from_fn(width, height, |x, y| {
+            let least = (part * f64::from(level.max(local.half_way(x, y)))) as u8;
+            levels[y as usize * row + x as usize] > least.min(MOST_LEVEL)
+        })
+    };
+    let (ink, firm, loose) = (beyond(1.0), beyond(FIRM), beyond(LOOSE));
+    Ok(Standing { ink, horizon, threshold: f64::from(level) / LEVELS, firm, loose })
 }
 
 fn less(colour: Oklab, other: [f64; 3]) -> [f64; 3] {

@@ -3,7 +3,7 @@ use crate::raster::{Part, Rasteriser};
 use crate::view::{Frame, View};
 
 /// A number from 0 to 1 for a place, without order: what noise looks like.
-fn chance(x: u32, y: u32, salt: u32) -> f64 {
+pub(super) fn chance(x: u32, y: u32, salt: u32) -> f64 {
     let mut h = u64::from(x) << 40 ^ u64::from(y) << 20 ^ u64::from(salt);
     for _ in 0..3 {
         h = (h ^ h >> 31).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -12,34 +12,34 @@ fn chance(x: u32, y: u32, salt: u32) -> f64 {
 }
 
 /// About normal, of standard deviation 1.
-fn noise(x: u32, y: u32, salt: u32) -> f64 {
+pub(super) fn noise(x: u32, y: u32, salt: u32) -> f64 {
     (0..3).map(|i| 2.0 * chance(x, y, salt * 8 + i) - 1.0).sum()
 }
 
 /// Smooth changes from −1 to 1 over some `size` pixels.
-fn waves(x: u32, y: u32, size: f64) -> f64 {
+pub(super) fn waves(x: u32, y: u32, size: f64) -> f64 {
     let (x, y) = (f64::from(x) / size, f64::from(y) / size);
     ((x + 0.7 * y).sin() + (1.3 * x - y).sin() + (0.3 * x + 1.7 * y + 1.0).sin()) / 3.0
 }
 
-fn mix(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
+pub(super) fn mix(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
     std::array::from_fn(|i| a[i] + share * (b[i] - a[i]))
 }
 
 /// A tree in front of something, and where it really is.
-struct Scene {
-    photo: Photo,
-    truth: Bitmap,
+pub(super) struct Scene {
+    pub(super) photo: Photo,
+    pub(super) truth: Bitmap,
 }
 
-const SIDE: u32 = 256;
+pub(super) const SIDE: u32 = 256;
 
 /// Part of the picture's height at which the ground begins.
-const GROUND: f64 = 0.85;
+pub(super) const GROUND: f64 = 0.85;
 
 /// Draws a species with its greens and browns, shaded at random, before `background(x, y)`, with
 /// camera noise of `grain` (of 255) over all. The trunk's foot is at 92 % of the height.
-fn scene(species: &str, grain: f64, background: impl Fn(u32, u32) -> [f64; 3]) -> Scene {
+pub(super) fn scene(species: &str, grain: f64, background: impl Fn(u32, u32) -> [f64; 3]) -> Scene {
     let tree = pleach_generators::species(species).unwrap().grow(3).unwrap();
     let upright = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
     let frame = Frame {
@@ -74,27 +74,27 @@ fn scene(species: &str, grain: f64, background: impl Fn(u32, u32) -> [f64; 3]) -
     Scene { photo, truth }
 }
 
-fn sky(_: u32, y: u32) -> [f64; 3] {
+pub(super) fn sky(_: u32, y: u32) -> [f64; 3] {
     mix([90.0, 140.0, 215.0], [205.0, 222.0, 238.0], f64::from(y) / f64::from(SIDE))
 }
 
-fn cloudy(x: u32, y: u32) -> [f64; 3] {
+pub(super) fn cloudy(x: u32, y: u32) -> [f64; 3] {
     mix(sky(x, y), [245.0; 3], (0.5 + 0.8 * waves(x, y, 60.0)).clamp(0.0, 1.0))
 }
 
-fn sky_and_lawn(x: u32, y: u32) -> [f64; 3] {
+pub(super) fn sky_and_lawn(x: u32, y: u32) -> [f64; 3] {
     if f64::from(y) < GROUND * f64::from(SIDE) {
         return sky(x, y);
     }
     mix([95.0, 150.0, 55.0], [125.0, 175.0, 75.0], chance(x, y, 5))
 }
 
-fn wall(x: u32, y: u32) -> [f64; 3] {
+pub(super) fn wall(x: u32, y: u32) -> [f64; 3] {
     let light = 1.0 - 0.25 * f64::from(x) / f64::from(SIDE) - 0.1 * f64::from(y) / f64::from(SIDE);
     [225.0, 215.0, 195.0].map(|v| v * light)
 }
 
-fn iou(a: &Bitmap, b: &Bitmap) -> f64 {
+pub(super) fn iou(a: &Bitmap, b: &Bitmap) -> f64 {
     let both = a.intersection(b);
     both as f64 / (a.ink() + b.ink() - both) as f64
 }

@@ -7,7 +7,7 @@ use super::summary::write_table;
 use super::task::{Ended, Task};
 use super::{Fit, RUNS, list, run_name, signals};
 use crate::interrupted::Interrupted;
-use crate::{files, output};
+use crate::{files, input, output};
 use anyhow::{Context, bail, ensure};
 use pleach_fit::FitSettings;
 use serde_json::Value;
@@ -64,6 +64,8 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
         !matches!(fit.goal_options.mask, Some(MaskSource::File(_))),
         "a --mask file belongs to one goal; --mask auto makes one for each"
     );
+    let is_stdin = |goal: &PathBuf| input::is_standard(goal);
+    ensure!(!fit.goals.iter().any(is_stdin), "standard input is one picture, and there are several goals");
     let out = fit.out.clone().unwrap_or_else(|| RUNS.into());
     let shard = fit.shard.unwrap_or(Shard::WHOLE);
     let table = match fit.shard {
@@ -156,7 +158,7 @@ fn before(fit: &Fit, settings: &FitSettings, task: &Task, mode: Mode) -> anyhow:
     let finished = task.folder.finished();
     if mode == Mode::Resume && !task.folder.is_unfinished() {
         let Some(summary) = finished else { return Ok(State::Waiting) };
-        let differences = task.request(fit, settings)?.differences(&summary);
+        let differences = task.request(fit, &input::picture(&task.goal)?, settings)?.differences(&summary);
         ensure!(
             differences.is_empty(),
             "{} was fitted with other options: {}; --resume skips it with the same ones, --overwrite instead of \
@@ -168,7 +170,7 @@ fn before(fit: &Fit, settings: &FitSettings, task: &Task, mode: Mode) -> anyhow:
     }
     if finished.is_some() || task.folder.is_unfinished() {
         // Only then is the goal read: of thousands that wait, each is read when it is fitted.
-        task.folder.check(mode, &task.request(fit, settings)?)?;
+        task.folder.check(mode, &task.request(fit, &input::picture(&task.goal)?, settings)?)?;
     }
     Ok(State::Waiting)
 }
@@ -209,7 +211,7 @@ fn brief(summary: &Value) -> String {
 
 /// Columns of the summary and where in `summary.json` they come from; after them come the two that
 /// depend on the clock.
-const COLUMNS: [(&str, &str); 30] = [
+const COLUMNS: [(&str, &str); 31] = [
     ("likeness", "/likeness"),
     ("iou", "/iou"),
     ("best_ellipse_iou", "/best_ellipse_iou"),
@@ -236,6 +238,7 @@ const COLUMNS: [(&str, &str); 30] = [
     ("cost", "/cost"),
     ("evaluations", "/evaluations"),
     ("stopped_by", "/stopped_by"),
+    ("warnings", "/warnings"),
     ("height_m", "/tree_m/height"),
     ("crown_width_m", "/tree_m/crown_width"),
     ("crown_base_m", "/tree_m/crown_base"),
@@ -268,6 +271,8 @@ fn cell(value: Option<&Value>) -> String {
     match value {
         None | Some(Value::Null) => String::new(),
         Some(Value::String(text)) => text.clone(),
+        // Warnings, by their kinds.
+        Some(Value::Array(items)) => items.iter().map(|item| cell(item.get("kind"))).collect::<Vec<_>>().join(" "),
         Some(Value::Number(number)) if number.is_f64() => {
             format!("{:.6}", number.as_f64().unwrap_or(f64::NAN))
         }

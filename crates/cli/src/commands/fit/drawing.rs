@@ -6,7 +6,7 @@ use crate::files;
 use pleach_fit::{FitProblem, Genome, Scored};
 use pleach_mesh::{Palette, Preview, PreviewSettings, png_file};
 use pleach_silhouette::{Bitmap, Rasteriser, View, picture};
-use pleach_tree::species::Appearance;
+use pleach_tree::species::{Appearance, safe_name};
 use pleach_tree::{Foliage, Growth, Limits, Species, Tree};
 use std::path::Path;
 use std::sync::Arc;
@@ -36,7 +36,7 @@ impl Drawing<'_> {
     /// The species that an individual is.
     fn species(&self, genome: &Genome) -> anyhow::Result<Species> {
         Ok(Species {
-            name: self.goals.name.clone(),
+            name: safe_name(&self.goals.name),
             description: String::new(),
             generator: Arc::clone(&self.problem.generator),
             params: self.problem.generator.space().check(genome.values.clone())?,

@@ -2,9 +2,10 @@
 
 use super::{GoalArgs, options};
 use crate::commands::mask;
-use crate::output;
+use crate::{input, output};
 use anyhow::Context;
-use pleach_silhouette::goal::{Goal, GoalOptions, Origin, Polarity, Split};
+use pleach_silhouette::Bitmap;
+use pleach_silhouette::goal::{Encoded, Goal, GoalOptions, GoalWarning, Origin, Polarity, Split};
 use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -41,12 +42,19 @@ pub(super) struct Goals {
     pub(super) full: Goal,
     pub(super) working: Goal,
     pub(super) name: String,
+    /// What about the goal, or about its mask, is not as a fit expects; it has been told.
+    pub(super) warnings: Vec<GoalWarning>,
+    /// The mask that was made of a photograph.
+    pub(super) mask: Option<Bitmap>,
+    /// The picture as it came: standard input cannot be read twice.
+    pub(super) source: Encoded,
 }
 
 impl Goals {
-    /// Reads a goal, and says what was found in it if `verbose`.
+    /// Reads a goal, from standard input if it is `-`; tells what is to be watched out for, and what was
+    /// found in it if `verbose`.
     pub(super) fn load(path: &Path, args: &GoalArgs, verbose: bool) -> anyhow::Result<Self> {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = input::stem(path).unwrap_or_default().to_string_lossy().into_owned();
         let options = GoalOptions {
             mask: match &args.mask {
                 Some(MaskSource::File(file)) => Some(file.clone()),
@@ -62,22 +70,30 @@ impl Goals {
             max_side: None,
         };
         let small = GoalOptions { max_side: Some(args.size), ..options.clone() };
-        let (full, working, how) = if matches!(args.mask, Some(MaskSource::Auto)) {
-            let found =
-                Mask::of(&Photo::load(path)?, &MaskOptions::default()).with_context(|| mask::cannot(path))?;
+        let source = input::picture(path)?;
+        let (full, working, how, found) = if matches!(args.mask, Some(MaskSource::Auto)) {
+            let found = Mask::of(&Photo::from_encoded(&source)?, &MaskOptions::default())
+                .with_context(|| mask::cannot(path))?;
             let how = mask::means(&found);
             let full = Goal::from_ink(found.bitmap.clone(), &options)?;
-            (full, Goal::from_ink(found.bitmap, &small)?, how)
+            (full, Goal::from_ink(found.bitmap.clone(), &small)?, how, Some(found))
         } else {
-            let full = Goal::load(path, &options)?;
+            let full = Goal::from_encoded(&source, &options)?;
             let how = means(&full);
-            (full, Goal::load(path, &small)?, how)
+            (full, Goal::from_encoded(&source, &small)?, how, None)
+        };
+        let (warnings, mask) = match found {
+            Some(found) => (found.warnings, Some(found.bitmap)),
+            None => (full.warnings.clone(), None),
         };
         if verbose {
             let (width, height) = full.findings.original_size;
             output::note(format!("goal of {width} × {height} pixels: {how}; {}", places(&full)));
         }
-        Ok(Self { full, working, name })
+        for warning in &warnings {
+            output::note(format!("warning: {}: {warning}", path.display()));
+        }
+        Ok(Self { full, working, name, warnings, mask, source })
     }
 }
 

@@ -20,7 +20,7 @@ mod views;
 pub(crate) use start::candidates;
 
 use crate::interrupted::Interrupted;
-use crate::output;
+use crate::{input, output};
 use anyhow::bail;
 use args::{BudgetArgs, GoalArgs, SearchArgs};
 pub(super) use goal::places;
@@ -34,7 +34,7 @@ use task::{Ended, Task, how_to_go_on};
 /// What the run folder of `goal` is called, and its species. Names that are not UTF-8 become so: the
 /// species file in the folder is typed as an argument later.
 fn run_name(goal: &Path) -> Option<String> {
-    goal.file_stem().map(|stem| stem.to_string_lossy().into_owned())
+    input::stem(goal).map(|stem| stem.to_string_lossy().into_owned())
 }
 
 /// The folder that run folders are made in if nothing is said.

@@ -6,6 +6,7 @@ use super::goal::MaskSource;
 use super::{Fit, views};
 use anyhow::Context;
 use pleach_fit::{FitSettings, TreeSeed};
+use pleach_silhouette::goal::Encoded;
 use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest as _, Sha256};
@@ -26,10 +27,11 @@ pub(super) struct Request {
 }
 
 impl Request {
-    /// The request of `fit` for one goal with the options `goal_args`.
+    /// The request of `fit` for one goal, whose file is `source`, with the options `goal_args`.
     pub(super) fn new(
         fit: &Fit,
         goal: &Path,
+        source: &Encoded,
         goal_args: &GoalArgs,
         settings: &FitSettings,
     ) -> anyhow::Result<Self> {
@@ -43,10 +45,10 @@ impl Request {
             others.push(from);
         }
         let name = |path: &Path| path.display().to_string();
-        let inputs = others.iter().map(|path| Ok((name(path), sha256(path)?)));
+        let inputs = others.iter().map(|path| Ok((name(path), file_sha256(path)?)));
         Ok(Self {
             goal: name(goal),
-            goal_sha256: sha256(goal)?,
+            goal_sha256: digits(Sha256::digest(source.bytes())),
             inputs_sha256: inputs.collect::<anyhow::Result<_>>()?,
             options: options(fit, goal_args, settings)?,
         })
@@ -78,12 +80,17 @@ impl Request {
     }
 }
 
-fn sha256(path: &Path) -> anyhow::Result<String> {
+/// The hash of a file that has been read before, so that it ends.
+fn file_sha256(path: &Path) -> anyhow::Result<String> {
     let cannot = || format!("cannot read {}", path.display());
     let mut file = std::fs::File::open(path).with_context(cannot)?;
     let mut hasher = Sha256::new();
     std::io::copy(&mut file, &mut hasher).with_context(cannot)?;
-    Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(digits(hasher.finalize()))
+}
+
+fn digits(hash: impl AsRef<[u8]>) -> String {
+    hash.as_ref().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn options(

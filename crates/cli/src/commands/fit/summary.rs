@@ -8,6 +8,7 @@ use super::start::LooksLike;
 use super::views::ViewScore;
 use crate::files;
 use pleach_fit::{COLUMNS, FitSettings, FreshSeeds, Outcome, Row, Scored, StopReason};
+use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::picture::Picture;
 use pleach_silhouette::score::ScoreCard;
 use pleach_tree::Species;
@@ -74,6 +75,8 @@ pub(super) struct Summary {
     goal_width: u32,
     goal_height: u32,
     search: SearchScores,
+    /// What about the goal, or its mask, is not as a fit expects.
+    warnings: Vec<GoalWarning>,
     /// What was asked for: a later run compares it.
     #[serde(flatten)]
     request: Request,
@@ -177,6 +180,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
             iou: best.score.iou,
             pixel_accuracy: best.score.accuracy,
         },
+        warnings: drawing.goals.warnings.clone(),
         request: results.request,
         version: env!("CARGO_PKG_VERSION"),
     };

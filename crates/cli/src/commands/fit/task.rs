@@ -11,11 +11,12 @@ use super::request::Request;
 use super::run_folder::{Mode, RunFolder};
 use super::summary::{self, Results, Summary};
 use super::views;
+use crate::files;
 use anyhow::{anyhow, bail};
 use pleach_fit::{
     CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, StopReason, Unknown,
 };
-use pleach_silhouette::goal::Goal;
+use pleach_silhouette::goal::{Encoded, Goal};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -38,10 +39,14 @@ pub(super) enum Ended {
 }
 
 impl Task {
-    /// What is asked for of this goal, with the budget that is meant: of a finished fit that is
-    /// continued, its own and what comes on top.
-    pub(super) fn request(&self, fit: &Fit, settings: &FitSettings) -> anyhow::Result<Request> {
-        Request::new(fit, &self.goal, &self.args, settings)
+    /// What is asked for of this goal, whose file is `source`.
+    pub(super) fn request(
+        &self,
+        fit: &Fit,
+        source: &Encoded,
+        settings: &FitSettings,
+    ) -> anyhow::Result<Request> {
+        Request::new(fit, &self.goal, source, &self.args, settings)
     }
 
     /// Fits the goal.
@@ -63,7 +68,7 @@ impl Task {
         if mode == Mode::Continue {
             extend(&mut settings, self.folder.finished().as_ref());
         }
-        let request = self.request(fit, &settings)?;
+        let request = self.request(fit, &goals.source, &settings)?;
         let mut claim = self.folder.clone().claim(mode, &request)?;
 
         let mut started = Instant::now();
@@ -73,6 +78,9 @@ impl Task {
             result => result?,
         };
         claim.begin()?;
+        if let Some(mask) = &goals.mask {
+            files::write_whole(&claim.file("mask.png"), |file| Ok(mask.write_png(file)?))?;
+        }
         if claim.resumes() {
             // The first guess is made again, but its time has been counted.
             started = Instant::now();

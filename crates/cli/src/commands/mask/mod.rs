@@ -1,0 +1,251 @@
+//! `pleach mask`: from photographs to the silhouettes of the trees in them.
+
+mod many;
+
+use super::fit::places;
+use crate::{files, input, output};
+use anyhow::{Context, bail, ensure};
+use pleach_silhouette::goal::{Goal, GoalWarning};
+use pleach_silhouette::mask::{Background, Mask, MaskOptions, Means, Photo};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "Examples:
+  pleach mask oak.jpg -o oak.png --overlay look.png   and look at what was found
+  pleach mask oak.jpg -o oak.png --seed-point 800,420 the tree at that pixel
+  pleach mask shed.jpg -o a.png --background plain    a tree before an even wall
+  pleach mask photos/*.jpg -o masks/                  many, with masks/masks.csv
+  pleach mask oak.jpg -o - | pleach fit - --out oak   from one to the other
+  pleach fit oak.jpg --mask auto                      the same in one go
+
+The tree is what differs from the background, and that is what the picture's edges show: a sky, with or \
+without a ground below it, or a wall. Houses, hills, shadows and other trees are taken for tree. A picture \
+with an alpha channel is its own mask.
+
+Confidence says how likely a mask is a good one, from 0 to 1; sort by it, and look at those below 0.4.
+
+With several photographs, --out is a folder. It gets STEM.png for each, and masks.csv, a row for each: \
+where the tree stands, its confidence, and what there is to be said about it. A photograph without a tree is \
+named, and the others go on.";
+
+/// Make a silhouette from a photograph, or from many
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct MaskCommand {
+    /// The photographs: PNG, JPEG, WebP or TIFF; - for standard input
+    #[arg(value_name = "PHOTO", required = true)]
+    photos: Vec<PathBuf>,
+    /// The mask to write: a PNG of the photograph's size, black tree on white, one bit a pixel; - for
+    /// standard output. A folder, such as masks/, for several photographs
+    #[arg(short, long, value_name = "FILE|DIR/")]
+    out: PathBuf,
+    /// Also write the photograph with all but the tree faded, as PNG; another folder for several
+    #[arg(long, value_name = "FILE|DIR/")]
+    overlay: Option<PathBuf>,
+    /// What is behind the tree
+    #[arg(long, value_enum, default_value_t = Behind::Auto)]
+    background: Behind,
+    /// A pixel on the tree: column from the left and row from the top, from 0. By default the largest
+    /// thing is the tree
+    #[arg(long, value_name = "X,Y", value_parser = point)]
+    seed_point: Option<(u32, u32)>,
+    /// Fill holes of up to this many pixels; 1 of 100,000 of the picture's by default
+    #[arg(long, value_name = "PIXELS")]
+    fill_holes: Option<u64>,
+    /// Print what was found as JSON, one line for each photograph
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Behind {
+    /// Sky and ground if colours step clearly at the sides, else plain
+    Auto,
+    /// A sky, probably with a ground below it: a faint step at the sides is enough
+    Sky,
+    /// One smooth background all around
+    Plain,
+}
+
+fn point(text: &str) -> Result<(u32, u32), String> {
+    text.split_once(',')
+        .and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)))
+        .ok_or_else(|| "expected X,Y in whole pixels, such as 800,420".to_owned())
+}
+
+/// What was found, as JSON.
+#[derive(Debug, Serialize)]
+struct Found {
+    width: u32,
+    height: u32,
+    ink: f64,
+    ground_row: f64,
+    axis_column: f64,
+    top_row: f64,
+    by: &'static str,
+    threshold: Option<f64>,
+    horizon_rows: Option<[f64; 2]>,
+    dropped_pixels: u64,
+    filled_pixels: u64,
+    touches: Vec<&'static str>,
+    confidence: f64,
+    warnings: Vec<GoalWarning>,
+}
+
+/// A mask, and where its tree stands.
+struct Made {
+    photo: Photo,
+    mask: Mask,
+    goal: Goal,
+}
+
+impl MaskCommand {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        let standard = self.photos.iter().filter(|photo| input::is_standard(photo)).count();
+        ensure!(standard < 2, "only one photograph can come from standard input");
+        match &self.photos[..] {
+            [photo] if !is_folder(&self.out) => self.single(photo),
+            photos => many::run(self, photos),
+        }
+    }
+
+    fn single(&self, photo: &Path) -> anyhow::Result<()> {
+        let to_output = input::is_standard(&self.out);
+        ensure!(!(to_output && self.json), "the mask and --json would both go to standard output");
+        let files = std::iter::once(&self.out).filter(|_| !to_output);
+        let outputs: Vec<&Path> = files.chain(&self.overlay).map(|p| &**p).collect();
+        for path in &outputs {
+            if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("png")) {
+                bail!(
+                    "{} is not a .png file: pictures are written as PNG; a folder ends in a slash",
+                    path.display()
+                );
+            }
+            if same_file(path, photo) {
+                bail!("{} is the photograph itself: choose another name", path.display());
+            }
+        }
+        if let [mask, overlay] = outputs[..]
+            && mask == overlay
+        {
+            bail!("mask and overlay would both be {}", mask.display());
+        }
+        let made = self.make(photo)?;
+        if to_output {
+            made.mask.bitmap.write_png(&mut std::io::stdout().lock())?;
+        } else {
+            made.write(&self.out)?;
+        }
+        if let Some(path) = &self.overlay {
+            made.write_overlay(path)?;
+        }
+        let report = format!("{}\n{}\n{}", means(&made.mask), places(&made.goal), edges(&made.mask));
+        if self.json {
+            output::json(&made.found())?;
+        } else if to_output {
+            output::note(report);
+        } else {
+            output::line(report)?;
+        }
+        for warning in &made.mask.warnings {
+            output::note(format!("warning: {warning}"));
+        }
+        for path in outputs {
+            output::note(format!("wrote {}", path.display()));
+        }
+        Ok(())
+    }
+
+    /// Reads a photograph and finds the tree in it.
+    fn make(&self, photo: &Path) -> anyhow::Result<Made> {
+        let options = MaskOptions {
+            background: match self.background {
+                Behind::Auto => Background::Auto,
+                Behind::Sky => Background::Sky,
+                Behind::Plain => Background::Plain,
+            },
+            seed_point: self.seed_point,
+            fill_holes: self.fill_holes,
+        };
+        let picture = Photo::from_encoded(&input::picture(photo)?)?;
+        let mask = Mask::of(&picture, &options).with_context(|| cannot(photo))?;
+        let goal = Goal::from_bitmap(mask.bitmap.clone()).with_context(|| cannot(photo))?;
+        Ok(Made { photo: picture, mask, goal })
+    }
+}
+
+impl Made {
+    fn write(&self, path: &Path) -> anyhow::Result<()> {
+        files::write_whole(path, |file| Ok(self.mask.bitmap.write_png(file)?))
+    }
+
+    fn write_overlay(&self, path: &Path) -> anyhow::Result<()> {
+        let overlay = self.mask.overlay(&self.photo);
+        files::write_whole(path, |file| Ok(overlay.write_png(file)?))
+    }
+
+    fn found(&self) -> Found {
+        let (mask, goal) = (&self.mask, &self.goal);
+        let (by, threshold, horizon) = match mask.means {
+            Means::Opacity => ("opacity", None, None),
+            Means::Colour { threshold, horizon } => ("colour", Some(threshold), horizon),
+        };
+        Found {
+            width: mask.bitmap.width(),
+            height: mask.bitmap.height(),
+            ink: mask.bitmap.ink() as f64 / mask.bitmap.area() as f64,
+            ground_row: goal.ground_row,
+            axis_column: goal.axis_column,
+            top_row: goal.top_row,
+            by,
+            threshold,
+            horizon_rows: horizon.map(|h| [h.left, h.right]),
+            dropped_pixels: mask.dropped,
+            filled_pixels: mask.filled,
+            touches: mask.touches.sides(),
+            confidence: mask.confidence,
+            warnings: mask.warnings.clone(),
+        }
+    }
+}
+
+/// Whether a path is a folder, or is written as one.
+fn is_folder(path: &Path) -> bool {
+    path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/")
+}
+
+/// What could not be done.
+pub(super) fn cannot(photo: &Path) -> String {
+    format!("cannot make a mask of {}", photo.display())
+}
+
+/// Whether both paths lead to one file that is there.
+fn same_file(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+/// How the tree was told from the background.
+pub(super) fn means(mask: &Mask) -> String {
+    match mask.means {
+        Means::Opacity => "the picture has an alpha channel: the tree is what is opaque".to_owned(),
+        Means::Colour { threshold, horizon } => {
+            let behind = horizon.map_or_else(
+                || "one background".to_owned(),
+                |h| format!("sky down to row {:.0}, ground below", (h.left + h.right) / 2.0),
+            );
+            format!(
+                "{behind}; the tree is what is more than {threshold:.1} spreads away in colour\n\
+                 {} other pixels dropped, {} in small holes filled",
+                mask.dropped, mask.filled
+            )
+        }
+    }
+}
+
+fn edges(mask: &Mask) -> String {
+    let edges = match &mask.touches.sides()[..] {
+        [] => "the crown is all in the picture".to_owned(),
+        sides => format!("the crown touches the frame: {}; what lies beyond is not seen", sides.join(", ")),
+    };
+    format!("{edges}\nconfidence {:.2} of 1", mask.confidence)
+}

@@ -1,0 +1,267 @@
+//! What in a silhouette is not as in that of a tree.
+//!
+//! The thresholds are such that nothing is said of the pictures in `targets/` and `tests/data/silhouettes`,
+//! which are of trees of many kinds, leafy and bare (`tests/warnings.rs`).
+
+use super::warning::GoalWarning;
+use crate::bitmap::Bitmap;
+use crate::mask::{Touches, pieces};
+
+/// Longer side, in cells, of the picture in which pieces are looked for.
+const CELLS: u32 = 256;
+/// Pieces nearer than this part of the longer side belong together.
+const NEAR: f64 = 0.02;
+/// Least part of the largest piece's ink that makes a further one of similar size.
+const SIMILAR: f64 = 0.25;
+/// A crown that is cut off by the left or right edge has ink along more than this part of it; a tight crop
+/// only has tips there.
+const CUT: f64 = 0.08;
+/// The same of the top edge, which in a tight crop of a narrow tree is short.
+const CUT_TOP: f64 = 0.15;
+/// Rows of ground are inked in more than this part of the picture's width ...
+const WIDE: f64 = 0.9;
+/// ... or in more than this part of the ink's, right below rows with less than [`NARROW`] of it.
+const WIDER: f64 = 0.6;
+const NARROW: f64 = 0.3;
+/// Within this part of the height, rows get from narrow to wide where a trunk meets the ground.
+const ABRUPT: f64 = 0.03;
+/// Ground is at most this part of the picture's height; the rest is a tree with a wide foot.
+const DEEPEST: f64 = 0.35;
+/// Specks away from the tree that are still taken for leaves or dust.
+const MOST_SPECKS: u64 = 12;
+/// Pixels in the tone that none of their four neighbours has, per pixel, in noise.
+const GRAINY: f64 = 0.025;
+/// Ink per convex hull from which on a shape is solid.
+const SOLID: f64 = 0.95;
+/// Rows narrower than this part of the widest are bare trunk.
+const BARE: f64 = 0.25;
+/// Least part of the height that is bare trunk at the top of a tree upside down.
+const TALL: f64 = 0.1;
+
+/// What is to be said of a silhouette.
+pub(crate) fn warnings(ink: &Bitmap) -> Vec<GoalWarning> {
+    let mut found = Vec::new();
+    let Some(shape) = Shape::of(ink) else { return found };
+    let ground = shape.ground();
+    let touches = shape.touches(ground.unwrap_or(ink.height()));
+    if touches != Touches::default() {
+        found.push(GoalWarning::TouchesFrame(touches));
+    }
+    let (pieces, specks) = shape.pieces();
+    if pieces > 1 {
+        found.push(GoalWarning::SeveralPieces { pieces });
+    }
+    if let Some(row) = ground {
+        found.push(GoalWarning::Ground { row });
+    }
+    if specks > MOST_SPECKS || shape.grain() > GRAINY {
+        found.push(GoalWarning::Noise { specks: shape.lone().0 });
+    }
+    let solidity = shape.solidity();
+    if solidity > SOLID {
+        found.push(GoalWarning::Solid { solidity });
+    }
+    if shape.is_upside_down() {
+        found.push(GoalWarning::UpsideDown);
+    }
+    found
+}
+
+/// A silhouette with what several questions need.
+struct Shape<'a> {
+    ink: &'a Bitmap,
+    left: u32,
+    top: u32,
+    right: u32,
+    bottom: u32,
+}
+
+impl<'a> Shape<'a> {
+    fn of(ink: &'a Bitmap) -> Option<Self> {
+        let (left, top, right, bottom) = ink.ink_box()?;
+        Some(Self { ink, left, top, right, bottom })
+    }
+
+    fn width(&self) -> f64 {
+        f64::from(self.right - self.left + 1)
+    }
+
+    fn height(&self) -> f64 {
+        f64::from(self.bottom - self.top + 1)
+    }
+
+    fn inked(&self, y: u32) -> f64 {
+        f64::from(self.ink.row(y).iter().map(|word| word.count_ones()).sum::<u32>())
+    }
+
+    /// First and last column with ink.
+    fn ends(&self, y: u32) -> Option<(u32, u32)> {
+        let row = self.ink.row(y);
+        let first = row.iter().position(|&word| word != 0)?;
+        let last = row.iter().rposition(|&word| word != 0)?;
+        Some((
+            first as u32 * 64 + row[first].trailing_zeros(),
+            last as u32 * 64 + 63 - row[last].leading_zeros(),
+        ))
+    }
+
+    /// How wide a row is from its first to its last ink.
+    fn reach(&self, y: u32) -> f64 {
+        self.ends(y).map_or(0.0, |(first, last)| f64::from(last - first + 1))
+    }
+
+    /// The sides along which the crown is cut off, above the row `ground`.
+    fn touches(&self, ground: u32) -> Touches {
+        let (width, height) = (self.ink.width(), self.ink.height());
+        let column = |x| (0..ground).filter(|&y| self.ink.get(x, y)).count() as f64;
+        let cut = |inked: f64, most: f64| inked > most.max(2.0);
+        Touches {
+            left: cut(column(0), CUT * f64::from(height)),
+            top: cut(if ground > 0 { self.inked(0) } else { 0.0 }, CUT_TOP * f64::from(width)),
+            right: cut(column(width - 1), CUT * f64::from(height)),
+        }
+    }
+
+    /// The first row of a strip of ground at the bottom of the ink.
+    fn ground(&self) -> Option<u32> {
+        let deepest = (DEEPEST * self.height()) as u32;
+        let strip = |least: f64| {
+            let rows = (self.top..=self.bottom).rev().take_while(|&y| self.inked(y) > least).count() as u32;
+            // A strip of one row may be where a fir's lowest branches end.
+            (rows >= 2 && rows <= deepest).then(|| self.bottom + 1 - rows)
+        };
+        if let Some(row) = strip(WIDE * f64::from(self.ink.width()))
+            && self.inked(row.saturating_sub(self.abrupt())) < WIDER * f64::from(self.ink.width())
+        {
+            return Some(row);
+        }
+        let row = strip(WIDER * self.width())?;
+        let above = row.checked_sub(self.abrupt())?;
+        (above > self.top && self.reach(above) < NARROW * self.width()).then_some(row)
+    }
+
+    /// Rows within which the edge of ground lies.
+    fn abrupt(&self) -> u32 {
+        (ABRUPT * self.height()).ceil() as u32
+    }
+
+    /// How many pieces are of similar size, and how many lone pixels lie away from the largest.
+    fn pieces(&self) -> (usize, u64) {
+        let cell = self.ink.width().max(self.ink.height()).div_ceil(CELLS);
+        let mut cells = Bitmap::new(self.ink.width().div_ceil(cell), self.ink.height().div_ceil(cell));
+        for y in self.top..=self.bottom {
+            for x in self.ink.ink_in_row(y) {
+                cells.set(x / cell, y / cell, true);
+            }
+        }
+        let near = NEAR / 2.0 * f64::from(cells.width().max(cells.height()));
+        let grounds = pieces::widened(&cells, near.round() as u32);
+        let sizes = pieces::sizes(&cells, &grounds);
+        let largest = sizes.first().copied().unwrap_or(0) as f64;
+        let similar = sizes.iter().filter(|&&size| size as f64 >= SIMILAR * largest).count();
+        let (_, lone) = self.lone();
+        let Some(tree) = pieces::piece(&cells, &grounds, None) else { return (similar, 0) };
+        let away = lone.iter().filter(|&&(x, y)| !tree.get(x / cell, y / cell)).count();
+        (similar, away as u64)
+    }
+
+    /// Pixels of ink with no ink among their eight neighbours: how many, and the first few where.
+    fn lone(&self) -> (u64, Vec<(u32, u32)>) {
+        const MOST: usize = 4096;
+        let (mut count, mut places) = (0, Vec::new());
+        let blank = vec![0; self.ink.row(0).len()];
+        let row = |y: Option<u32>| match y {
+            Some(y) if y < self.ink.height() => self.ink.row(y),
+            _ => &blank[..],
+        };
+        for y in self.top..=self.bottom {
+            let rows = [row(y.checked_sub(1)), row(Some(y)), row(Some(y + 1))];
+            for i in 0..blank.len() {
+                let here = rows[1][i];
+                if here == 0 {
+                    continue;
+                }
+                let mut near = rows[0][i] | rows[2][i];
+                for row in rows {
+                    let before = i.checked_sub(1).map_or(0, |i| row[i]);
+                    let after = row.get(i + 1).copied().unwrap_or(0);
+                    near |= row[i] << 1 | before >> 63 | row[i] >> 1 | after << 63;
+                }
+                let mut lone = here & !near;
+                count += u64::from(lone.count_ones());
+                while lone != 0 && places.len() < MOST {
+                    places.push((i as u32 * 64 + lone.trailing_zeros(), y));
+                    lone &= lone - 1;
+                }
+            }
+        }
+        (count, places)
+    }
+
+    /// Share of pixels, of ink or paper, whose four neighbours are all of the other tone.
+    fn grain(&self) -> f64 {
+        let (width, height) = (self.ink.width(), self.ink.height());
+        let mut lone = 0_u64;
+        for y in 1..height.saturating_sub(1) {
+            let [above, here, below] = [y - 1, y, y + 1].map(|y| self.ink.row(y));
+            for (i, &word) in here.iter().enumerate() {
+                let before = i.checked_sub(1).map_or(0, |i| here[i]);
+                let after = here.get(i + 1).copied().unwrap_or(0);
+                let (left, right) = (word << 1 | before >> 63, word >> 1 | after << 63);
+                let ink = word & !(left | right | above[i] | below[i]);
+                let paper = !word & left & right & above[i] & below[i];
+                lone += u64::from((ink | paper).count_ones());
+            }
+        }
+        lone as f64 / (f64::from(width) * f64::from(height))
+    }
+
+    /// Ink per area of its convex hull.
+    fn solidity(&self) -> f64 {
+        // Corners of the first and last pixels of the rows, from top to bottom on either side.
+        let (mut left, mut right): (Vec<[f64; 2]>, Vec<[f64; 2]>) = Default::default();
+        for y in self.top..=self.bottom {
+            let Some((first, last)) = self.ends(y) else { continue };
+            for y in [y, y + 1] {
+                push_convex(&mut left, [f64::from(first), f64::from(y)], -1.0);
+                push_convex(&mut right, [f64::from(last + 1), f64::from(y)], 1.0);
+            }
+        }
+        let around: Vec<[f64; 2]> = right.into_iter().chain(left.into_iter().rev()).collect();
+        let doubled: f64 =
+            around.iter().zip(around.iter().cycle().skip(1)).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum();
+        self.ink.ink() as f64 / (doubled / 2.0).abs().max(1.0)
+    }
+
+    /// Whether a long narrow part of even width at the top suddenly becomes wide, and the bottom is not
+    /// narrow: a trunk that points up.
+    fn is_upside_down(&self) -> bool {
+        let reaches: Vec<f64> = (self.top..=self.bottom).map(|y| self.reach(y)).collect();
+        let widest = reaches.iter().copied().fold(0.0, f64::max);
+        let bare = |reach: &f64| *reach < BARE * widest;
+        let above = reaches.iter().take_while(|reach| bare(reach)).count();
+        let below = reaches.iter().rev().take_while(|reach| bare(reach)).count();
+        if (above as f64) < TALL * self.height() || below * 3 > above {
+            return false;
+        }
+        let mean = |rows: &[f64]| rows.iter().sum::<f64>() / rows.len().max(1) as f64;
+        let (upper, lower) = reaches[..above].split_at(above / 2);
+        // A fir's top widens all the way; a trunk does only a little.
+        let even = mean(lower) < 1.6 * mean(upper);
+        let beyond = &reaches[above..(above + self.abrupt() as usize).min(reaches.len())];
+        even && beyond.iter().copied().fold(0.0, f64::max) > 1.4 * BARE * widest
+    }
+}
+
+/// Adds a point to the side of a convex hull, whose last points it may make inner ones; Andrew 1979.
+fn push_convex(hull: &mut Vec<[f64; 2]>, point: [f64; 2], side: f64) {
+    while let [.., a, b] = hull[..] {
+        let turn = (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]);
+        // From top to bottom, the left side bulges to the left.
+        if side * turn >= 0.0 {
+            break;
+        }
+        hull.pop();
+    }
+    hull.push(point);
+}

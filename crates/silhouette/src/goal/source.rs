@@ -1,0 +1,95 @@
+//! Pictures as they come: bytes with a name, from a file or a pipe, and never more than may be.
+
+use super::error::GoalError;
+use super::read::MOST_BYTES;
+use image::ImageFormat;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Bytes that are enough to tell formats apart.
+const HEAD: u64 = 16;
+
+/// A picture that is not yet decoded: its bytes, and what errors call it.
+///
+/// Files, pipes and standard input are all read to their end, since not all of them can be read twice.
+/// What does not begin like a picture is refused before the rest of it is read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Encoded {
+    name: PathBuf,
+    bytes: Vec<u8>,
+}
+
+impl Encoded {
+    /// Bytes at hand; `name` is what errors call them. Whether they are a picture is told when they are
+    /// decoded.
+    #[must_use]
+    pub fn new(name: impl Into<PathBuf>, bytes: Vec<u8>) -> Self {
+        Self { name: name.into(), bytes }
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`GoalError::Unreadable`], [`GoalError::NotAnImage`] and [`GoalError::TooManyBytes`].
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, GoalError> {
+        let path = path.as_ref();
+        let unreadable = |cause| GoalError::Unreadable { path: path.into(), cause };
+        let file = File::open(path).map_err(unreadable)?;
+        let meta = file.metadata().map_err(unreadable)?;
+        if meta.is_dir() {
+            return Err(unreadable(std::io::ErrorKind::IsADirectory.into()));
+        }
+        if meta.len() > MOST_BYTES {
+            return Err(GoalError::TooManyBytes { path: path.into(), bytes: meta.len(), limit: MOST_BYTES });
+        }
+        Self::read(path, file)
+    }
+
+    /// Reads whatever can be read to its end, such as standard input; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// As [`Encoded::load`].
+    pub fn read(name: impl Into<PathBuf>, mut from: impl Read) -> Result<Self, GoalError> {
+        let (path, mut bytes) = (name.into(), Vec::new());
+        let read = (|| {
+            from.by_ref().take(HEAD).read_to_end(&mut bytes)?;
+            if format(&bytes).is_none() {
+                return Ok(false);
+            }
+            // One byte more tells whether there is too much.
+            from.take(MOST_BYTES + 1 - HEAD).read_to_end(&mut bytes)?;
+            Ok(true)
+        })();
+        match read {
+            Err(cause) => Err(GoalError::Unreadable { path, cause }),
+            Ok(false) => Err(GoalError::NotAnImage { path }),
+            Ok(true) if bytes.len() as u64 > MOST_BYTES => {
+                Err(GoalError::TooManyBytes { path, bytes: bytes.len() as u64, limit: MOST_BYTES })
+            }
+            Ok(true) => Ok(Self { name: path, bytes }),
+        }
+    }
+
+    /// What errors call it: the path of a file.
+    #[must_use]
+    pub fn name(&self) -> &Path {
+        &self.name
+    }
+
+    /// The bytes as they came.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The format, told by how it begins; none if it is not one of those that are read.
+    pub(super) fn format(&self) -> Option<ImageFormat> {
+        format(&self.bytes)
+    }
+}
+
+fn format(bytes: &[u8]) -> Option<ImageFormat> {
+    let read = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::WebP, ImageFormat::Tiff];
+    image::guess_format(bytes).ok().filter(|format| read.contains(format))
+}

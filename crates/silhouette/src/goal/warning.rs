@@ -1,0 +1,127 @@
+//! What about a goal is not as a fit expects, so that its user may look again.
+
+use crate::mask::Touches;
+use serde::Serialize;
+use serde::ser::{SerializeStruct, Serializer};
+use std::fmt;
+
+/// Something about a picture, or about a mask made of one, that makes a bad goal. It can be fitted all the
+/// same.
+///
+/// `Display` says what was seen and what to do about it; as JSON it is `{"kind": …, "message": …}`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum GoalWarning {
+    /// The picture has the many colours or greys of a photograph, and was split by brightness.
+    Photograph,
+    /// The file holds further pictures, and the first was taken.
+    SeveralPictures,
+    /// The crown is cut off by the picture's edge.
+    TouchesFrame(Touches),
+    /// Several pieces of similar size, all taken for one tree.
+    SeveralPieces {
+        /// How many have at least a quarter of the largest one's ink, the largest counted.
+        pieces: usize,
+    },
+    /// A wide strip at the bottom that is ground rather than tree.
+    Ground {
+        /// The first row of the strip, in pixels of the file from its top edge.
+        row: u32,
+    },
+    /// Specks all over the picture.
+    Noise {
+        /// Pixels of ink that stand alone.
+        specks: u64,
+    },
+    /// A shape without gaps or notches, such as a square or a disc.
+    Solid {
+        /// Share of the shape's convex hull that is ink, in 0..=1.
+        solidity: f64,
+    },
+    /// A bare stem at the top and the crown at the bottom.
+    UpsideDown,
+    /// A mask of which little is certain.
+    DoubtfulMask {
+        /// See [`Mask::confidence`](crate::mask::Mask::confidence).
+        confidence: f64,
+    },
+}
+
+impl GoalWarning {
+    /// A word for scripts, in kebab case.
+    #[must_use]
+    pub const fn kind(&self) -> &'static str {
+        match self {
+            Self::Photograph => "photograph",
+            Self::SeveralPictures => "several-pictures",
+            Self::TouchesFrame(_) => "touches-frame",
+            Self::SeveralPieces { .. } => "several-pieces",
+            Self::Ground { .. } => "ground",
+            Self::Noise { .. } => "noise",
+            Self::Solid { .. } => "solid",
+            Self::UpsideDown => "upside-down",
+            Self::DoubtfulMask { .. } => "doubtful-mask",
+        }
+    }
+}
+
+impl fmt::Display for GoalWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Photograph => f.write_str(
+                "this looks like a photograph, and was split in two by brightness alone; --mask auto finds \
+                 the tree by its colour, and --mask FILE takes a mask of your own",
+            ),
+            Self::SeveralPictures => f.write_str(
+                "the file holds several pictures, as an animation or as pages; only the first was read, so \
+                 save the one you mean as a file of its own",
+            ),
+            Self::TouchesFrame(touches) => write!(
+                f,
+                "the crown touches the frame: {}; what lies beyond is not seen, so a picture of the whole \
+                 tree makes a better goal",
+                touches.sides().join(", ")
+            ),
+            Self::SeveralPieces { pieces } => write!(
+                f,
+                "there are {pieces} pieces of similar size, and all count as one tree; crop the picture to \
+                 one of them, or choose one with `pleach mask --seed-point X,Y`"
+            ),
+            Self::Ground { row } => write!(
+                f,
+                "the wide strip below row {row} looks like ground, and counts as tree; crop the picture \
+                 there, or paint the strip in the colour of the background"
+            ),
+            Self::Noise { specks } => write!(
+                f,
+                "there are specks all over the picture, {specks} of one pixel, and they count as tree; \
+                 smooth the picture first, or use --mask FILE with a clean mask"
+            ),
+            Self::Solid { solidity } => write!(
+                f,
+                "the shape has neither gaps nor notches ({:.0} % of its convex hull is ink), and trees have \
+                 both; if tree and background were mixed up, use --tree dark or --tree light",
+                100.0 * solidity
+            ),
+            Self::UpsideDown => f.write_str(
+                "the tree seems to stand on its crown, with its trunk at the top; turn the picture by 180 \
+                 degrees",
+            ),
+            Self::DoubtfulMask { confidence } => write!(
+                f,
+                "the mask is doubtful (confidence {confidence:.2} of 1); look at it with `pleach mask PHOTO \
+                 -o mask.png --overlay look.png`, and try --seed-point or --background, or a mask made by \
+                 hand"
+            ),
+        }
+    }
+}
+
+impl Serialize for GoalWarning {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut out = serializer.serialize_struct("GoalWarning", 2)?;
+        out.serialize_field("kind", self.kind())?;
+        out.serialize_field("message", &self.to_string())?;
+        out.end()
+    }
+}
