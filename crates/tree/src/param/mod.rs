@@ -11,10 +11,11 @@
 mod checked;
 mod declaration;
 mod error;
+mod select;
 mod space;
 
 pub use checked::CheckedParams;
 pub use declaration::{Kind, Layout, Param, Source, Unit};
-pub use error::nearest;
 pub use error::{Problem, SlotError};
+pub use error::{is_word_of, nearest};
 pub use space::{ParamSpace, Slot};

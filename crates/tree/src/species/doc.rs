@@ -1,12 +1,10 @@
 //! A parsed species file that remembers where everything stood.
 
 use super::error::{Issue, SpeciesError};
+use super::key::{Form, KEYS, Key, MAX_SEED};
 use crate::param::{Kind, ParamSpace, Problem, nearest};
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
-
-/// Keys that every species file may have beside its parameters.
-const COMMON_KEYS: [&str; 5] = ["generator", "name", "description", "tree_seed", "appearance"];
 
 /// A value and the bytes of the file that it came from.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +22,8 @@ pub enum Value {
     Number(f64),
     /// A string.
     Text(String),
+    /// `true` or `false`.
+    Switch(bool),
     /// An array.
     List(Vec<Node>),
     /// A table.
@@ -39,6 +39,7 @@ impl Value {
         match self {
             Self::Number(_) => "a number".to_owned(),
             Self::Text(_) => "a string".to_owned(),
+            Self::Switch(_) => "a boolean".to_owned(),
             Self::List(_) => "an array".to_owned(),
             Self::Table(_) => "a table".to_owned(),
             Self::Other(name) => format!("a {name}"),
@@ -171,7 +172,7 @@ impl SpeciesDoc {
     pub fn tree_seed(&self) -> Result<Option<u64>, Issue> {
         let Some(node) = self.get("tree_seed") else { return Ok(None) };
         let seed = self.number_of("tree_seed", node)?;
-        let max = (1_u64 << 53) as f64;
+        let max = MAX_SEED as f64;
         if (0.0..=max).contains(&seed) && seed.fract() == 0.0 {
             Ok(Some(seed as u64))
         } else {
@@ -183,22 +184,25 @@ impl SpeciesDoc {
         }
     }
 
-    /// Reads every parameter of `space`; `extra_keys` are the generator's own tables.
+    /// Reads every parameter of `space`; `own_keys` are the generator's own
+    /// ([`Family::keys`](crate::Family::keys)).
     ///
     /// Returns one value a slot (the default where the file is silent or wrong) and every issue, in
     /// order of place: unknown names, wrong types and lengths, values that are not allowed.
     #[must_use]
-    pub fn read(&self, space: &ParamSpace, extra_keys: &[&str]) -> (Vec<f64>, Vec<Issue>) {
+    pub fn read(&self, space: &ParamSpace, own_keys: &[Key]) -> (Vec<f64>, Vec<Issue>) {
         let mut values = space.defaults();
         let mut issues = Vec::new();
         for entry in &self.entries {
             let key = entry.key.as_str();
-            if COMMON_KEYS.contains(&key) || extra_keys.contains(&key) {
+            let keys = || KEYS.iter().chain(own_keys);
+            if keys().any(|known| known.name == key) {
                 continue;
             }
             let Some((number, param)) = space.find(key) else {
                 let known = space.params().iter().map(|p| p.name.as_ref());
-                let nearest = nearest(key, known.chain(COMMON_KEYS).chain(extra_keys.iter().copied()));
+                let nearest = inside_a_table(key, keys())
+                    .or_else(|| nearest(key, known.chain(keys().map(|known| known.name))));
                 issues.push(self.issue(entry.span.clone(), key, Problem::UnknownName { nearest }));
                 continue;
             };
@@ -248,6 +252,16 @@ impl SpeciesDoc {
     }
 }
 
+/// `table.key`, where `key` stands outside the table that it belongs to.
+fn inside_a_table<'a>(key: &str, mut keys: impl Iterator<Item = &'a Key>) -> Option<String> {
+    keys.find_map(|table| match table.form {
+        Form::Table(inside) if inside.iter().any(|inner| inner.name == key) => {
+            Some(format!("{}.{key}", table.name))
+        }
+        _ => None,
+    })
+}
+
 fn entries(table: &DeTable<'_>) -> Vec<Entry> {
     table
         .iter()
@@ -279,7 +293,7 @@ fn convert(value: &DeValue<'_>) -> Value {
             Value::List(array.iter().map(|v| Node { span: v.span(), value: convert(v.get_ref()) }).collect())
         }
         DeValue::Table(table) => Value::Table(entries(table)),
-        DeValue::Boolean(_) => Value::Other("boolean"),
+        DeValue::Boolean(value) => Value::Switch(*value),
         DeValue::Datetime(_) => Value::Other("date"),
     }
 }

@@ -9,16 +9,19 @@
 //! Parameters stand at the top level by their names; per-level values are arrays of four, vectors
 //! arrays of three; what is missing takes the generator's default. Beside them a file may say
 //! `name`, `description`, `tree_seed` (the seed of one particular tree), a table `[appearance]` (see
-//! [`Appearance`]), and whatever tables its generator knows.
+//! [`Appearance`]), and whatever tables its generator knows: [`KEYS`] and
+//! [`Family::keys`](crate::Family::keys) declare them.
 
 mod appearance;
 mod doc;
 mod error;
+mod key;
 mod write;
 
-pub use appearance::{Appearance, Colour, Season};
+pub use appearance::{Appearance, BarkPattern, Colour, Look, Season};
 pub use doc::{Entry, Node, SpeciesDoc, Value};
 pub use error::{Issue, SpeciesError};
+pub use key::{Form, KEYS, Key, Shape};
 
 use crate::generator::{Foliage, Generator, GrowError, Growth, Workspace};
 use crate::param::CheckedParams;
@@ -70,7 +73,7 @@ impl Species {
     }
 
     /// The species as a file that [`SpeciesDoc::parse`] reads back to the same numbers. `comments`
-    /// are lines for its head, without the `#`.
+    /// are paragraphs for its head, without the `#`; they are wrapped.
     #[must_use]
     pub fn to_toml(&self, comments: &[String]) -> String {
         write::species(self, comments)
