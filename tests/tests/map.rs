@@ -16,6 +16,8 @@ fn the_fifteen_are_laid_out() {
     let printed = dir.run(["map", "--grid", "3x2", "--out", "m"]).ok();
     assert!(printed.contains("explained") && printed.contains("100.0 %"), "{printed}");
     assert!(printed.contains("height to width"), "{printed}");
+    // Two axes are on the picture; the others share a line.
+    assert!(printed.contains("\n3–14") && printed.lines().count() < 15, "{printed}");
     let dots = std::fs::read_to_string(dir.path("m/map.csv")).unwrap();
     assert_eq!(dots.lines().count(), 16);
     assert!(dots.starts_with("species,x,y,residual\nquaking_aspen,"), "{dots}");
@@ -26,6 +28,7 @@ fn the_fifteen_are_laid_out() {
     );
     let svg = std::fs::read_to_string(dir.path("m/map.svg")).unwrap();
     assert!(svg.contains(">weeping willow</text>"));
+    assert!(svg.contains(">15 species, on two axes that show 33 % of how they differ</text>"), "{svg}");
     for (name, width, height) in [("map.png", 1500, 1060), ("grid.png", 3 * 136 + 8, 2 * 150 + 8)] {
         let picture = image::open(dir.path("m").join(name)).unwrap();
         assert_eq!((picture.width(), picture.height()), (width, height), "{name}");
@@ -51,6 +54,21 @@ fn the_same_map_on_one_thread_and_on_four() {
     for file in ["map.png", "map.svg", "map.csv", "loadings.csv"] {
         let read = |out: &str| std::fs::read(dir.path(out).join(file)).unwrap();
         assert!(read("one") == read("four"), "{file}");
+    }
+}
+
+#[test]
+fn few_species_have_no_correlations() {
+    let dir = Dir::new();
+    for (names, has_table) in
+        [("acer,palm", false), ("acer,palm,apple,bamboo", false), ("acer,palm,apple,bamboo,small_pine", true)]
+    {
+        let printed = dir.run(["map", "--only", names, "-o", "m"]).ok();
+        assert_eq!(printed.contains("height to width"), has_table, "{names}\n{printed}");
+        assert!(!printed.contains("1.00"), "{names}\n{printed}");
+        assert!(printed.contains("100.0 %"), "{printed}");
+        let report = dir.run(["map", "--only", names, "-o", "m", "--json"]).json();
+        assert_eq!(report["traits"].as_object().unwrap().len(), if has_table { 5 } else { 0 });
     }
 }
 
@@ -82,7 +100,10 @@ fn maps_that_cannot_be() {
     dir.run(["map", "--only", "palm,quaking_aspn", "--out", "m"]).fails(1, &["did you mean `quaking_aspen`"]);
     dir.run(["map", "--grid", "9by9", "--out", "m"]).fails(2, &["9x9"]);
     dir.run(["map", "--grid", "0x9", "--out", "m"]).fails(2, &["9x9"]);
-    dir.run(["map", "--traits", "inc", "--out", "m"]).fails(2, &["inc", "ink"]);
+    dir.run(["map", "--traits", "inc", "--out", "m"]).fails(2, &["inc", "did you mean `ink`? Known are"]);
+    dir.run(["map", "--traits", "foo", "--out", "m"]).fails(2, &["called `foo`. Known are height_to_width"]);
+    dir.run(["map", "-o", "-"]).fails(2, &["several files", "standard output", "folder"]);
+    assert!(!dir.path("-").exists());
     dir.run(["map", "--species", "nowhere", "--out", "m"]).fails(1, &["nowhere"]);
     std::fs::create_dir(dir.path("empty")).unwrap();
     dir.run(["map", "--species", "empty", "--out", "m"]).fails(1, &["empty", ".toml"]);
@@ -98,5 +119,6 @@ fn maps_that_cannot_be() {
         .fails(1, &["same parameters"]);
     // The same name twice cannot be told apart.
     let again = species_file(&dir, "palm", |t| t);
-    dir.run(["map", "--species", &again, "--out", "m"]).fails(1, &["two species are called `palm`"]);
+    dir.run(["map", "--species", &again, "--out", "m"])
+        .fails(1, &["two species are called `palm`", "`name`"]);
 }

@@ -57,6 +57,33 @@ fn seasons_change_the_picture() {
 }
 
 #[test]
+fn looks_belong_to_the_file_and_not_to_its_name() {
+    let dir = Dir::new();
+    let birch = dir.run(["species", "silver_birch"]).ok();
+    assert!(birch.contains("[appearance]\nbark = \"#d9d6cc\"\nbark_pattern = \"banded\""), "{birch}");
+    let picture = |name: &str, text: String| {
+        let _ = dir.file(&format!("{name}.toml"), text);
+        let out = format!("{name}.png");
+        let _ = dir.run(["render", &format!("{name}.toml"), "--size", "64", "-o", &out]).ok();
+        std::fs::read(dir.path(&out)).unwrap()
+    };
+    let renamed =
+        |text: &str, name: &str| text.replace("name = \"silver_birch\"", &format!("name = \"{name}\""));
+    let silent = birch.split("\n[appearance]").next().unwrap();
+    let itself = picture("itself", birch.clone());
+    assert!(itself == picture("renamed", renamed(&birch, "mybirch")), "the name changes nothing");
+    let plain = picture("plain", renamed(silent, "mybirch"));
+    assert!(itself != plain, "the table does");
+    assert!(plain == picture("plain_palm", renamed(silent, "palm")), "no name has colours");
+    let bad = birch.replace("banded", "bandd") + "evergreen = 1\n";
+    let _ = dir.file("bad.toml", bad);
+    dir.run(["render", "bad.toml"])
+        .fails(1, &["did you mean `banded`?", "`appearance.evergreen` is a number, expected true or false"]);
+    let _ = dir.file("top.toml", format!("season = \"autumn\"\n{silent}"));
+    dir.run(["render", "top.toml"]).fails(1, &["top.toml:1:1", "did you mean `appearance.season`?"]);
+}
+
+#[test]
 fn the_gallery_is_one_sheet_of_fifteen_species_twice() {
     let dir = Dir::new();
     let _ = dir.run(["render", "--gallery", "--size", "24", "-o", "sheet.png"]).ok();

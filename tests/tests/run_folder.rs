@@ -318,7 +318,9 @@ fn closed_or_full_output_ends_no_worse() {
     let dir = Dir::new();
     goals(&dir);
     let program = pleach_tests::program().display().to_string();
-    for (out, redirect, code) in [("closed", "| true", 0), ("full", "> /dev/full", 1), ("none", ">&- 2>&-", 1)] {
+    for (out, redirect, code) in
+        [("closed", "| true", 0), ("full", "> /dev/full", 1), ("none", ">&- 2>&-", 1)]
+    {
         let args = fit("acer.png", &["--evaluations", "30", "--out", out]).join(" ");
         let script = format!("{program} {args} {redirect}");
         let run = std::process::Command::new("sh")
@@ -353,7 +355,8 @@ fn a_finished_fit_can_be_continued() {
     run("parts", &["--continue", "--resume"]).fails(2, &["--continue"]);
     assert!(result(&dir.path("parts")) == result(&dir.path("whole")));
     std::fs::remove_file(dir.path("parts/search-state")).unwrap();
-    run("parts", &["--evaluations", "40", "--continue"]).fails(1, &["search-state", "--from parts/best.toml"]);
+    run("parts", &["--evaluations", "40", "--continue"])
+        .fails(1, &["search-state", "--from parts/best.toml"]);
 }
 
 /// Interrupted while it is continued, the finished fit stands, and the same command goes on.

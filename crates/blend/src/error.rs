@@ -1,5 +1,7 @@
 //! Why there is no map or no blend.
 
+use crate::plane::readable;
+
 /// Why there is no map or no blend.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BlendError {
@@ -32,7 +34,7 @@ pub enum BlendError {
         second: String,
     },
     /// Two species have one name.
-    #[error("two species are called `{name}`")]
+    #[error("two species are called `{name}`: one of them needs another `name` in its file")]
     SameName {
         /// The name.
         name: String,
@@ -54,7 +56,7 @@ pub enum BlendError {
         found: usize,
     },
     /// A weight below zero, infinite or not a number.
-    #[error("the weight of `{name}` is {value}, expected a finite number of 0 or more")]
+    #[error("the weight of `{name}` is {}, expected a finite number of 0 or more", readable(*value))]
     BadWeight {
         /// The species.
         name: String,
@@ -65,13 +67,16 @@ pub enum BlendError {
     #[error("all weights are 0, expected at least one above")]
     NoWeight,
     /// A place between two species that is not between them.
-    #[error("{at} is not between the two species, expected a number from 0 (the first) to 1 (the second)")]
+    #[error(
+        "{} is not between the two species, expected a number from 0 (the first) to 1 (the second)",
+        readable(*at)
+    )]
     NotBetween {
         /// What was asked for.
         at: f64,
     },
     /// A point that is nowhere.
-    #[error("({x}, {y}) is no point of the plane")]
+    #[error("({}, {}) is not a point of the plane", readable(*x), readable(*y))]
     NowherePoint {
         /// First coordinate.
         x: f64,

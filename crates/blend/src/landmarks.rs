@@ -2,6 +2,7 @@
 
 use crate::coding::{Code, Coding, Features};
 use crate::error::BlendError;
+use pleach_tree::species::Appearance;
 use pleach_tree::{CheckedParams, Kind, ParamSpace, Species};
 
 /// How much of each landmark is in a blend: 0 or more each, 1 together.
@@ -257,16 +258,19 @@ impl Landmarks {
         params
     }
 
-    /// A species called `name` with these parameters: everything beside the numbers is that of the
-    /// landmark with the largest weight.
+    /// A species called `name` with these parameters, and an appearance
+    /// [blended](pleach_tree::species::Appearance::blend) by the weights: everything else beside the
+    /// numbers is that of the landmark with the largest weight.
     #[must_use]
     pub fn species_of(&self, weights: &Weights, params: CheckedParams, name: &str) -> Species {
         let nearest = &self.species[weights.dominant()];
+        let looks: Vec<_> = weights.present().map(|(l, w)| (&self.species[l].appearance, w)).collect();
         Species {
             name: name.to_owned(),
             description: self.describe(weights),
             params,
             tree_seed: None,
+            appearance: Appearance::blend(&looks),
             ..nearest.clone()
         }
     }
@@ -345,6 +349,21 @@ mod tests {
             assert_eq!(value(&mix, &two, "rotate[2]"), rotate, "at {at}");
             assert_eq!(value(&mix, &two, "shape"), shape, "at {at}");
         }
+    }
+
+    #[test]
+    fn colours_blend_with_the_numbers() {
+        let two = pair("quaking_aspen", "black_oak");
+        let at = |part: f64| {
+            let weights = two.between(0, 1, part).unwrap();
+            two.species_of(&weights, two.mix(&weights), "mix").appearance
+        };
+        assert_eq!(at(0.0), two.species()[0].appearance);
+        assert_eq!(at(1.0), two.species()[1].appearance);
+        let light = |part: f64| at(part).bark.map(|colour| colour.0[1]).unwrap();
+        assert!(light(0.0) > light(0.25) && light(0.25) > light(0.75) && light(0.75) > light(1.0));
+        assert_eq!(at(0.4).bark_pattern, two.species()[0].appearance.bark_pattern);
+        assert_eq!(at(0.6).bark_pattern, two.species()[1].appearance.bark_pattern);
     }
 
     #[test]

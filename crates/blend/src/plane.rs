@@ -194,6 +194,17 @@ impl Hull {
     }
 }
 
+/// A number as people write it: no row of zeros however large or small it is.
+#[must_use]
+pub fn readable(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !size.is_finite() || (1e-6..1e9).contains(&size) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -201,6 +212,12 @@ mod tests {
 
     fn p(x: f64, y: f64) -> Point {
         Point { x, y }
+    }
+
+    #[test]
+    fn huge_numbers_are_short() {
+        assert_eq!([2.0, -0.25, 1e300, -2.5e-40].map(readable), ["2", "-0.25", "1e300", "-2.5e-40"]);
+        assert_eq!(readable(f64::NAN), "NaN");
     }
 
     #[test]

@@ -32,6 +32,14 @@ pub enum RegistryError {
         /// The nearest known name, or the species file that lacks only its ending.
         nearest: Option<String>,
     },
+    /// A word that several species have in their names.
+    #[error("`{name}` may be {}: say which", known.join(" or "))]
+    Ambiguous {
+        /// What was asked for.
+        name: String,
+        /// The names that hold it.
+        known: Vec<&'static str>,
+    },
     /// The file cannot be read.
     #[error("cannot read the species file {}: {source}", path.display())]
     Unreadable {
@@ -70,7 +78,19 @@ pub fn preset(name: &str) -> Option<Species> {
     read_text(name, text).ok()
 }
 
-/// A species by name or by file: a known name wins, unless it has a path's look.
+/// The names of known species that `name` may stand for: a name stands for itself, and a whole word of a
+/// name, such as `aspen`, for every name that holds it.
+#[must_use]
+pub fn names_like(name: &str) -> Vec<&'static str> {
+    let names = names();
+    names.iter().find(|known| **known == name).map_or_else(
+        || names.iter().copied().filter(|known| pleach_tree::param::is_word_of(name, known)).collect(),
+        |known| vec![*known],
+    )
+}
+
+/// A species by name or by file: a known name wins, then a file, then a word that only one known name
+/// holds ([`names_like`]).
 ///
 /// # Errors
 /// See [`RegistryError`].
@@ -82,6 +102,16 @@ pub fn species(name_or_path: &str) -> Result<Species, RegistryError> {
     let looks_like_a_path = name_or_path.contains(['/', '\\']) || path.extension().is_some();
     if path.exists() || looks_like_a_path {
         return read_file(path);
+    }
+    let known = names_like(name_or_path);
+    match known.as_slice() {
+        [only] => {
+            if let Some(species) = preset(only) {
+                return Ok(species);
+            }
+        }
+        [] => {}
+        _ => return Err(RegistryError::Ambiguous { name: name_or_path.to_owned(), known }),
     }
     let with_ending = format!("{name_or_path}.toml");
     let nearest = if Path::new(&with_ending).is_file() {
@@ -111,4 +141,19 @@ pub fn read_text(origin: &str, text: &str) -> Result<Species, SpeciesError> {
         return Err(wrong(doc.issue(span, "generator", problem)));
     };
     family.read(&doc)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_of_a_name_will_do_where_it_is_clear() {
+        assert_eq!(species("aspen").unwrap().name, "quaking_aspen");
+        assert_eq!(species("palm").unwrap().name, "palm", "and not the fan palm");
+        let error = species("oak").unwrap_err().to_string();
+        assert!(error.contains("`oak` may be black_oak or cambridge_oak"), "{error}");
+        assert!(matches!(species("as"), Err(RegistryError::Unknown { .. })));
+        assert!(matches!(species("aspen.toml"), Err(RegistryError::Unreadable { .. })), "a path is a path");
+    }
 }

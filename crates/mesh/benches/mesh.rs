@@ -17,7 +17,7 @@ fn meshes(criterion: &mut Criterion) {
         let Ok(tree) = species.grow(1) else { continue };
         let scene = Scene {
             name: name.to_owned(),
-            palette: Palette::of(&species, tree.leaf_shape, None),
+            palette: Palette::of(&species, None),
             extras: serde_json::Value::Null,
             placed: vec![Placed::at_origin(name, 1)],
             rig: None,
@@ -54,7 +54,7 @@ fn pictures(criterion: &mut Criterion) {
     for name in ["acer", "quaking_aspen"] {
         let Some(species) = pleach_generators::preset(name) else { continue };
         let Ok(tree) = species.grow(1) else { continue };
-        let palette = Palette::of(&species, tree.leaf_shape, None);
+        let palette = Palette::of(&species, None);
         let settings = PreviewSettings { width: 512, height: 512, ..PreviewSettings::default() };
         group.bench_function(name, |b| {
             b.iter(|| black_box(Preview::new(&tree, &palette, 512).picture(&settings)));

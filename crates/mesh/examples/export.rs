@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let scene = Scene {
         name: species.name.clone(),
-        palette: Palette::of(&species, tree.leaf_shape, None),
+        palette: Palette::of(&species, None),
         extras: serde_json::json!({"species": species.name, "seed": seed}),
         placed: vec![Placed::at_origin(&species.name, 1)],
         rig: rig.as_ref(),

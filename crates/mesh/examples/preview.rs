@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     {
         let species = pleach_generators::species(name)?;
         let tree = species.grow_with(&Growth { parallel: true, ..Growth::seed(1) })?;
-        let palette = Palette::of(&species, tree.leaf_shape, None);
+        let palette = Palette::of(&species, None);
         let settings = PreviewSettings { width: size, height: size, ..PreviewSettings::default() };
         let picture = Preview::new(&tree, &palette, size).picture(&settings);
         let mut file = std::fs::File::create(format!("{folder}/{name}.png"))?;

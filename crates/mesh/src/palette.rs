@@ -1,23 +1,9 @@
 //! Colours of a species in a season.
 
 use crate::sink::Material;
-use pleach_tree::leaf_shape::LeafShape;
-use pleach_tree::species::{Appearance, Colour, Season};
+pub use pleach_tree::species::BarkPattern;
+use pleach_tree::species::{Colour, Look, Season};
 use pleach_tree::{Species, Tree};
-
-/// How bark is marked in pictures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum BarkPattern {
-    /// Furrows along the stem.
-    #[default]
-    Furrowed,
-    /// Pale, with dark level dashes: birch, aspen, cherry.
-    Banded,
-    /// Rings at even distances: palms, bamboo.
-    Ringed,
-    /// Nearly even.
-    Smooth,
-}
 
 /// The colours that a tree is drawn in, and what it wears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,55 +22,31 @@ pub struct Palette {
     pub blossoms: bool,
 }
 
-/// What is known of a species beside its file.
-struct Looks {
-    bark: u32,
-    pattern: BarkPattern,
-    leaf: u32,
-    autumn: u32,
-    blossom: u32,
-    evergreen: bool,
-}
-
-impl Looks {
-    const fn new(bark: u32, pattern: BarkPattern, leaf: u32, autumn: u32) -> Self {
-        Self { bark, pattern, leaf, autumn, blossom: 0xf4_e3_e6, evergreen: false }
-    }
-
-    const fn evergreen(self) -> Self {
-        Self { evergreen: true, ..self }
-    }
-
-    const fn blossom(self, blossom: u32) -> Self {
-        Self { blossom, ..self }
-    }
-}
-
 impl Palette {
     /// The palette of `species` in `season`; without one, in the season of its file; without that,
     /// in summer's leaves and with whatever blossom the model gives it.
+    ///
+    /// Colours are those of the species' [`Appearance`](pleach_tree::species::Appearance) and of
+    /// nothing else: its name does not matter.
     #[must_use]
-    pub fn of(species: &Species, leaf_shape: LeafShape, season: Option<Season>) -> Self {
-        Self::from_parts(&species.name, leaf_shape, &species.appearance, season)
+    pub fn of(species: &Species, season: Option<Season>) -> Self {
+        Self::in_season(&species.appearance.look(), season)
     }
 
-    fn from_parts(name: &str, shape: LeafShape, said: &Appearance, season: Option<Season>) -> Self {
-        let looks = looks(name, shape);
-        let season = season.or(said.season);
-        let or = |said: Option<Colour>, known: u32| said.unwrap_or_else(|| colour(known));
-        let summer = or(said.leaf, looks.leaf);
+    fn in_season(look: &Look, season: Option<Season>) -> Self {
+        let season = season.or(look.season);
         let leaf = match season {
-            Some(Season::Spring) if !looks.evergreen => mix(summer, colour(0xa8_c6_4e), 0.45),
-            Some(Season::Autumn) if !looks.evergreen => or(said.autumn, looks.autumn),
-            Some(Season::Winter) => mix(summer, colour(0x3d_45_38), 0.25),
-            _ => summer,
+            Some(Season::Spring) if !look.evergreen => mix(look.leaf, YOUNG_LEAF, 0.45),
+            Some(Season::Autumn) => look.autumn,
+            Some(Season::Winter) => mix(look.leaf, WINTER_SHADE, 0.25),
+            _ => look.leaf,
         };
         Self {
-            bark: or(said.bark, looks.bark),
-            pattern: looks.pattern,
+            bark: look.bark,
+            pattern: look.bark_pattern,
             leaf,
-            blossom: or(said.blossom, looks.blossom),
-            leaves: looks.evergreen || season != Some(Season::Winter),
+            blossom: look.blossom,
+            leaves: look.evergreen || season != Some(Season::Winter),
             blossoms: matches!(season, None | Some(Season::Spring)),
         }
     }
@@ -120,9 +82,10 @@ pub fn linear(Colour(channels): Colour) -> [f32; 3] {
     })
 }
 
-const fn colour(hex: u32) -> Colour {
-    Colour([(hex >> 16) as u8, (hex >> 8) as u8, hex as u8])
-}
+/// What spring's leaves are mixed with.
+const YOUNG_LEAF: Colour = Colour::from_hex(0xa8_c6_4e);
+/// What evergreens are mixed with in winter.
+const WINTER_SHADE: Colour = Colour::from_hex(0x3d_45_38);
 
 /// `a` with the part `t` of `b`, channel by channel.
 fn mix(Colour(a): Colour, Colour(b): Colour, t: f32) -> Colour {
@@ -130,39 +93,12 @@ fn mix(Colour(a): Colour, Colour(b): Colour, t: f32) -> Colour {
     Colour([channel(0), channel(1), channel(2)])
 }
 
-/// Chosen by eye from photographs of each species; unknown ones by their leaves.
-fn looks(name: &str, shape: LeafShape) -> Looks {
-    use BarkPattern::{Banded, Furrowed, Ringed, Smooth};
-    match name {
-        "quaking_aspen" => Looks::new(0xb9_b5_a2, Banded, 0x6f_97_3c, 0xe3_b0_2e),
-        "weeping_willow" | "weeping_willow_o" => Looks::new(0x6e_61_4e, Furrowed, 0x7f_9a_45, 0xcf_b2_45),
-        "bamboo" => Looks::new(0x86_9a_45, Ringed, 0x6d_94_3a, 0xc2_b0_55).evergreen(),
-        "palm" => Looks::new(0x8d_7b_62, Ringed, 0x5c_86_35, 0x5c_86_35).evergreen(),
-        "fan_palm" => Looks::new(0x7e_6c_55, Ringed, 0x66_8a_45, 0x66_8a_45).evergreen(),
-        "lombardy_poplar" => Looks::new(0x78_6c_58, Furrowed, 0x5d_85_36, 0xdb_b6_33),
-        "small_pine" => Looks::new(0x7a_56_40, Furrowed, 0x45_68_38, 0x45_68_38).evergreen(),
-        "acer" => Looks::new(0x71_65_57, Smooth, 0x5f_87_34, 0xc8_54_1f),
-        "silver_birch" => Looks::new(0xd9_d6_cc, Banded, 0x74_97_41, 0xe0_b8_38),
-        "douglas_fir" => Looks::new(0x63_4f_3f, Furrowed, 0x3c_5f_38, 0x3c_5f_38).evergreen(),
-        "balsam_fir" => Looks::new(0x6d_65_5b, Smooth, 0x3a_5d_3f, 0x3a_5d_3f).evergreen(),
-        "european_larch" => Looks::new(0x76_5d_4b, Furrowed, 0x78_96_48, 0xd6_9b_2d),
-        "apple" => Looks::new(0x6f_60_50, Smooth, 0x64_8a_3b, 0xc9_a0_36).blossom(0xf7_e9_ec),
-        "hill_cherry" => Looks::new(0x6b_50_46, Banded, 0x76_8f_46, 0xc7_5a_2a).blossom(0xf3_c9_d6),
-        "black_tupelo" => Looks::new(0x5b_52_4a, Furrowed, 0x52_7b_33, 0xb3_33_22),
-        "black_oak" => Looks::new(0x55_4c_43, Furrowed, 0x50_77_31, 0xa8_5a_2a),
-        "cambridge_oak" => Looks::new(0x66_5a_4a, Furrowed, 0x58_7c_33, 0xb3_7a_30),
-        "sassafras" => Looks::new(0x72_5a_45, Furrowed, 0x66_8b_38, 0xd8_7a_28),
-        _ if shape == LeafShape::Linear => Looks::new(0x6d_57_46, Furrowed, 0x4b_6e_3a, 0xc2_9a_3a),
-        _ => Looks::new(0x6b_5c_4c, Furrowed, 0x5c_83_36, 0xd0_96_2c),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn palette(name: &str, season: Option<Season>) -> Palette {
-        Palette::of(&pleach_generators::preset(name).unwrap(), LeafShape::Elliptic, season)
+        Palette::of(&pleach_generators::preset(name).unwrap(), season)
     }
 
     #[test]
@@ -173,19 +109,38 @@ mod tests {
     }
 
     #[test]
-    fn seasons_change_leaves_and_files_have_the_last_word() {
+    fn seasons_change_leaves_and_arguments_have_the_last_word() {
         let [summer, autumn] = [None, Some(Season::Autumn)].map(|s| palette("acer", s).leaf);
         assert_ne!(summer, autumn);
+        let mut species = pleach_generators::preset("acer").unwrap();
         let red = Colour([255, 0, 0]);
-        let said = Appearance { autumn: Some(red), season: Some(Season::Autumn), ..Appearance::default() };
-        assert_eq!(Palette::from_parts("acer", LeafShape::Maple, &said, None).leaf, red);
-        let spring = Palette::from_parts("acer", LeafShape::Maple, &said, Some(Season::Spring));
-        assert_ne!(spring.leaf, red, "an argument wins over the file");
+        species.appearance.autumn = Some(red);
+        species.appearance.season = Some(Season::Autumn);
+        assert_eq!(Palette::of(&species, None).leaf, red);
+        assert_ne!(Palette::of(&species, Some(Season::Spring)).leaf, red, "an argument wins over the file");
+        species.appearance.evergreen = Some(true);
+        assert_eq!(Palette::of(&species, None).leaf, summer, "an evergreen does not turn");
+    }
+
+    #[test]
+    fn a_name_has_no_colours() {
+        for name in pleach_generators::names() {
+            let species = pleach_generators::preset(name).unwrap();
+            let renamed = Species { name: "mine".to_owned(), ..species.clone() };
+            assert_eq!(Palette::of(&renamed, None), Palette::of(&species, None), "{name}");
+            let appearance = pleach_tree::species::Appearance::default();
+            let silent = Palette::of(&Species { appearance, ..species.clone() }, None);
+            assert_eq!(silent, Palette::in_season(&Look::PLAIN, None), "{name}");
+            assert!(species.appearance.bark.is_some() && species.appearance.bark_pattern.is_some(), "{name}");
+            assert!(species.appearance.leaf.is_some(), "{name}");
+        }
+        let birch = palette("silver_birch", None);
+        assert_eq!((birch.bark, birch.pattern), (Colour::from_hex(0xd9_d6_cc), BarkPattern::Banded));
     }
 
     #[test]
     fn middle_grey_is_a_fifth_of_the_light() {
-        assert!((linear(colour(0x80_80_80))[0] - 0.216).abs() < 1e-3);
-        assert_eq!(linear(colour(0xff_ff_ff)), [1.0; 3]);
+        assert!((linear(Colour([0x80; 3]))[0] - 0.216).abs() < 1e-3);
+        assert_eq!(linear(Colour([0xff; 3])), [1.0; 3]);
     }
 }

@@ -10,7 +10,7 @@ use pleach_tree::species::{Colour, Season};
 fn preview(name: &str, season: Option<Season>) -> Preview {
     let species = pleach_generators::preset(name).unwrap();
     let mut tree = species.grow(1).unwrap();
-    let palette = Palette::of(&species, tree.leaf_shape, season);
+    let palette = Palette::of(&species, season);
     palette.dress(&mut tree);
     Preview::new(&tree, &palette, 96)
 }
@@ -100,7 +100,7 @@ fn a_turn_table_keeps_the_tree_inside_and_nothing_is_no_panic() {
         assert!(edge.into_iter().all(|(x, y)| picture.rgba[(y * 96 + x) * 4 + 3] == 0), "turn {i}");
     }
     let species = pleach_generators::preset("acer").unwrap();
-    let palette = Palette::of(&species, Tree::default().leaf_shape, None);
+    let palette = Palette::of(&species, None);
     let nothing = Preview::new(&Tree::default(), &palette, 96).picture(&small());
     assert!(nothing.rgba.iter().all(|b| *b == 0));
 }

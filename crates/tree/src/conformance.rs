@@ -87,6 +87,11 @@ pub fn check(species: &Species, reread: impl Fn(&SpeciesDoc) -> Species) {
     let doc = SpeciesDoc::parse("again.toml", &text).unwrap_or_else(|e| panic!("{name} parses: {e}"));
     let again = reread(&doc);
     assert_eq!(species.params, again.params, "{name}: parameters survive the file");
+    assert_eq!(species.appearance, again.appearance, "{name}: its looks survive the file");
+    for group in species.generator.space().groups() {
+        let headings = text.lines().filter(|line| line.strip_prefix("# ") == Some(group)).count();
+        assert_eq!(headings, 1, "{name}: one heading for {group}");
+    }
     assert!(Ok(tree) == again.grow(7), "{name}: the file grows the same tree");
 
     // Slots that are not read change nothing that is there.

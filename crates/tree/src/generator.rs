@@ -2,7 +2,7 @@
 
 use crate::param::{CheckedParams, ParamSpace, Unit};
 use crate::plant::Tree;
-use crate::species::{Species, SpeciesDoc, SpeciesError};
+use crate::species::{Key, Species, SpeciesDoc, SpeciesError};
 use std::any::Any;
 use std::fmt;
 
@@ -255,6 +255,12 @@ pub trait Family: Send + Sync + fmt::Debug {
 
     /// One line of what it grows.
     fn summary(&self) -> &'static str;
+
+    /// The keys of its species files beside parameters and [what all files may
+    /// say](crate::species::KEYS); none unless a family has some.
+    fn keys(&self) -> &'static [Key] {
+        &[]
+    }
 
     /// Builds generator and checked numbers from a parsed species file.
     ///

@@ -2,13 +2,26 @@
 
 use crate::generator::WeberPenn;
 use crate::params::space;
-use crate::solid::{Solid, Surroundings};
-use pleach_tree::species::{Appearance, Issue};
+use crate::solid::{SHAPES, Solid, Surroundings};
+use pleach_tree::species::{Appearance, Form, Issue, Key};
 use pleach_tree::{Family, Species, SpeciesDoc, SpeciesError};
 use std::sync::Arc;
 
 /// Keys of a species file beside parameters.
-const EXTRA_KEYS: [&str; 2] = ["prune_inside", "prune_obstacles"];
+const KEYS: &[Key] = &[
+    Key {
+        name: "prune_inside",
+        form: Form::Shapes(SHAPES),
+        default: "the envelope",
+        doc: "solids that stems are pruned to stay in, instead of the envelope; [] for no bound",
+    },
+    Key {
+        name: "prune_obstacles",
+        form: Form::Shapes(SHAPES),
+        default: "[]",
+        doc: "solids that stems are pruned to stay out of",
+    },
+];
 
 /// Reads Weber–Penn species files.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,8 +36,12 @@ impl Family for WeberPennFamily {
         "parametric trees of Weber and Penn (1995), extended by Hewitt (2017)"
     }
 
+    fn keys(&self) -> &'static [Key] {
+        KEYS
+    }
+
     fn read(&self, doc: &SpeciesDoc) -> Result<Species, SpeciesError> {
-        let (values, mut issues) = doc.read(space(), &EXTRA_KEYS);
+        let (values, mut issues) = doc.read(space(), KEYS);
         let inside = Solid::read_list(doc, "prune_inside", &mut issues);
         let obstacles = Solid::read_list(doc, "prune_obstacles", &mut issues).unwrap_or_default();
         let mut text = |read: Result<Option<&str>, Issue>| match read {

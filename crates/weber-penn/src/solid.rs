@@ -5,11 +5,39 @@
 
 use glam::DVec3;
 use pleach_tree::param::Problem;
-use pleach_tree::species::{Entry, Issue, Node, SpeciesDoc, Value};
+use pleach_tree::species::{Entry, Form, Issue, Key, Node, Shape, SpeciesDoc, Value};
 use std::fmt::Write as _;
 
-/// Largest coordinate and size of a solid, in metres.
-const FARTHEST: f64 = 1e6;
+/// Largest coordinate, radius and height in metres.
+const MAX_SIZE: f64 = 1e6;
+
+const fn point(name: &'static str, doc: &'static str) -> Key {
+    Key { name, form: Form::Point, default: "has to be given", doc }
+}
+
+const fn size(name: &'static str, doc: &'static str) -> Key {
+    Key { name, form: Form::Length { max: MAX_SIZE }, default: "has to be given", doc }
+}
+
+/// The solids as they stand in files.
+pub(crate) const SHAPES: &[Shape] = &[
+    Shape { name: "sphere", keys: &[point("center", "its middle"), size("radius", "its radius")] },
+    Shape {
+        name: "cylinder",
+        keys: &[
+            point("center", "the middle of its foot"),
+            size("radius", "its radius"),
+            size("height", "its height above the foot"),
+        ],
+    },
+    Shape {
+        name: "box",
+        keys: &[
+            point("min", "its corner with the smallest coordinates"),
+            point("max", "its corner with the largest coordinates"),
+        ],
+    },
+];
 
 /// A solid, fixed in the world. Metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,11 +101,6 @@ impl Solid {
     }
 
     fn read(doc: &SpeciesDoc, name: &str, node: &Node) -> Result<Self, Issue> {
-        const SHAPES: [(&str, &[&str]); 3] = [
-            ("sphere", &["center", "radius"]),
-            ("cylinder", &["center", "radius", "height"]),
-            ("box", &["min", "max"]),
-        ];
         let Value::Table(entries) = &node.value else {
             let problem =
                 Problem::WrongType { expected: "a table with a shape", found: node.value.type_name() };
@@ -90,26 +113,27 @@ impl Solid {
             })
         };
         let shape = doc.text_of(&format!("{name}.shape"), get("shape")?)?;
-        let Some((_, keys)) = SHAPES.iter().find(|(known, _)| *known == shape) else {
+        let Some(Shape { keys, .. }) = SHAPES.iter().find(|known| known.name == shape) else {
             let problem = Problem::UnknownChoice {
                 value: shape.to_owned(),
-                known: SHAPES.iter().map(|(known, _)| (*known).to_owned()).collect(),
+                known: SHAPES.iter().map(|known| known.name.to_owned()).collect(),
                 nearest: None,
             };
             return Err(doc.issue(get("shape")?.span.clone(), &format!("{name}.shape"), problem));
         };
-        let stray = |e: &&Entry| e.key != "shape" && !keys.contains(&e.key.as_str());
+        let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
+        let stray = |e: &&Entry| e.key != "shape" && !names.contains(&e.key.as_str());
         if let Some(entry) = entries.iter().find(stray) {
-            let problem = Problem::Conflict { message: format!("a {shape} has {}", keys.join(", ")) };
+            let problem = Problem::Conflict { message: format!("a {shape} has {}", names.join(", ")) };
             return Err(doc.issue(entry.span.clone(), &format!("{name}.{}", entry.key), problem));
         }
         let point = |key: &str| {
             let node = get(key)?;
             let full = format!("{name}.{key}");
             let point = DVec3::from(doc.vector_of(&full, node)?);
-            let far = point.to_array().into_iter().find(|value| value.abs() > FARTHEST);
+            let far = point.to_array().into_iter().find(|value| value.abs() > MAX_SIZE);
             far.map_or(Ok(point), |value| {
-                let problem = Problem::OutOfRange { value, min: -FARTHEST, max: FARTHEST };
+                let problem = Problem::OutOfRange { value, min: -MAX_SIZE, max: MAX_SIZE };
                 Err(doc.issue(node.span.clone(), &full, problem))
             })
         };
@@ -117,13 +141,13 @@ impl Solid {
             let node = get(key)?;
             let full = format!("{name}.{key}");
             let value = doc.number_of(&full, node)?;
-            if (0.0..=FARTHEST).contains(&value) {
+            if (0.0..=MAX_SIZE).contains(&value) {
                 Ok(value)
             } else {
                 Err(doc.issue(
                     node.span.clone(),
                     &full,
-                    Problem::OutOfRange { value, min: 0.0, max: FARTHEST },
+                    Problem::OutOfRange { value, min: 0.0, max: MAX_SIZE },
                 ))
             }
         };

@@ -1,5 +1,7 @@
 //! Lines on a grid of samples: of equal value, and between unlike neighbours.
 
+use std::collections::BTreeMap;
+
 /// Samples on a grid, row by row; `None` where there is nothing to sample.
 #[derive(Clone, Debug)]
 pub(super) struct Grid<T> {
@@ -77,9 +79,114 @@ pub(super) fn boundaries<T>(grid: &Grid<T>, weight: impl Fn(&T, &T) -> f64) -> V
     pieces
 }
 
+/// The same samples with `times` as many columns and rows between them, on smooth curves through them
+/// (Catmull and Rom's, straight on where a sample is missing). Corners of iso-lines then are not seen.
+pub(super) fn refined(grid: &Grid<f64>, times: usize) -> Grid<f64> {
+    let rows = grid.cells.len() / grid.columns;
+    let (columns, fine_rows) = ((grid.columns - 1) * times + 1, (rows.max(1) - 1) * times + 1);
+    let place = |fine: usize, count: usize| {
+        let whole = (fine / times).min(count.saturating_sub(2));
+        (whole, (fine - whole * times) as f64 / times as f64)
+    };
+    let cells = (0..fine_rows * columns).map(|i| {
+        let (column, across) = place(i % columns, grid.columns);
+        let (row, down) = place(i / columns, rows);
+        let along = |row: Option<usize>| {
+            let row = row.filter(|row| *row < rows)?;
+            let at = |column: Option<usize>| {
+                column.filter(|c| *c < grid.columns).and_then(|c| grid.at(c, row).copied())
+            };
+            curve(column.checked_sub(1), Some(column), Some(column + 1), Some(column + 2), at, across)
+        };
+        curve(row.checked_sub(1), Some(row), Some(row + 1), Some(row + 2), along, down)
+    });
+    let cells = cells.collect();
+    Grid { columns, cells }
+}
+
+/// The value at `part` of the way from the second to the third of four neighbours. On one of the two it
+/// is the sample itself, whatever is missing around it.
+fn curve<T>(before: T, from: T, to: T, after: T, at: impl Fn(T) -> Option<f64>, part: f64) -> Option<f64> {
+    if part == 0.0 {
+        return at(from);
+    }
+    if part == 1.0 {
+        return at(to);
+    }
+    let (b, c) = (at(from)?, at(to)?);
+    let (a, d) = (at(before).unwrap_or(2.0 * b - c), at(after).unwrap_or(2.0 * c - b));
+    let (slope, bend, twist) = (c - a, 2.0 * a - 5.0 * b + 4.0 * c - d, 3.0 * (b - c) + d - a);
+    Some(b + 0.5 * part * (slope + part * (bend + part * twist)))
+}
+
+/// Pieces that meet, as lines through many points.
+pub(super) fn joined(pieces: &[Piece]) -> Vec<Vec<(f64, f64)>> {
+    // Neighbouring squares compute the point that they share from either side.
+    let key = |p: (f64, f64)| ((p.0 * 1e6).round() as i64, (p.1 * 1e6).round() as i64);
+    let mut meeting: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+    for (i, piece) in pieces.iter().enumerate() {
+        piece.iter().for_each(|&end| meeting.entry(key(end)).or_default().push(i));
+    }
+    let mut taken = vec![false; pieces.len()];
+    let follow = |line: &mut Vec<(f64, f64)>, taken: &mut Vec<bool>| {
+        while let Some(&end) = line.last() {
+            let Some(&next) = meeting[&key(end)].iter().find(|&&i| !taken[i]) else { break };
+            taken[next] = true;
+            let [a, b] = pieces[next];
+            line.push(if key(a) == key(end) { b } else { a });
+        }
+    };
+    let mut lines = Vec::new();
+    for i in 0..pieces.len() {
+        if std::mem::replace(&mut taken[i], true) {
+            continue;
+        }
+        let mut line = pieces[i].to_vec();
+        follow(&mut line, &mut taken);
+        line.reverse();
+        follow(&mut line, &mut taken);
+        lines.push(line);
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pieces_that_meet_are_one_line() {
+        let p = |x: f64| (x, 1.0);
+        let lines = joined(&[[p(1.0), p(2.0)], [p(5.0), p(6.0)], [p(3.0), p(2.0)], [p(0.0), p(1.0)]]);
+        assert_eq!(lines, [vec![p(3.0), p(2.0), p(1.0), p(0.0)], vec![p(5.0), p(6.0)]]);
+        // A ring ends where it begins.
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)];
+        let ring: Vec<Piece> = (0..3).map(|i| [corners[i], corners[(i + 1) % 3]]).collect();
+        let lines = joined(&ring);
+        assert_eq!((lines.len(), lines[0].len(), lines[0][0]), (1, 4, lines[0][3]));
+    }
+
+    #[test]
+    fn a_refined_grid_keeps_its_samples_and_bends_between_them() {
+        let sample = |x: f64, y: f64| x * x + 3.0 * y;
+        let mut cells: Vec<Option<f64>> =
+            (0..30).map(|i| Some(sample(f64::from(i % 6), f64::from(i / 6)))).collect();
+        let fine = refined(&Grid { columns: 6, cells: cells.clone() }, 4);
+        assert_eq!((fine.columns, fine.cells.len()), (21, 21 * 17));
+        for (i, cell) in cells.iter().enumerate() {
+            assert_eq!(fine.at(4 * (i % 6), 4 * (i / 6)).copied(), *cell, "{i}");
+        }
+        // A parabola's middle is no mean of its ends: Catmull and Rom's curve hits it.
+        let middle = *fine.at(10, 6).unwrap();
+        assert!((middle - sample(2.5, 1.5)).abs() < 1e-12, "{middle}");
+        // What is missing stays missing, and nothing else does.
+        cells[8] = None;
+        let fine = refined(&Grid { columns: 6, cells }, 4);
+        assert!(fine.at(8, 4).is_none() && fine.at(9, 4).is_none() && fine.at(8, 5).is_none());
+        assert!(fine.at(4, 4).is_some() && fine.at(12, 4).is_some() && fine.at(14, 9).is_some());
+        let pieces = isoline(&fine, 6.2);
+        assert!(pieces.len() > 20, "{}", pieces.len());
+    }
 
     #[test]
     fn an_isoline_of_a_slope_is_straight() {

@@ -48,6 +48,8 @@ const HEAD: f64 = 76.0;
 const SWITCH_COLUMNS: usize = 240;
 /// Samples of the plane across, for iso-lines of traits.
 const TRAIT_COLUMNS: usize = 21;
+/// Each piece between two samples of a trait becomes so many, on a smooth curve, for its iso-lines.
+const REFINED: usize = 6;
 
 const INK: Colour = Colour::opaque([40, 40, 40]);
 const GREY: Colour = Colour::opaque([110, 110, 110]);
@@ -276,21 +278,19 @@ fn isolines(map: &BlendMap, sheet: &Sheet, field: &TraitField, rgb: [u8; 3], sce
     let colour = Colour::opaque(rgb);
     let known = field.values.iter().flatten();
     let (low, high) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
-    let step_x = (sheet.high.x - sheet.low.x) / (TRAIT_COLUMNS - 1) as f64;
+    let grid = contour::refined(&Grid { columns: TRAIT_COLUMNS, cells: field.values.clone() }, REFINED);
+    let step_x = (sheet.high.x - sheet.low.x) / (grid.columns - 1) as f64;
     let back = |p: (f64, f64)| Point { x: sheet.low.x + p.0 * step_x, y: sheet.high.y - p.1 * step_x };
-    let grid = Grid { columns: TRAIT_COLUMNS, cells: field.values.clone() };
     let step = round_step((high - low) / 6.0);
     let mut level = (low / step).ceil() * step;
     while low < high && level < high {
+        let mut pieces = contour::isoline(&grid, level);
+        pieces.retain(|[a, b]| map.hull().nearest(back(*a).towards(back(*b), 0.5)).distance == 0.0);
         let mut labelled: Option<(f64, f64)> = None;
-        for [a, b] in contour::isoline(&grid, level) {
-            let (p, q) = (back(a), back(b));
-            if map.hull().nearest(p.towards(q, 0.5)).distance > 0.0 {
-                continue;
-            }
-            let (p, q) = (sheet.at(p), sheet.at(q));
-            scene.add(Shape::Line { points: vec![p, q], colour, width: 2.0, dash: None });
-            labelled = labelled.or(Some(p));
+        for line in contour::joined(&pieces) {
+            let points: Vec<(f64, f64)> = line.into_iter().map(|p| sheet.at(back(p))).collect();
+            labelled = labelled.or(points.first().copied());
+            scene.add(Shape::Line { points, colour, width: 2.0, dash: None });
         }
         if let Some(at) = labelled {
             let number = format!("{}", (level * 1e6).round() / 1e6);
@@ -349,13 +349,23 @@ fn species(map: &BlendMap, sheet: &Sheet, thumbnails: &[Bitmap], scene: &mut Sce
     }
 }
 
+/// What is seen, and how much of it: two axes seldom hold all that species differ by.
+fn title(map: &BlendMap) -> String {
+    let count = map.dots().len();
+    if map.is_by_components() {
+        let shown: f64 = map.pca().explained().iter().take(2).sum();
+        format!("{count} species, on two axes that show {:.0} % of how they differ", 100.0 * shown)
+    } else {
+        format!("{count} species, laid out by how alike they look")
+    }
+}
+
 /// Title, axes and legend.
 fn frame(map: &BlendMap, sheet: &Sheet, extras: &Extras, scene: &mut Scene) {
     let (left, right, bottom) = (MARGIN, f64::from(WIDTH) - MARGIN, f64::from(HEIGHT) - MARGIN);
     let outline = vec![(left, HEAD), (right, HEAD), (right, bottom), (left, bottom), (left, HEAD)];
     scene.add(Shape::Line { points: outline, colour: GREY, width: 1.0, dash: None });
-    let title = format!("{} species and every tree between them", map.dots().len());
-    scene.add(text(&title, (left, 32.0), 22.0, Anchor::Start, INK));
+    scene.add(text(&title(map), (left, 32.0), 22.0, Anchor::Start, INK));
     let legend = "colours: nearest species   dashed: hull, pale beyond it   grey lines: choices, signs or levels switch";
     scene.add(text(legend, (left, 58.0), 14.0, Anchor::Start, GREY));
     let mut x = right;
@@ -442,6 +452,8 @@ mod tests {
             assert!(svg.contains(&format!(">{}</text>", species.name.replace('_', " "))), "{}", species.name);
         }
         assert!(svg.contains(">here</text>") && svg.contains(">ink</text>"));
+        let shown = 100.0 * map.pca().explained().iter().take(2).sum::<f64>();
+        assert!(svg.contains(&format!("two axes that show {shown:.0} % of how they differ")));
         assert!(scene.to_png().is_some());
     }
 

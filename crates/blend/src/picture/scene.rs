@@ -298,8 +298,22 @@ fn silhouette(bitmap: &Bitmap, x: f64, y: f64) -> String {
     format!("<path transform=\"translate({x} {y})\" fill=\"#141414\" d=\"{runs}\"/>")
 }
 
+/// Text as it may stand in XML: markup escaped, and what XML 1.0 (§2.2) has no place for, such as most
+/// control characters, replaced by U+FFFD.
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\t' | '\n' | '\r' => escaped.push(' '),
+            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => escaped.push(char::REPLACEMENT_CHARACTER),
+            c => escaped.push(c),
+        }
+    }
+    escaped
 }
 
 #[cfg(test)]
@@ -326,6 +340,25 @@ mod tests {
         assert_eq!(at(10, 20), [255, 0, 0]);
         assert_eq!(at(35, 5), [255, 255, 255]);
         assert_eq!((at(40, 10), at(42, 10), at(42, 11)), ([20; 3], [255; 3], [20; 3]));
+    }
+
+    #[test]
+    fn whatever_a_text_holds_the_svg_is_well_formed() {
+        let mut scene = scene();
+        let mut add = |text: String| {
+            let colour = Colour::opaque([0; 3]);
+            scene.add(Shape::Text { text, at: (5.0, 5.0), size: 10.0, anchor: Anchor::Start, colour });
+        };
+        (0..0x300).chain(0xd7f0..0xe010).chain(0xfff0..0x1_0010).filter_map(char::from_u32).for_each(|c| {
+            add(format!("a{c}b"));
+        });
+        add("]]> <!-- &#1; \u{1b}[31m".to_owned());
+        let svg = scene.to_svg();
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        let texts = || document.descendants().filter(|node| node.has_tag_name("text")).map(|n| n.text());
+        assert!(texts().any(|text| text == Some("a\u{fffd}b")));
+        assert!(texts().any(|text| text == Some("]]> <!-- &#1; \u{fffd}[31m")));
+        assert!(texts().all(|text| text.is_some_and(|text| !text.contains('\u{1}'))));
     }
 
     #[test]

@@ -166,7 +166,7 @@ impl MeshArgs {
     pub(crate) fn write(&self, path: &Path, species: &Species, seed: u64, tree: &Tree) -> anyhow::Result<()> {
         let suffix = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         self.check(&suffix)?;
-        let palette = Palette::of(species, tree.leaf_shape, self.season.map(Season::from));
+        let palette = Palette::of(species, self.season.map(Season::from));
         // A winter tree is a copy without leaves; any other is used as it is.
         let dressed;
         let tree =
@@ -286,7 +286,7 @@ impl MeshArgs {
         let mut palette = None;
         for &variant in &used {
             let mut tree = grow(seed + u64::from(variant))?;
-            let colours = Palette::of(species, tree.leaf_shape, season);
+            let colours = Palette::of(species, season);
             colours.dress(&mut tree);
             palette = palette.or(Some(colours));
             trees.push(tree);

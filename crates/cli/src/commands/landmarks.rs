@@ -57,28 +57,13 @@ impl MapArgs {
     /// The map of the chosen species, and of `more` where they are not among them.
     pub(super) fn map(&self, more: &[Species]) -> anyhow::Result<BlendMap> {
         let mut species = self.built_in()?;
-        for path in &self.species {
-            for file in files_of(path)? {
-                match pleach_generators::read_file(&file) {
-                    Ok(read) => species.push(read),
-                    Err(error) if self.keep_going => output::note(format!("left out: {error}")),
-                    Err(error) => {
-                        return Err(error).with_context(|| {
-                            format!("{} is no species; --keep-going leaves it out", file.display())
-                        });
-                    }
-                }
-            }
-        }
+        species.extend(self.own_species()?);
         for one in more {
             if !species.iter().any(|s| s.name == one.name && s.params == one.params) {
                 species.push(one.clone());
             }
         }
-        let features = match self.features {
-            Coding::Declared => Features::Declared,
-            Coding::Raw => Features::Raw,
-        };
+        let features = self.features();
         let dots = match self.layout {
             Layout::Numbers => None,
             Layout::Looks => Some(by_looks(&species)?),
@@ -94,6 +79,52 @@ impl MapArgs {
             }
         }
         Ok(map)
+    }
+
+    /// The species of `--species`.
+    pub(super) fn own_species(&self) -> anyhow::Result<Vec<Species>> {
+        let mut species = Vec::new();
+        for path in &self.species {
+            for file in files_of(path)? {
+                match pleach_generators::read_file(&file) {
+                    Ok(read) => species.push(read),
+                    Err(error) if self.keep_going => output::note(format!("left out: {error}")),
+                    Err(error) => {
+                        return Err(error).with_context(|| {
+                            format!("{} is not a species; --keep-going leaves it out", file.display())
+                        });
+                    }
+                }
+            }
+        }
+        Ok(species)
+    }
+
+    /// How numbers are compared and averaged.
+    pub(super) const fn features(&self) -> Features {
+        match self.features {
+            Coding::Declared => Features::Declared,
+            Coding::Raw => Features::Raw,
+        }
+    }
+
+    /// Refuses options that choose or place the species of a map, where no map is asked for. Shares may
+    /// be of `--species`, and `--all` says what holds for their names anyway.
+    pub(super) fn refuse_without_map(&self, has_shares: bool) -> anyhow::Result<()> {
+        let given = [
+            ("--layout", self.layout != Layout::default()),
+            ("--only", self.only.is_some()),
+            ("--all", self.all && !has_shares),
+            ("--species", !self.species.is_empty() && !has_shares),
+            ("--keep-going", self.keep_going && self.species.is_empty()),
+        ];
+        if let Some((option, _)) = given.iter().find(|(_, given)| *given) {
+            bail!(
+                "{option} is about the map, and this blend is made without one: add --across-the-map, or leave \
+                 {option} out"
+            );
+        }
+        Ok(())
     }
 
     fn built_in(&self) -> anyhow::Result<Vec<Species>> {
@@ -118,6 +149,11 @@ fn by_looks(species: &[Species]) -> anyhow::Result<Vec<Point>> {
         looks::stress(&unlike, &dots)
     ));
     Ok(dots)
+}
+
+/// Whether a path names a folder: it ends in a slash, or there is one.
+pub(super) fn names_folder(path: &Path) -> bool {
+    path.as_os_str().to_string_lossy().ends_with(std::path::is_separator) || path.is_dir()
 }
 
 /// A file itself, or the species files of a folder by name.

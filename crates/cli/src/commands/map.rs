@@ -13,10 +13,10 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
-  pleach map --out map                              the fifteen species: map.png, map.svg, map.csv, loadings.csv
-  pleach map --grid 9x9 --out map                   and grid.png, trees across the plane
-  pleach map --traits bare_trunk,droop --out map    with iso-lines of what a tree looks like
-  pleach map --species my-trees --layout looks --out map
+  pleach map -o map                             the fifteen species
+  pleach map --grid 9x9 -o map                  and grid.png, trees across the plane
+  pleach map --traits bare_trunk,droop -o map   with lines of equal traits
+  pleach map --species my-trees --layout looks -o map
 
 Every point inside the dashed line is a tree; `pleach blend --point X,Y` writes its species file.";
 
@@ -24,8 +24,9 @@ Every point inside the dashed line is a tree; `pleach blend --point X,Y` writes 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Map {
-    /// Folder for what is written
-    #[arg(short, long, value_name = "DIR")]
+    /// Folder for what is written: map.png, map.svg, map.csv (the dots) and loadings.csv (every axis).
+    /// Several files, so `-` for standard output is refused
+    #[arg(short, long, value_name = "DIR", value_parser = folder)]
     out: PathBuf,
     /// Also write grid.png: so many trees across and down the plane
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = grid)]
@@ -46,6 +47,16 @@ pub(crate) struct Map {
     map: MapArgs,
 }
 
+/// Any folder, but not standard output: a map is several files.
+fn folder(text: &str) -> Result<PathBuf, String> {
+    if text == "-" {
+        return Err("a map is several files and cannot go to standard output; name a folder, such as \
+                    `-o map`, or `-o ./-` for one of that name"
+            .to_owned());
+    }
+    Ok(PathBuf::from(text))
+}
+
 /// `9x9`.
 fn grid(text: &str) -> Result<(usize, usize), String> {
     let hint = || format!("`{text}` is no grid, expected COLUMNSxROWS from 1x1 to 40x40, such as 9x9");
@@ -58,10 +69,13 @@ fn trait_named(name: &str) -> Result<Trait, String> {
     Trait::named(name).ok_or_else(|| {
         let names = Trait::ALL.map(Trait::name);
         let hint = pleach_tree::param::nearest(name, names)
-            .map_or_else(String::new, |n| format!(", did you mean `{n}`?"));
+            .map_or_else(|| ".".to_owned(), |n| format!(", did you mean `{n}`?"));
         format!("no trait is called `{name}`{hint} Known are {}", names.join(", "))
     })
 }
+
+/// With fewer species any trait seems to go with an axis: two dots always lie on a line.
+const FEWEST_TO_CORRELATE: usize = 5;
 
 /// Height and width of a thumbnail on the map, and of a tree on a sheet, in pixels.
 const THUMBNAIL: u32 = 92;
@@ -89,7 +103,9 @@ impl Map {
             let sheet = grid_sheet(&map, columns, rows, self.seed)?;
             files::write_whole(&self.out.join("grid.png"), |file| Ok(sheet.write_png(file)?))?;
         }
-        let directions = if self.no_thumbnails { Vec::new() } else { directions(&map, self.seed)? };
+        let enough = map.dots().len() >= FEWEST_TO_CORRELATE;
+        let directions =
+            if self.no_thumbnails || !enough { Vec::new() } else { directions(&map, self.seed)? };
         if self.json {
             output::json(&report_json(&map, &directions))?;
         } else {
@@ -182,18 +198,20 @@ fn directions(map: &BlendMap, seed: u64) -> anyhow::Result<Vec<Direction>> {
 
 fn report(map: &BlendMap, directions: &[Direction]) -> String {
     let explained = map.pca().explained();
-    let mut rows =
-        vec![["axis", "explained", "together", "the parameters that weigh most"].map(str::to_owned).to_vec()];
+    let heading = ["axis", "explained", "together", "the parameters that weigh most"];
+    let mut rows = vec![heading.map(str::to_owned).to_vec()];
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let mut together = 0.0;
-    for (axis, share) in explained.iter().enumerate() {
+    for (axis, share) in explained.iter().enumerate().take(2) {
         together += share;
-        let heavy = if axis < 2 { heaviest(map, axis).join("  ") } else { String::new() };
-        rows.push(vec![
-            (axis + 1).to_string(),
-            format!("{:.1} %", 100.0 * share),
-            format!("{:.1} %", 100.0 * together),
-            heavy,
-        ]);
+        let heavy = heaviest(map, axis).join("  ");
+        rows.push(vec![(axis + 1).to_string(), percent(*share), percent(together), heavy]);
+    }
+    // The picture has two axes; the rest is in loadings.csv and --json.
+    if let Some(rest) = explained.get(2..).filter(|rest| !rest.is_empty()) {
+        let share: f64 = rest.iter().sum();
+        let axes = if rest.len() == 1 { "3".to_owned() } else { format!("3–{}", explained.len()) };
+        rows.push(vec![axes, percent(share), percent(together + share), "not on the map".to_owned()]);
     }
     let explained = output::table(&rows, &[0, 1, 2]);
     if directions.is_empty() {

@@ -1,21 +1,28 @@
-//! `pleach params`: the declared parameters.
+//! `pleach params`: the declared parameters, and what else a species file may say.
 
 use crate::output;
 use anyhow::bail;
 use pleach_tree::param::nearest;
-use pleach_tree::{Kind, Layout, Param};
+use pleach_tree::species::{self, Form, Key};
+use pleach_tree::{Kind, Layout, Param, ParamSpace};
 use serde_json::json;
 
 const EXAMPLES: &str = "Examples:
-  pleach params                 every parameter in a table
+  pleach params                 every parameter by groups, and the other keys
   pleach params down_angle_v    one parameter in full
-  pleach params --json          for programs";
+  pleach params 'length[1]'     one of its numbers
+  pleach params crown           a group of parameters
+  pleach params level:2         what all parameters say of a level
+  pleach params appearance      a table of species files
+  pleach params --json          for programs
 
-/// List the parameters of species files: kind, range, default and meaning
+`pleach fit --free` and `--fix` take the same names, groups and levels.";
+
+/// List what species files may say: parameters by groups, and other keys
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Params {
-    /// One parameter, to be told in full
+    /// A parameter, one number of it such as length[1], a group, level:0 to level:3, or another key of species files
     name: Option<String>,
     /// The generator whose parameters to list
     #[arg(long, value_name = "NAME", default_value = "weber-penn")]
@@ -25,43 +32,186 @@ pub(crate) struct Params {
     json: bool,
 }
 
+/// A key of species files beside the parameters, and the table that it stands in.
+#[derive(Clone, Copy)]
+struct FileKey {
+    table: Option<&'static str>,
+    key: Key,
+}
+
+impl FileKey {
+    fn path(&self) -> String {
+        self.table.map_or_else(|| self.key.name.to_owned(), |table| format!("{table}.{}", self.key.name))
+    }
+}
+
+/// The keys of all species files, then the generator's own; those of a table follow it.
+fn file_keys(own: &[Key]) -> Vec<FileKey> {
+    let mut all = Vec::new();
+    for key in species::KEYS.iter().chain(own) {
+        all.push(FileKey { table: None, key: *key });
+        if let Form::Table(inside) = key.form {
+            all.extend(inside.iter().map(|inner| FileKey { table: Some(key.name), key: *inner }));
+        }
+    }
+    all
+}
+
 impl Params {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
-        let family = pleach_generators::families().iter().find(|f| f.name() == self.generator);
-        let Some(species) =
-            family.and_then(|f| f.presets().first()).and_then(|(name, _)| pleach_generators::preset(name))
+        let families = pleach_generators::families();
+        let family = families.iter().find(|f| f.name() == self.generator);
+        let first = family.and_then(|f| f.presets().first());
+        let (Some(family), Some(species)) =
+            (family, first.and_then(|(name, _)| pleach_generators::preset(name)))
         else {
-            let known: Vec<&str> = pleach_generators::families().iter().map(|f| f.name()).collect();
+            let known: Vec<&str> = families.iter().map(|f| f.name()).collect();
             bail!("unknown generator `{}`, known are {}", self.generator, known.join(", "));
         };
-        let params = species.generator.space().params();
-        if let Some(name) = &self.name {
-            let Some(param) = params.iter().find(|p| p.name == *name) else {
-                let hint = nearest(name, params.iter().map(|p| p.name.as_ref()));
-                bail!(
-                    "unknown parameter `{name}`{}",
-                    hint.map_or_else(String::new, |n| format!(", did you mean `{n}`?"))
-                );
-            };
-            return if self.json { output::json(&as_json(param)) } else { output::line(in_full(param)) };
+        let space = species.generator.space();
+        let keys = file_keys(family.keys());
+        match &self.name {
+            Some(name) => self.one(name, space, &keys),
+            None if self.json => {
+                let params = space.params().iter().map(as_json);
+                output::json(&params.chain(keys.iter().map(key_as_json)).collect::<Vec<_>>())
+            }
+            None => output::line(everything(space, &keys)),
         }
-        if self.json {
-            return output::json(&params.iter().map(as_json).collect::<Vec<_>>());
-        }
-        let heading = ["parameter", "kind", "range", "unit", "default", "meaning"];
-        let mut rows = vec![heading.map(str::to_owned).to_vec()];
-        for param in params {
-            rows.push(vec![
-                format!("{}{}", param.name, layout(param)),
-                param.kind.word().to_owned(),
-                range(param),
-                param.unit.to_string(),
-                numbers(&param.default),
-                param.doc.to_string(),
-            ]);
-        }
-        output::line(output::table(&rows, &[]))
     }
+
+    /// What `name` names: a parameter or a key in full, else a group, a level or one number.
+    fn one(&self, name: &str, space: &ParamSpace, keys: &[FileKey]) -> anyhow::Result<()> {
+        if let Some((_, param)) = space.find(name) {
+            if self.json {
+                return output::json(&as_json(param));
+            }
+            let mut text = in_full(param);
+            if space.of_group(name).next().is_some() {
+                text.push_str(&format!("\n\nThe group of that name:\n{}", group(space, name)));
+            }
+            return output::line(text);
+        }
+        if let Some(key) = keys.iter().find(|key| key.path() == name) {
+            let inside: Vec<&FileKey> = keys.iter().filter(|inner| inner.table == Some(name)).collect();
+            if self.json {
+                let mut value = key_as_json(key);
+                value["keys"] = inside.into_iter().map(key_as_json).collect();
+                return output::json(&value);
+            }
+            return output::line(key_in_full(key, &inside));
+        }
+        match space.select(name) {
+            Ok(slots) => self.slots(name, space, &slots),
+            Err(problem) => {
+                let paths: Vec<String> = keys.iter().map(FileKey::path).collect();
+                let tables = nearest(name, paths.iter().map(String::as_str));
+                // A parameter is meant more often than a key, so a key is named where no parameter is near.
+                match (&problem, tables) {
+                    (pleach_tree::param::Problem::UnknownPattern { nearest: None, .. }, Some(key)) => {
+                        bail!("`{name}`: unknown name, did you mean `{key}`?")
+                    }
+                    _ => bail!("`{name}`: {problem}"),
+                }
+            }
+        }
+    }
+
+    /// Some numbers of some parameters: a group, a level, or one number.
+    fn slots(&self, name: &str, space: &ParamSpace, slots: &[usize]) -> anyhow::Result<()> {
+        let is_group = space.of_group(name).next().is_some();
+        if self.json {
+            let value = |&slot: &usize| slot_as_json(space, slot);
+            let list: Vec<_> = if is_group {
+                space.of_group(name).map(as_json).collect()
+            } else {
+                slots.iter().map(value).collect()
+            };
+            return if let ([only], false) = (list.as_slice(), is_group) {
+                output::json(only)
+            } else {
+                output::json(&list)
+            };
+        }
+        if is_group {
+            return output::line(group(space, name));
+        }
+        if let [only] = slots {
+            return output::line(slot_in_full(space, *only));
+        }
+        let rows = slots.iter().map(|&slot| slot_row(space, slot));
+        output::line(output::table(&heading(&SLOT_HEADING).into_iter().chain(rows).collect::<Vec<_>>(), &[]))
+    }
+}
+
+const HEADING: [&str; 6] = ["parameter", "kind", "range", "unit", "default", "meaning"];
+const SLOT_HEADING: [&str; 6] = ["number", "kind", "range", "default", "searched", "meaning"];
+const KEY_HEADING: [&str; 4] = ["key", "kind", "default", "meaning"];
+
+fn heading(words: &[&str]) -> Vec<Vec<String>> {
+    vec![words.iter().map(|&word| word.to_owned()).collect()]
+}
+
+/// All parameters under the names of their groups, then the other keys.
+fn everything(space: &ParamSpace, keys: &[FileKey]) -> String {
+    let mut rows = heading(&HEADING);
+    let mut groups = Vec::new();
+    for name in space.groups() {
+        for param in space.of_group(name) {
+            rows.push(row(param));
+            groups.push(name);
+        }
+    }
+    // One table, so that the columns of all groups stand below each other.
+    let table = output::table(&rows, &[]);
+    let mut lines = table.lines();
+    let mut text = lines.next().unwrap_or_default().to_owned();
+    let mut last = "";
+    for (line, group) in lines.zip(groups) {
+        if group != last {
+            text.push_str(&format!("\n\n{group}"));
+            last = group;
+        }
+        text.push_str(&format!("\n{line}"));
+    }
+    text.push_str("\n\nother keys of species files\n");
+    text.push_str(&key_table(&keys.iter().collect::<Vec<_>>()));
+    text
+}
+
+fn group(space: &ParamSpace, name: &str) -> String {
+    let rows = heading(&HEADING).into_iter().chain(space.of_group(name).map(row));
+    output::table(&rows.collect::<Vec<_>>(), &[])
+}
+
+fn key_table(keys: &[&FileKey]) -> String {
+    let row = |key: &&FileKey| {
+        [&key.path(), key.key.form.word(), key.key.default, key.key.doc].map(str::to_owned).to_vec()
+    };
+    output::table(&heading(&KEY_HEADING).into_iter().chain(keys.iter().map(row)).collect::<Vec<_>>(), &[])
+}
+
+fn row(param: &Param) -> Vec<String> {
+    vec![
+        format!("{}{}", param.name, layout(param)),
+        param.kind.word().to_owned(),
+        range(param),
+        param.unit.to_string(),
+        numbers(&param.default),
+        param.doc.to_string(),
+    ]
+}
+
+fn slot_row(space: &ParamSpace, slot: usize) -> Vec<String> {
+    let (param, (low, high)) = (space.param_of(slot), space.search_range(slot));
+    vec![
+        space.slot_name(slot),
+        param.kind.word().to_owned(),
+        range(param),
+        param.default[space.slots()[slot].index].to_string(),
+        format!("{low}..{high}"),
+        param.doc.to_string(),
+    ]
 }
 
 const fn layout(param: &Param) -> &'static str {
@@ -83,12 +233,24 @@ fn numbers(values: &[f64]) -> String {
 }
 
 fn in_full(param: &Param) -> String {
-    let mut lines = vec![format!("{}{}: {}", param.name, layout(param), param.doc)];
+    let search: Vec<String> = param.search.iter().map(|(low, high)| format!("{low}..{high}")).collect();
+    let title = format!("{}{}", param.name, layout(param));
+    described(param, &title, numbers(&param.default), &search.join(", "))
+}
+
+fn slot_in_full(space: &ParamSpace, slot: usize) -> String {
+    let (param, (low, high)) = (space.param_of(slot), space.search_range(slot));
+    let default = param.default[space.slots()[slot].index].to_string();
+    described(param, &space.slot_name(slot), default, &format!("{low}..{high}"))
+}
+
+fn described(param: &Param, title: &str, default: String, searched: &str) -> String {
+    let mut lines = vec![format!("{title}: {}", param.doc)];
     let mut add = |name: &str, value: String| lines.push(format!("  {name:<10}{value}"));
     add("kind", param.kind.word().to_owned());
     add("range", range(param));
     add("unit", param.unit.to_string());
-    add("default", numbers(&param.default));
+    add("default", default);
     add("group", param.group.to_owned());
     match param.kind {
         Kind::Choice { first, names } => {
@@ -100,10 +262,34 @@ fn in_full(param: &Param) -> String {
         }
         _ => {}
     }
-    let search: Vec<String> = param.search.iter().map(|(low, high)| format!("{low}..{high}")).collect();
-    add("searched", search.join(", "));
+    add("searched", searched.to_owned());
     add("source", param.source.to_owned());
     lines.join("\n")
+}
+
+fn key_in_full(key: &FileKey, inside: &[&FileKey]) -> String {
+    let Key { form, default, doc, .. } = key.key;
+    let mut lines = vec![format!("{}: {doc}", key.path())];
+    let mut add = |name: &str, value: &str| lines.push(format!("  {name:<10}{value}"));
+    add("kind", form.word());
+    match form {
+        Form::Shapes(shapes) => {
+            for shape in shapes {
+                let keys = shape.keys.iter().map(|key| format!("{} = {}", key.name, key.form.example()));
+                let keys: Vec<String> =
+                    std::iter::once(format!("shape = \"{}\"", shape.name)).chain(keys).collect();
+                add("one of", &format!("{{ {} }}", keys.join(", ")));
+            }
+        }
+        Form::Table(_) => {}
+        form => add("written", &form.example()),
+    }
+    add("default", default);
+    let mut text = lines.join("\n");
+    if !inside.is_empty() {
+        text.push_str(&format!("\n\n{}", key_table(inside)));
+    }
+    text
 }
 
 fn as_json(param: &Param) -> serde_json::Value {
@@ -116,6 +302,37 @@ fn as_json(param: &Param) -> serde_json::Value {
     json!({
         "name": param.name, "values": param.layout.len(), "kind": param.kind.word(), "min": min, "max": max,
         "unit": param.unit.to_string(), "default": param.default, "search": param.search, "group": param.group,
-        "choices": choices, "negative": negative, "doc": param.doc, "source": param.source,
+        "choices": choices, "negative": negative, "doc": param.doc, "source": param.source, "parameter": true,
+    })
+}
+
+/// One number of a parameter: like the parameter, with a list of one.
+fn slot_as_json(space: &ParamSpace, slot: usize) -> serde_json::Value {
+    let param = space.param_of(slot);
+    let mut value = as_json(param);
+    value["name"] = json!(space.slot_name(slot));
+    value["values"] = json!(1);
+    value["default"] = json!([param.default[space.slots()[slot].index]]);
+    value["search"] = json!([space.search_range(slot)]);
+    value
+}
+
+/// A key with everything that a parameter has, null where it has no such thing.
+fn key_as_json(key: &FileKey) -> serde_json::Value {
+    let Key { form, default, doc, .. } = key.key;
+    let (min, max) = form.range().unzip();
+    let choices = if let Form::Choice(names) = form { Some(names) } else { None };
+    let shapes = if let Form::Shapes(shapes) = form { Some(shapes) } else { None };
+    let shapes = shapes.map(|shapes| {
+        let keys = |shape: &species::Shape| -> serde_json::Map<_, _> {
+            shape.keys.iter().map(|key| (key.name.to_owned(), json!(key.form.example()))).collect()
+        };
+        let shapes = shapes.iter().map(|shape| (shape.name.to_owned(), json!(keys(shape))));
+        shapes.collect::<serde_json::Map<_, _>>()
+    });
+    json!({
+        "name": key.path(), "values": 1, "kind": form.word(), "min": min, "max": max, "unit": null,
+        "default": Some(default).filter(|default| *default != "none"), "search": null, "group": null, "choices": choices, "negative": null, "doc": doc,
+        "source": null, "parameter": false, "table": key.table, "written": form.example(), "shapes": shapes,
     })
 }

@@ -104,7 +104,7 @@ impl Render {
         let seed = self.seed.or(species.tree_seed).unwrap_or(1);
         let file = self.file()?;
         let mut tree = self.grow(species, seed)?;
-        let mut palette = Palette::of(species, tree.leaf_shape, self.season.map(Season::from));
+        let mut palette = Palette::of(species, self.season.map(Season::from));
         palette.leaves &= !self.no_leaves;
         palette.blossoms &= !self.no_leaves;
         palette.dress(&mut tree);

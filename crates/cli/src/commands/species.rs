@@ -2,10 +2,11 @@
 
 use crate::{input, output};
 use pleach_tree::Species;
+use pleach_tree::species::{Form, Key};
 use serde_json::json;
 
 const EXAMPLES: &str = "Examples:
-  pleach species                                 a table of the species that come with pleach
+  pleach species                                 those that come with pleach
   pleach species quaking_aspen > my_aspen.toml   a copy to change";
 
 /// List the known species, or print one as a species file
@@ -48,6 +49,11 @@ impl SpeciesCommand {
     }
 }
 
+fn look((key, value): (Key, String)) -> (String, serde_json::Value) {
+    let value = if key.form == Form::Switch { json!(value == "true") } else { json!(value) };
+    (key.name.to_owned(), value)
+}
+
 fn all_values(species: &Species) -> serde_json::Value {
     let space = species.generator.space();
     let values: serde_json::Map<_, _> = space
@@ -59,5 +65,9 @@ fn all_values(species: &Species) -> serde_json::Value {
             (param.name.to_string(), if values.len() == 1 { json!(values[0]) } else { json!(values) })
         })
         .collect();
-    json!({"species": species.name, "generator": species.generator.family(), "parameters": values})
+    let looks: serde_json::Map<_, _> = species.appearance.said().into_iter().map(look).collect();
+    json!({
+        "species": species.name, "generator": species.generator.family(), "parameters": values,
+        "description": species.description, "tree_seed": species.tree_seed, "appearance": looks,
+    })
 }

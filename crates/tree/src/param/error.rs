@@ -59,6 +59,15 @@ pub enum Problem {
         /// What would be right.
         right: &'static str,
     },
+    /// A word that chooses no slot.
+    UnknownPattern {
+        /// The nearest word that chooses some, if one is near.
+        nearest: Option<String>,
+        /// The groups of parameters.
+        groups: Vec<String>,
+        /// The patterns for levels; none where no parameter has levels.
+        levels: Vec<String>,
+    },
     /// Something that has to be given is not.
     Missing {
         /// What would be right.
@@ -98,6 +107,16 @@ impl fmt::Display for Problem {
                 suggest(f, nearest.as_deref())
             }
             Self::Misplaced { right } => write!(f, "is not a known name here: {right}"),
+            Self::UnknownPattern { nearest, groups, levels } => {
+                write!(f, "is not a known name")?;
+                suggest(f, nearest.as_deref())?;
+                let stop = if nearest.is_some() { "" } else { "." };
+                write!(f, "{stop} Groups are {}", groups.join(", "))?;
+                if !levels.is_empty() {
+                    write!(f, "; levels are {}", levels.join(", "))?;
+                }
+                Ok(())
+            }
             Self::Missing { expected } => write!(f, "is missing, expected {expected}"),
             Self::Syntax { message } | Self::Conflict { message } => f.write_str(message),
         }
@@ -132,25 +151,45 @@ pub struct SlotError {
     pub problem: Problem,
 }
 
-/// The known name that `name` most likely stands for, if any is near enough.
-///
-/// A name that contains what was typed comes before those that only look like it.
+/// Names longer than this are no misspelling of anything, and comparing them takes time.
+const LONGEST_NAME: usize = 100;
+
+/// The known name that `name` most likely stands for, if any is near enough: a few letters are wrong, or
+/// it is a whole word of the known name, as `aspen` is of `quaking_aspen`.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    /// Shorter pieces are in too many names to mean one.
-    const SHORTEST_PIECE: usize = 3;
+    if name.len() > LONGEST_NAME {
+        return None;
+    }
     let lower = name.to_lowercase();
-    let is_piece = lower.chars().count() >= SHORTEST_PIECE;
     known
         .into_iter()
-        .map(|candidate| {
-            let other = candidate.to_lowercase();
-            let holds = is_piece && other.contains(&lower);
-            (holds, strsim::jaro_winkler(&lower, &other), candidate)
-        })
-        .filter(|(holds, likeness, _)| *holds || *likeness > 0.75)
-        .max_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)))
-        .map(|(.., candidate)| candidate.to_owned())
+        .filter_map(|candidate| Some((likeness(&lower, &candidate.to_lowercase())?, candidate)))
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate.to_owned())
+}
+
+/// How alike two names are, 0 to 1; `None` where nobody would take one for the other.
+fn likeness(name: &str, candidate: &str) -> Option<f64> {
+    const LEAST: f64 = 0.75;
+    /// Alike enough whatever the number of letters that differ.
+    const PLENTY: f64 = 0.85;
+    const WORD: f64 = 0.95;
+    let alike = strsim::jaro_winkler(name, candidate);
+    if is_word_of(name, candidate) {
+        return Some(alike.max(WORD));
+    }
+    // Jaro and Winkler's measure takes any few letters in their order for alike: `foo` for
+    // `floor_splits`. One letter in three may be wrong.
+    let letters = name.chars().count().max(candidate.chars().count());
+    let few = strsim::osa_distance(name, candidate) <= (letters / 3).max(1);
+    (alike > PLENTY || (few && alike > LEAST)).then_some(alike)
+}
+
+/// Whether `name` is one of the words that `whole` is put together from, and not a mere letter.
+#[must_use]
+pub fn is_word_of(name: &str, whole: &str) -> bool {
+    name.chars().count() > 2 && whole.split(|c: char| !c.is_alphanumeric()).any(|word| word == name)
 }
 
 #[cfg(test)]
@@ -196,5 +235,26 @@ mod tests {
         assert_eq!(meant("appel").as_deref(), Some("apple"));
         assert_eq!(meant("zzz"), None);
         assert_eq!(meant(""), None);
+    }
+
+    #[test]
+    fn misspelt_names_are_known_and_strangers_are_not() {
+        let known = ["floor_splits", "branches", "branch_dist", "tree_seed", "length", "leaf_blos_num"];
+        let near = |name: &str| nearest(name, known);
+        for (name, meant) in [
+            ("brances", "branches"),
+            ("Lenght", "length"),
+            ("seed", "tree_seed"),
+            ("leaf_number", "leaf_blos_num"),
+            ("floor_split", "floor_splits"),
+        ] {
+            assert_eq!(near(name).as_deref(), Some(meant), "{name}");
+        }
+        for stranger in ["foo", "all", "x", "", "oak", &"branches".repeat(1000)] {
+            assert_eq!(near(stranger), None, "{stranger}");
+        }
+        let trees = ["apple", "quaking_aspen", "palm"];
+        assert_eq!(nearest("aspen", trees).as_deref(), Some("quaking_aspen"));
+        assert_eq!(nearest("plam", trees).as_deref(), Some("palm"));
     }
 }

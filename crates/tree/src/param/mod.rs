@@ -11,13 +11,14 @@
 mod checked;
 mod declaration;
 mod error;
+mod select;
 mod shown;
 mod space;
 
 pub use checked::CheckedParams;
 pub use declaration::{Kind, Layout, Param, Source, Unit};
-pub use error::nearest;
 pub use error::{Problem, SlotError};
+pub use error::{is_word_of, nearest};
 pub use shown::shown;
 pub(crate) use shown::{escaped, is_hidden};
 pub use space::{ParamSpace, Slot};

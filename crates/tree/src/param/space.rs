@@ -2,7 +2,7 @@
 
 use super::checked::CheckedParams;
 use super::declaration::{Kind, Layout, Param};
-use super::error::{Problem, SlotError, nearest};
+use super::error::{Problem, SlotError};
 
 /// One number of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,29 +123,6 @@ impl ParamSpace {
     pub fn slots_of(&self, param: usize) -> std::ops::Range<usize> {
         let first = self.first_slot[param];
         first..first + self.params[param].layout.len()
-    }
-
-    /// The slots that `pattern` names: a slot (`length[1]`), a parameter (`length`), a group
-    /// (`leaves`), or `level:N` for index N of every per-level parameter.
-    ///
-    /// # Errors
-    /// [`Problem::UnknownName`] with the nearest name.
-    pub fn select(&self, pattern: &str) -> Result<Vec<usize>, Problem> {
-        let level = pattern.strip_prefix("level:").and_then(|n| n.parse::<usize>().ok());
-        let chosen: Vec<usize> = (0..self.len())
-            .filter(|&slot| {
-                let param = self.param_of(slot);
-                param.name == pattern
-                    || param.group == pattern
-                    || self.slot_name(slot) == pattern
-                    || (param.layout == Layout::PerLevel && level == Some(self.slots[slot].index))
-            })
-            .collect();
-        if chosen.is_empty() {
-            let names = self.params.iter().flat_map(|p| [p.name.as_ref(), p.group]);
-            return Err(Problem::UnknownName { nearest: nearest(pattern, names) });
-        }
-        Ok(chosen)
     }
 
     /// The values of a species that says nothing.

@@ -1,25 +1,19 @@
 //! A parsed species file that remembers where everything stood.
 
 use super::error::{Issue, SpeciesError};
+use super::key::{Form, KEYS, Key, MAX_SEED};
 use super::name::check_name;
 use crate::param::{Kind, ParamSpace, Problem, escaped, is_hidden, nearest};
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 /// Names that are wrong at the top level, and what would be right.
-const MISPLACED: [(&str, &str); 9] = [
+const MISPLACED: [(&str, &str); 4] = [
     ("seed", "the seed of the tree is `tree_seed`"),
-    ("season", "it belongs to the table `[appearance]`"),
-    ("bark", "it belongs to the table `[appearance]`"),
-    ("leaf", "it belongs to the table `[appearance]`"),
-    ("autumn", "it belongs to the table `[appearance]`"),
-    ("blossom", "it belongs to the table `[appearance]`"),
     ("height", "the height of the tree is `g_scale`"),
     ("leaves", "the number of leaves on a stem is `leaf_blos_num`"),
     ("species", "the species is called by `name`"),
 ];
-/// Keys that every species file may have beside its parameters.
-const COMMON_KEYS: [&str; 5] = ["generator", "name", "description", "tree_seed", "appearance"];
 
 /// A value and the bytes of the file that it came from.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +31,8 @@ pub enum Value {
     Number(f64),
     /// A string.
     Text(String),
+    /// `true` or `false`.
+    Switch(bool),
     /// An array.
     List(Vec<Node>),
     /// A table.
@@ -52,6 +48,7 @@ impl Value {
         match self {
             Self::Number(_) => "a number".to_owned(),
             Self::Text(_) => "a string".to_owned(),
+            Self::Switch(_) => "a boolean".to_owned(),
             Self::List(_) => "an array".to_owned(),
             Self::Table(_) => "a table".to_owned(),
             Self::Other(name) => format!("a {name}"),
@@ -222,7 +219,7 @@ impl SpeciesDoc {
     pub fn tree_seed(&self) -> Result<Option<u64>, Issue> {
         let Some(node) = self.get("tree_seed") else { return Ok(None) };
         let seed = self.number_of("tree_seed", node)?;
-        let max = (1_u64 << 53) as f64;
+        let max = MAX_SEED as f64;
         if (0.0..=max).contains(&seed) && seed.fract() == 0.0 {
             Ok(Some(seed as u64))
         } else {
@@ -234,25 +231,29 @@ impl SpeciesDoc {
         }
     }
 
-    /// Reads every parameter of `space`; `extra_keys` are the generator's own tables.
+    /// Reads every parameter of `space`; `own_keys` are the generator's own
+    /// ([`Family::keys`](crate::Family::keys)).
     ///
     /// Returns one value a slot (the default where the file is silent or wrong) and every issue, in
     /// order of place: unknown names, wrong types and lengths, values that are not allowed.
     #[must_use]
-    pub fn read(&self, space: &ParamSpace, extra_keys: &[&str]) -> (Vec<f64>, Vec<Issue>) {
+    pub fn read(&self, space: &ParamSpace, own_keys: &[Key]) -> (Vec<f64>, Vec<Issue>) {
         let mut values = space.defaults();
         let mut issues = Vec::new();
         for entry in &self.entries {
             let key = entry.key.as_str();
-            if COMMON_KEYS.contains(&key) || extra_keys.contains(&key) {
+            let keys = || KEYS.iter().chain(own_keys);
+            if keys().any(|known| known.name == key) {
                 continue;
             }
             let Some((number, param)) = space.find(key) else {
                 let known = space.params().iter().map(|p| p.name.as_ref());
-                let known = known.chain(COMMON_KEYS).chain(extra_keys.iter().copied());
                 let problem = match MISPLACED.iter().find(|(name, _)| *name == key) {
                     Some((_, right)) => Problem::Misplaced { right },
-                    None => Problem::UnknownName { nearest: nearest(key, known) },
+                    None => Problem::UnknownName {
+                        nearest: inside_a_table(key, keys())
+                            .or_else(|| nearest(key, known.chain(keys().map(|known| known.name)))),
+                    },
                 };
                 issues.push(self.issue(entry.span.clone(), key, problem));
                 continue;
@@ -303,6 +304,16 @@ impl SpeciesDoc {
     }
 }
 
+/// `table.key`, where `key` stands outside the table that it belongs to.
+fn inside_a_table<'a>(key: &str, mut keys: impl Iterator<Item = &'a Key>) -> Option<String> {
+    keys.find_map(|table| match table.form {
+        Form::Table(inside) if inside.iter().any(|inner| inner.name == key) => {
+            Some(format!("{}.{key}", table.name))
+        }
+        _ => None,
+    })
+}
+
 fn entries(table: &DeTable<'_>) -> Vec<Entry> {
     table
         .iter()
@@ -334,7 +345,7 @@ fn convert(value: &DeValue<'_>) -> Value {
             Value::List(array.iter().map(|v| Node { span: v.span(), value: convert(v.get_ref()) }).collect())
         }
         DeValue::Table(table) => Value::Table(entries(table)),
-        DeValue::Boolean(_) => Value::Other("boolean"),
+        DeValue::Boolean(value) => Value::Switch(*value),
         DeValue::Datetime(_) => Value::Other("date"),
     }
 }

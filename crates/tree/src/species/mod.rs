@@ -9,17 +9,20 @@
 //! Parameters stand at the top level by their names; per-level values are arrays of four, vectors
 //! arrays of three; what is missing takes the generator's default. Beside them a file may say
 //! `name`, `description`, `tree_seed` (the seed of one particular tree), a table `[appearance]` (see
-//! [`Appearance`]), and whatever tables its generator knows.
+//! [`Appearance`]), and whatever tables its generator knows: [`KEYS`] and
+//! [`Family::keys`](crate::Family::keys) declare them.
 
 mod appearance;
 mod doc;
 mod error;
+mod key;
 mod name;
 mod write;
 
-pub use appearance::{Appearance, Colour, Season};
+pub use appearance::{Appearance, BarkPattern, Colour, Look, Season};
 pub use doc::{Entry, Node, SpeciesDoc, Value};
 pub use error::{Issue, SpeciesError};
+pub use key::{Form, KEYS, Key, Shape};
 pub use name::{MAX_NAME_BYTES, MAX_NAME_CHARS, check_name, safe_name};
 
 use crate::generator::{Foliage, Generator, GrowError, Growth, Workspace};
@@ -73,8 +76,8 @@ impl Species {
     }
 
     /// The species as a file that [`SpeciesDoc::parse`] reads back to the same numbers. `comments`
-    /// are lines for its head, without the `#`. A name that no file may have is written as
-    /// [`safe_name`] makes it.
+    /// are paragraphs for its head, without the `#`; they are wrapped. A name that no file may have is
+    /// written as [`safe_name`] makes it.
     #[must_use]
     pub fn to_toml(&self, comments: &[String]) -> String {
         write::species(self, comments)

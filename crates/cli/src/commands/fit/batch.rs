@@ -272,7 +272,9 @@ fn cell(value: Option<&Value>) -> String {
         None | Some(Value::Null) => String::new(),
         Some(Value::String(text)) => text.clone(),
         // Warnings, by their kinds.
-        Some(Value::Array(items)) => items.iter().map(|item| cell(item.get("kind"))).collect::<Vec<_>>().join(" "),
+        Some(Value::Array(items)) => {
+            items.iter().map(|item| cell(item.get("kind"))).collect::<Vec<_>>().join(" ")
+        }
         Some(Value::Number(number)) if number.is_f64() => {
             format!("{:.6}", number.as_f64().unwrap_or(f64::NAN))
         }

@@ -1,0 +1,125 @@
+//! Keys of species files beside the parameters, each declared once.
+//!
+//! From a [`Key`] follow reading a file, suggestions where a name is misspelt, and what
+//! `pleach params` lists.
+
+use super::appearance;
+
+/// Largest `tree_seed`: what a double, and so any JSON reader, holds exactly.
+pub(super) const MAX_SEED: u64 = 1 << 53;
+
+/// A key of species files that is not a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// Its name; in a table without the table's.
+    pub name: &'static str,
+    /// What may stand behind it.
+    pub form: Form,
+    /// What holds where a file is silent, in words or as it would be written.
+    pub default: &'static str,
+    /// One line of documentation.
+    pub doc: &'static str,
+}
+
+/// What may stand behind a key.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// A string.
+    Text,
+    /// A whole number from 0 to 2⁵³.
+    Seed,
+    /// A string `#rrggbb`: a colour as on screens.
+    Colour,
+    /// `true` or `false`.
+    Switch,
+    /// A string that is one of these.
+    Choice(&'static [&'static str]),
+    /// A number of metres from 0 to `max`.
+    Length {
+        /// Largest allowed value.
+        max: f64,
+    },
+    /// Three numbers: x, y and z in metres.
+    Point,
+    /// A table with these keys.
+    Table(&'static [Key]),
+    /// An array of tables. The `shape` of each is one of these and says which keys it has.
+    Shapes(&'static [Shape]),
+}
+
+/// One kind of table in an array of tables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// What its key `shape` says.
+    pub name: &'static str,
+    /// Its other keys, all of which have to be there.
+    pub keys: &'static [Key],
+}
+
+impl Form {
+    /// A word or two for tables.
+    #[must_use]
+    pub const fn word(&self) -> &'static str {
+        match self {
+            Self::Text => "string",
+            Self::Seed => "seed",
+            Self::Colour => "colour",
+            Self::Switch => "boolean",
+            Self::Choice(_) => "choice",
+            Self::Length { .. } => "real",
+            Self::Point => "point",
+            Self::Table(_) => "table",
+            Self::Shapes(_) => "array of tables",
+        }
+    }
+
+    /// The smallest and the largest number, where it is a number.
+    #[must_use]
+    pub fn range(&self) -> Option<(f64, f64)> {
+        match *self {
+            Self::Seed => Some((0.0, MAX_SEED as f64)),
+            Self::Length { max } => Some((0.0, max)),
+            _ => None,
+        }
+    }
+
+    /// How it is written, in a few words.
+    #[must_use]
+    pub fn example(&self) -> String {
+        match self {
+            Self::Text => "\"…\"".to_owned(),
+            Self::Seed => "0 to 2^53".to_owned(),
+            Self::Colour => "\"#rrggbb\"".to_owned(),
+            Self::Switch => "true, false".to_owned(),
+            Self::Choice(names) => names.join(", "),
+            Self::Length { max } => format!("0 to {max} m"),
+            Self::Point => "[x, y, z] in m".to_owned(),
+            Self::Table(keys) => keys.iter().map(|key| key.name).collect::<Vec<_>>().join(", "),
+            Self::Shapes(shapes) => shapes.iter().map(|shape| shape.name).collect::<Vec<_>>().join(", "),
+        }
+    }
+}
+
+/// The keys that every species file may have, whatever its generator.
+pub const KEYS: &[Key] = &[
+    Key {
+        name: "generator",
+        form: Form::Text,
+        default: "the first that is known",
+        doc: "the generator that grows the species",
+    },
+    Key { name: "name", form: Form::Text, default: "the file's", doc: "short name of the species" },
+    Key { name: "description", form: Form::Text, default: "none", doc: "one line about the species" },
+    Key {
+        name: "tree_seed",
+        form: Form::Seed,
+        default: "none",
+        doc: "the seed of one particular tree, grown where no other seed is asked for",
+    },
+    Key {
+        name: "appearance",
+        form: Form::Table(&appearance::KEYS),
+        default: "none",
+        doc: "colours and season, for pictures and meshes; the tree's form does not depend on it",
+    },
+];
