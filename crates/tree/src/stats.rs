@@ -138,7 +138,9 @@ impl TreeStats {
         }
         stats.lowest_branch_m = if lowest.is_finite() { lowest } else { 0.0 };
         let unit_area = f64::from(tree.leaf_shape.area());
-        stats.leaf_area_m2 = unit_area * tree.leaves.iter().map(|l| f64::from(l.unit_area())).sum::<f64>();
+        // The sum of nothing is −0, which nobody wants to read.
+        let units = 0.0 + tree.leaves.iter().map(|l| f64::from(l.unit_area())).sum::<f64>();
+        stats.leaf_area_m2 = unit_area * units;
         stats
     }
 }

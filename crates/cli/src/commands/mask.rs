@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
   pleach mask oak.jpg -o oak.png --overlay look.png   and look at what was found
-  pleach mask oak.jpg -o oak.png --seed-point 800,420 the tree at that pixel, not the largest one
-  pleach mask shed.jpg -o tree.png --background plain a tree before an even wall
+  pleach mask oak.jpg -o oak.png --seed-point 800,420  the tree at that pixel, not the largest one
+  pleach mask shed.jpg -o tree.png --background plain  a tree before an even wall
   pleach mask oak.jpg -o oak.png && pleach fit oak.png
   pleach fit oak.jpg --mask auto                      the same in one go
 
