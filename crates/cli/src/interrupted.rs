@@ -45,7 +45,10 @@ mod tests {
         assert!(Interrupted::is_in(&error()));
         let told = Err::<(), _>(error()).context("acer.png").context("the second goal").unwrap_err();
         assert!(Interrupted::is_in(&told));
-        assert_eq!(crate::output::causes(&told, ": "), "the second goal: acer.png: stopped; --resume goes on");
+        assert_eq!(
+            crate::output::causes(&told, ": "),
+            "the second goal: acer.png: stopped; --resume goes on"
+        );
         let fit = anyhow::Error::from(FitError::Interrupted).context("acer.png");
         assert!(Interrupted::is_in(&fit));
         assert!(!Interrupted::is_in(&anyhow::anyhow!("interrupted")));

@@ -34,3 +34,49 @@ fn every_example_is_understood() {
         assert!(read.is_ok(), "{example}\n{}", read.unwrap_err());
     }
 }
+
+/// The commands in the code blocks and tables of a page.
+fn commands_of(page: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for line in page.lines() {
+        let line = line.trim_start_matches([' ', '{']).trim_start_matches("$ ");
+        let quoted = line.split('`').skip(1).step_by(2);
+        // `echo …; pleach …` in one line of a block.
+        let block = line.split("; ").map(str::trim_start);
+        for part in block.chain(quoted) {
+            let command = part.strip_prefix("cargo run --release -- ").map(|rest| format!("pleach {rest}"));
+            let command = command.unwrap_or_else(|| part.to_owned());
+            if command.starts_with("pleach ") && command.is_ascii() {
+                // What follows two spaces is said of the command; a shell sees to the rest.
+                let command = command.split("  ").next().unwrap_or_default();
+                let command = command.split(" | ").next().unwrap_or_default();
+                found.push(command.split(" > ").next().unwrap_or_default().trim().to_owned());
+            }
+        }
+    }
+    // Prose that begins like a command.
+    found.retain(|line| !line.ends_with('.') && !line.contains("finds the parameters"));
+    found
+}
+
+#[test]
+fn every_command_of_the_pages_is_understood() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let experiments = std::fs::read_dir(root.join("experiments")).unwrap();
+    let mut pages: Vec<_> = experiments.map(|entry| entry.unwrap().path().join("README.md")).collect();
+    pages.extend(["README.md", "docs/figures.md", "targets/README.md"].map(|page| root.join(page)));
+    let mut count = 0;
+    for page in pages {
+        for command in commands_of(&std::fs::read_to_string(&page).unwrap()) {
+            let words = command.split_whitespace().map(|word| word.trim_matches(['\'', '"']));
+            let matches = Arguments::laid_out().try_get_matches_from(words);
+            let read = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
+            if let Err(error) = read {
+                let help = error.kind() == clap::error::ErrorKind::DisplayHelp;
+                assert!(help, "{}: {command}\n{error}", page.display());
+            }
+            count += 1;
+        }
+    }
+    assert!(count > 60, "{count} commands were found");
+}

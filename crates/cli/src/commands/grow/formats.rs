@@ -201,7 +201,10 @@ mod tests {
     fn suffixes_are_the_words_of_the_option_and_found_in_paths() {
         for format in Format::ALL {
             assert_eq!(format.to_possible_value().unwrap().get_name(), format.suffix());
-            assert_eq!(Format::of(Path::new(&format!("a.b.{}", format.suffix().to_uppercase()))).unwrap(), format);
+            assert_eq!(
+                Format::of(Path::new(&format!("a.b.{}", format.suffix().to_uppercase()))).unwrap(),
+                format
+            );
         }
         assert_eq!(Format::value_variants(), Format::ALL);
     }

@@ -61,7 +61,13 @@ pub(crate) struct Grow {
     out: Option<PathBuf>,
     /// What to write where PATH has no suffix that says it: .json and .png into a folder, .json to
     /// standard output by default
-    #[arg(long, value_enum, value_name = "FORMAT", conflicts_with = "stats_only", hide_possible_values = true)]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "FORMAT",
+        conflicts_with = "stats_only",
+        hide_possible_values = true
+    )]
     format: Option<Format>,
     /// Print statistics and write no file
     #[arg(long, conflicts_with = "forest")]
@@ -230,7 +236,9 @@ impl Grow {
                 }
             };
             match format {
-                Format::Json => files::write_out(&path, |mut out| skeleton::write(&mut out, species, seed, tree))?,
+                Format::Json => {
+                    files::write_out(&path, |mut out| skeleton::write(&mut out, species, seed, tree))?
+                }
                 Format::Png => self.picture(&path, tree)?,
                 mesh => self.mesh.write(&path, mesh, species, seed, tree)?,
             }

@@ -17,7 +17,12 @@ pub(super) struct Report<'a> {
 impl<'a> Report<'a> {
     /// The statistics of `tree` as it stands there: in winter without the leaves that it has shed.
     pub(super) fn of(species: &'a Species, seed: u64, tree: &Tree) -> Self {
-        Self { species: &species.name, generator: species.generator.family(), seed, stats: TreeStats::of(tree) }
+        Self {
+            species: &species.name,
+            generator: species.generator.family(),
+            seed,
+            stats: TreeStats::of(tree),
+        }
     }
 }
 
