@@ -133,44 +133,52 @@ fn furnished() -> Dir {
         std::fs::rename(dir.path("drawn.png"), dir.path(photo)).unwrap();
     }
     let toml = dir.run(["species", "palm"]).ok();
+    let toml = toml.replace("name = \"palm\"", "name = \"mine\"");
     for name in ["my_tree.toml", "mine.toml", "my-trees/one.toml"] {
         let _ = dir.file(name, &toml);
     }
     dir
 }
 
-/// Runs every example that is done in seconds; searches are cut short, experiments only read.
+/// `line` with little to do: few evaluations from a known start, small pictures, few of them.
+fn cut_short(line: &str) -> String {
+    let mut words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
+    let mut set = |option: &str, value: &str| match words.iter().position(|word| word == option) {
+        Some(i) => value.clone_into(&mut words[i + 1]),
+        None => words.splice(2..2, [option.to_owned(), value.to_owned()]).for_each(drop),
+    };
+    match line.split(' ').nth(1) {
+        Some("fit") => {
+            set("--evaluations", "20");
+            set("--from", "acer");
+            if !line.contains("--resume") {
+                words.insert(2, "--overwrite".to_owned());
+            }
+        }
+        Some("render") => {
+            set("--size", "32");
+            if line.contains("--turntable") {
+                set("--turntable", "3");
+            }
+        }
+        Some("map") if line.contains("--grid") => set("--grid", "2x2"),
+        _ => {}
+    }
+    words.join(" ")
+}
+
+/// Runs every example of some commands.
 fn run_examples_of(names: &[&str]) {
     let dir = furnished();
+    let home = dir.path("home").display().to_string();
+    for folder in [".local/share/bash-completion/completions", ".zfunc", ".config/fish/completions"] {
+        std::fs::create_dir_all(dir.path("home").join(folder)).unwrap();
+    }
     for name in names {
         for example in examples(&help(&dir, &[(*name).to_owned()], 100)) {
-            let home = dir.path("home").display().to_string();
-            let mut line = example.replace('~', &home);
-            if line.contains("experiment ") {
-                continue;
-            }
-            // A shell takes care of `>`, `*` and `&&`; searches are given little to do.
-            for goal in ["pleach fit "] {
-                line = line.replace(goal, "pleach fit --evaluations 20 --overwrite ");
-            }
-            let twice = |option: &str| line.matches(option).count() > 1;
-            if twice("--evaluations") {
-                line = line.replacen("--evaluations 20 ", "", 1);
-                let given =
-                    line.split("--evaluations ").nth(1).unwrap().split(' ').next().unwrap().to_owned();
-                line = line.replace(&format!("--evaluations {given}"), "--evaluations 20");
-            }
-            if line.contains("--resume") {
-                line = line.replace("--overwrite ", "");
-            }
-            for folder in [
-                "home/.local/share/bash-completion/completions",
-                "home/.zfunc",
-                "home/.config/fish/completions",
-            ] {
-                std::fs::create_dir_all(dir.path(folder)).unwrap();
-            }
-            let script = line.replace("pleach ", "\"$PLEACH\" ");
+            // A shell takes care of `>`, `*` and `&&`.
+            let commands = example.split(" && ").map(cut_short).collect::<Vec<_>>().join(" && ");
+            let script = commands.replace('~', &home).replace("pleach ", "\"$PLEACH\" ");
             let output = std::process::Command::new("sh")
                 .current_dir(dir.path(""))
                 .env("PLEACH", pleach_tests::program())
@@ -178,7 +186,7 @@ fn run_examples_of(names: &[&str]) {
                 .output()
                 .unwrap();
             let message = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{example}\n{message}");
+            assert!(output.status.success(), "{example}\n{script}\n{message}");
         }
     }
 }
@@ -210,7 +218,8 @@ fn the_dissertations_pictures_are_remade_as_documented() {
     let dir = Dir::new();
     let mut blocks = 0;
     for block in page.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap()) {
-        let script = block.replace("pleach render ", "pleach render --size 32 ").replace("pleach ", "\"$PLEACH\" ");
+        let script =
+            block.replace("pleach render ", "pleach render --size 32 ").replace("pleach ", "\"$PLEACH\" ");
         let output = std::process::Command::new("sh")
             .current_dir(dir.path(""))
             .env("PLEACH", pleach_tests::program())

@@ -29,6 +29,8 @@ const GOALS: [(&str, &str, &str); 6] = [
 const SIZE: u32 = 232;
 /// What is left free between two rows of pictures, and beside them.
 const GAP: u32 = 20;
+/// What is left free around a goal.
+const MARGIN: u32 = 9;
 const LABEL: u32 = 46;
 const INK: Colour = Colour::opaque([40, 44, 40]);
 const GREY: Colour = Colour::opaque([110, 114, 110]);
@@ -71,7 +73,7 @@ fn silhouette(path: &str) -> anyhow::Result<Picture> {
     let ink = |x: u32, y: u32| if goal.bitmap.get(x, y) { 0 } else { 255 };
     let (width, height) = (goal.bitmap.width(), goal.bitmap.height());
     let large = image::GrayImage::from_fn(width, height, |x, y| image::Luma([ink(x, y)]));
-    let (inner, margin) = (SIZE - 2 * GAP, GAP);
+    let (inner, margin) = (SIZE - 2 * MARGIN, MARGIN);
     let small = image::imageops::resize(&large, inner, inner, image::imageops::FilterType::CatmullRom);
     let mut rgba = Vec::new();
     for y in 0..SIZE {
@@ -95,6 +97,7 @@ fn fitted(path: &str, like: &str, further: u64) -> anyhow::Result<Picture> {
     let palette = Palette::of(&species, tree.leaf_shape, None);
     palette.dress(&mut tree);
     let white = Background::Plain(species::Colour([255; 3]));
-    let settings = PreviewSettings { width: SIZE, height: SIZE, background: white, ..PreviewSettings::default() };
+    let settings =
+        PreviewSettings { width: SIZE, height: SIZE, background: white, ..PreviewSettings::default() };
     Ok(Preview::new(&tree, &palette, SIZE).picture(&settings))
 }
