@@ -235,8 +235,8 @@ fn the_dissertations_pictures_are_remade_as_documented() {
     let pairs = [
         ("shape-0.png", "shape-5.png"),
         ("willow.png", "willow-thick.png"),
-        ("tropism 0, 0, 0.png", "tropism 0, 0, -2.png"),
-        ("tropism 0, 0, -2.png", "tropism -1, 0, -2.png"),
+        ("tropism-0,0,0.png", "tropism-0,0,-2.png"),
+        ("tropism-0,0,-2.png", "tropism--1,0,-2.png"),
         ("pruned-0.png", "pruned-1.png"),
         ("pruned-0.5.png", "pruned-1.png"),
         ("solid-1.png", "solid-2.png"),

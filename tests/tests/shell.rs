@@ -160,9 +160,25 @@ fn every_command_has_a_manual_page() {
     let _ = dir.run(["man", "-o", "man1"]).ok();
     for command in commands(&dir).iter().filter(|name| *name != "help") {
         let page = std::fs::read_to_string(dir.path(&format!("man1/pleach-{command}.1"))).unwrap();
-        for words in [".TH", "NAME", "SYNOPSIS", "OPTIONS", "Examples:"] {
+        for words in [".TH", "NAME", "SYNOPSIS", "OPTIONS", ".SH EXAMPLES"] {
             assert!(page.contains(words), "{command}: {words}");
         }
     }
     assert!(dir.path("man1/pleach.1").exists() && dir.path("man1/pleach-experiment-run.1").exists());
+}
+
+#[test]
+fn a_negative_number_is_a_value_and_not_an_option() {
+    let dir = Dir::new();
+    for (args, words) in [
+        (["grow", "acer", "--seed", "-3"], "whole number"),
+        (["grow", "acer", "--tolerance", "-2"], "0.01 to 1000"),
+        (["render", "acer", "--turntable", "-3"], "2..=360"),
+        (["fit", "acer.png", "--height", "-3"], "--height"),
+        (["silhouette", "acer", "--size", "-3"], "8..=8192"),
+    ] {
+        let run = dir.run(args);
+        run.fails(2, &[words]);
+        assert!(!run.stderr().contains("as a value"), "{run}");
+    }
 }

@@ -4,7 +4,7 @@
 //! begins with `Examples:` lists commands, each with a comment two or more spaces behind it. Lines of
 //! any other block are one paragraph, but for those that begin with a space.
 
-use clap::Command;
+use clap::{Arg, Command};
 
 /// What examples are laid out for.
 const WIDTH: usize = 80;
@@ -14,8 +14,15 @@ pub(crate) fn laid_out(mut command: Command) -> Command {
     if let Some(text) = command.get_after_help().map(ToString::to_string) {
         command = command.after_help(lay_out(&text));
     }
-    let names: Vec<String> = command.get_subcommands().map(|below| below.get_name().to_owned()).collect();
-    names.into_iter().fold(command, |command, name| command.mut_subcommand(name, laid_out))
+    command.mut_subcommands(laid_out)
+}
+
+/// Lets every option of `command` and of those below it have a negative number as its value, so that
+/// `--height -3` is told what heights are possible and not that `-3` is unknown.
+pub(crate) fn with_negative_numbers(command: Command) -> Command {
+    let option = |arg: &Arg| !arg.is_positional() && arg.get_action().takes_values();
+    let command = command.mut_args(|arg| if option(&arg) { arg.allow_negative_numbers(true) } else { arg });
+    command.mut_subcommands(with_negative_numbers)
 }
 
 fn lay_out(text: &str) -> String {

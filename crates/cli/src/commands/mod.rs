@@ -61,7 +61,7 @@ impl Arguments {
 
     /// The program's commands and options, their texts laid out.
     fn laid_out() -> clap::Command {
-        help::laid_out(Self::command())
+        help::with_negative_numbers(help::laid_out(Self::command()))
     }
 
     pub(crate) fn run(self) -> anyhow::Result<()> {

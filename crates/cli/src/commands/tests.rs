@@ -1,6 +1,7 @@
 //! Every example in the help is a command that the program takes.
 
 use super::Arguments;
+use clap::error::ErrorKind;
 use clap::{Command, FromArgMatches};
 
 /// The commands that the help of `command` and of those below it shows.
@@ -35,27 +36,29 @@ fn every_example_is_understood() {
     }
 }
 
-/// The commands in the code blocks and tables of a page.
-fn commands_of(page: &str) -> Vec<String> {
+/// The commands of a page, and whether each is only named in a sentence.
+fn commands_of(page: &str) -> Vec<(String, bool)> {
     let mut found = Vec::new();
     for line in page.lines() {
+        let quoted = line.split('`').skip(1).step_by(2).map(|part| (part, true));
+        // In a block, `echo …; pleach …` may share a line.
         let line = line.trim_start_matches([' ', '{']).trim_start_matches("$ ");
-        let quoted = line.split('`').skip(1).step_by(2);
-        // `echo …; pleach …` in one line of a block.
-        let block = line.split("; ").map(str::trim_start);
-        for part in block.chain(quoted) {
+        let block = line.split("; ").map(|part| (part.trim_start(), false));
+        for (part, named) in block.chain(quoted) {
             let command = part.strip_prefix("cargo run --release -- ").map(|rest| format!("pleach {rest}"));
             let command = command.unwrap_or_else(|| part.to_owned());
-            if command.starts_with("pleach ") && command.is_ascii() {
+            // Prose begins like a command as well, and `…` is left to the reader.
+            let prose = command.ends_with('.') || command.contains("finds the parameters");
+            let prose = prose || command.contains('…');
+            if command.starts_with("pleach ") && !prose {
                 // What follows two spaces is said of the command; a shell sees to the rest.
-                let command = command.split("  ").next().unwrap_or_default();
-                let command = command.split(" | ").next().unwrap_or_default();
-                found.push(command.split(" > ").next().unwrap_or_default().trim().to_owned());
+                let command = ["  ", " | ", " > "]
+                    .iter()
+                    .fold(command.as_str(), |command, end| command.split(end).next().unwrap_or_default());
+                found.push((command.trim().to_owned(), named));
             }
         }
     }
-    // Prose that begins like a command.
-    found.retain(|line| !line.ends_with('.') && !line.contains("finds the parameters"));
     found
 }
 
@@ -65,18 +68,24 @@ fn every_command_of_the_pages_is_understood() {
     let experiments = std::fs::read_dir(root.join("experiments")).unwrap();
     let mut pages: Vec<_> = experiments.map(|entry| entry.unwrap().path().join("README.md")).collect();
     pages.extend(["README.md", "docs/figures.md", "targets/README.md"].map(|page| root.join(page)));
-    let mut count = 0;
+    let (mut count, mut wrong) = (0, Vec::new());
     for page in pages {
-        for command in commands_of(&std::fs::read_to_string(&page).unwrap()) {
+        for (command, named) in commands_of(&std::fs::read_to_string(&page).unwrap()) {
             let words = command.split_whitespace().map(|word| word.trim_matches(['\'', '"']));
             let matches = Arguments::laid_out().try_get_matches_from(words);
             let read = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
-            if let Err(error) = read {
-                let help = error.kind() == clap::error::ErrorKind::DisplayHelp;
-                assert!(help, "{}: {command}\n{error}", page.display());
-            }
             count += 1;
+            let Err(error) = read else { continue };
+            let missing = error.kind() == ErrorKind::MissingRequiredArgument;
+            let help = matches!(
+                error.kind(),
+                ErrorKind::DisplayHelp | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+            );
+            if !(help || named && missing) {
+                wrong.push(format!("{}: {command}\n{error}", page.display()));
+            }
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert!(count > 60, "{count} commands were found");
 }
