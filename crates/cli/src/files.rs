@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 
 use anyhow::Context;
-use std::io::Write;
+use std::io::{Cursor, Seek, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes `path` through a temporary file beside it, so that a full disk or a killed program never
@@ -46,4 +46,36 @@ pub(crate) fn make_folder(path: &Path) -> anyhow::Result<()> {
 pub(crate) fn inside(folder: &Path, name: impl AsRef<Path>) -> anyhow::Result<PathBuf> {
     make_folder(folder)?;
     Ok(folder.join(name))
+}
+
+/// A file, or what becomes standard output.
+pub(crate) trait Out: Write + Seek {}
+
+impl<T: Write + Seek> Out for T {}
+
+/// Whether `path` is `-`, which stands for standard output. A file of that name is `./-`.
+pub(crate) fn is_stdout(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Whether `path` names a file: it has a suffix, does not end in a slash, and is not a folder.
+pub(crate) fn is_file(path: &Path) -> bool {
+    let slash = path.to_string_lossy().ends_with(std::path::is_separator);
+    path.extension().is_some() && !slash && !path.is_dir()
+}
+
+/// Writes `path` whole or not at all; standard output where `path` is `-`. What goes to standard
+/// output is kept in memory until it is complete.
+pub(crate) fn write_out(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Out) -> anyhow::Result<()>,
+) -> anyhow::Result<()> {
+    if !is_stdout(path) {
+        return write_whole(path, |file| write(file));
+    }
+    let mut buffer = Cursor::new(Vec::new());
+    write(&mut buffer)?;
+    let mut out = std::io::stdout().lock();
+    out.write_all(buffer.get_ref())?;
+    Ok(out.flush()?)
 }

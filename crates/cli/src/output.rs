@@ -2,8 +2,23 @@
 
 #![expect(clippy::print_stderr, reason = "this is the one place that prints messages")]
 
+use anstyle::{AnsiColor, Style};
 use serde::Serialize;
 use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// As clap shows its own.
+const ERROR: Style = AnsiColor::Red.on_default().bold();
+const WARNING: Style = AnsiColor::Yellow.on_default().bold();
+
+/// Whether `--quiet` was asked for.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on, nothing but errors and warnings goes to standard error.
+pub(crate) fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
 
 /// Writes `text` and a line's end to standard output.
 pub(crate) fn line(text: impl std::fmt::Display) -> anyhow::Result<()> {
@@ -17,14 +32,31 @@ pub(crate) fn json(value: &impl Serialize) -> anyhow::Result<()> {
     line(serde_json::to_string(value)?)
 }
 
-/// Tells the user something on standard error that is no result.
+/// Tells the user something on standard error that is not a result; nothing with `--quiet`.
 pub(crate) fn note(text: impl std::fmt::Display) {
-    eprintln!("{text}");
+    let text = text.to_string();
+    if let Some(text) = text.strip_prefix("warning: ") {
+        warning(text);
+    } else if !QUIET.load(Ordering::Relaxed) {
+        eprintln!("{text}");
+    }
+}
+
+/// Warns the user on standard error, also with `--quiet`.
+pub(crate) fn warning(text: impl std::fmt::Display) {
+    anstream::eprintln!("{WARNING}warning:{WARNING:#} {text}");
+}
+
+/// Tells the user what was written where; nothing for standard output.
+pub(crate) fn wrote(path: &Path) {
+    if !crate::files::is_stdout(path) {
+        note(format_args!("wrote {}", path.display()));
+    }
 }
 
 /// Tells the user why the program failed: each cause on its own line.
 pub(crate) fn error(error: &anyhow::Error) {
-    eprintln!("error: {}", causes(error, "\n  because: "));
+    anstream::eprintln!("{ERROR}error:{ERROR:#} {}", causes(error, "\n  because: "));
 }
 
 /// What went wrong and why, causes set apart by `because`.
@@ -53,9 +85,9 @@ pub(crate) fn is_broken_pipe(error: &anyhow::Error) -> bool {
     })
 }
 
-/// Whether a person watches standard error.
+/// Whether a person watches standard error and wants to see progress there.
 pub(crate) fn is_watched() -> bool {
-    std::io::stderr().is_terminal()
+    !QUIET.load(Ordering::Relaxed) && std::io::stderr().is_terminal()
 }
 
 /// A table of text with aligned columns; the first row is the heading, `numbers` lists the columns

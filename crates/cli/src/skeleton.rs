@@ -41,9 +41,9 @@ pub(crate) fn write(out: &mut impl Write, species: &Species, seed: u64, tree: &T
         write!(out, r#""length": {}}}"#, number(stem.length))?;
     }
     writeln!(out, "\n],")?;
-    leaves(out, "leaves", &format!("{:?}", tree.leaf_shape), &tree.leaves)?;
+    leaves(out, "leaves", tree.leaf_shape.name(), &tree.leaves)?;
     writeln!(out, ",")?;
-    leaves(out, "blossoms", &format!("{:?}", tree.blossom_shape), &tree.blossoms)?;
+    leaves(out, "blossoms", tree.blossom_shape.name(), &tree.blossoms)?;
     writeln!(out, "\n}}")?;
     Ok(())
 }
@@ -62,7 +62,7 @@ fn list<T>(
 }
 
 fn leaves(out: &mut impl Write, name: &str, shape: &str, leaves: &[Leaf]) -> std::io::Result<()> {
-    write!(out, r#""{name}": {{"shape": "{}", "list": ["#, shape.to_lowercase())?;
+    write!(out, r#""{name}": {{"shape": "{shape}", "list": ["#)?;
     for (i, leaf) in leaves.iter().enumerate() {
         writeln!(out, "{}", if i == 0 { "" } else { "," })?;
         let wide = |v: [f32; 3]| point(v.map(f64::from));

@@ -1,5 +1,6 @@
 //! Meshes for `pleach grow`: what was asked for, and the files.
 
+use super::grow::formats::Format;
 use crate::files;
 use anyhow::{Context, bail};
 use clap::ValueEnum;
@@ -17,20 +18,19 @@ use serde_json::{Map, Value, json};
 use std::io::Write;
 use std::path::Path;
 
-/// Suffixes of mesh files.
-pub(crate) const SUFFIXES: [&str; 5] = ["glb", "obj", "ply", "stl", "usda"];
+/// How far bark may stray where nothing is said of it, in millimetres.
+const TOLERANCE: f64 = 2.0;
 
 /// How leaves are put into a file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Leaves {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Leaves {
     /// Their outlines
-    #[default]
     Outline,
     /// Two triangles each
     Simple,
     /// Two crossed cards each, which show a picture of the leaf
     Cards,
-    /// One leaf, placed many times (.glb with EXT_mesh_gpu_instancing, and always in .usda)
+    /// One leaf, placed many times (EXT_mesh_gpu_instancing in .glb); always so in .usda
     Instances,
     /// No leaves and no blossom
     None,
@@ -56,38 +56,38 @@ impl From<SeasonArg> for Season {
     }
 }
 
-/// Options of .glb, .obj, .ply, .stl and .usda files.
+/// Options of mesh files.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Meshes (.glb, .obj, .ply, .stl, .usda)")]
 pub(crate) struct MeshArgs {
-    /// Levels of detail in a .glb, the finest included
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(lod::MOST_LEVELS)))]
-    lod: u32,
-    /// Weld all stems into one watertight surface, on a grid of cells of so many millimetres; what is
-    /// thinner becomes as thick as a cell
-    #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "wind", "forest"])]
-    weld: Option<f64>,
-    /// A last level of detail of N crossing cards that show the tree, 1 to 8, in a .glb
+    /// Levels of detail in a .glb, the finest included [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(lod::MOST_LEVELS)))]
+    pub(super) lod: Option<u32>,
+    /// Weld all stems into one watertight surface, on a grid with cells of this many millimetres; what
+    /// is thinner becomes as thick as a cell
+    #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "wind", "forest", "tolerance"])]
+    pub(super) weld: Option<f64>,
+    /// A last level of detail: N crossing cards that show the tree, 1 to 8, in a .glb
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(billboard::MOST_SIDES)))]
-    billboard: Option<u32>,
-    /// How far bark may stray from its true surface, in millimetres
-    #[arg(long, value_name = "MM", default_value_t = 2.0, value_parser = tolerance)]
-    tolerance: f64,
-    /// How leaves are drawn
-    #[arg(long, value_enum, default_value_t)]
-    leaves: Leaves,
+    pub(super) billboard: Option<u32>,
+    /// How far bark may stray from its true surface, in millimetres [default: 2]
+    #[arg(long, value_name = "MM", value_parser = tolerance)]
+    pub(super) tolerance: Option<f64>,
+    /// How leaves are drawn [default: outline]
+    #[arg(long, value_enum, value_name = "HOW", conflicts_with = "no_leaves")]
+    pub(super) leaves: Option<Leaves>,
     /// Season; by default the species file's own, or summer with all its blossom
     #[arg(long, value_enum)]
-    season: Option<SeasonArg>,
-    /// Give each corner the data that shaders need for wind (.glb, .ply)
+    pub(super) season: Option<SeasonArg>,
+    /// Give each vertex the data that shaders need for wind (.glb, .ply)
     #[arg(long)]
-    wind: bool,
+    pub(super) wind: bool,
     /// Add joints and a looping animation of the tree in wind (.glb)
     #[arg(long, conflicts_with_all = ["lod", "forest", "billboard"])]
-    sway: bool,
-    /// A forest on a field of so many metres, such as 40x40m, instead of one tree (.glb)
+    pub(super) sway: bool,
+    /// A forest on a field of this size in metres, such as 40x40m, instead of one tree (.glb)
     #[arg(long, value_name = "WxD", value_parser = field)]
-    forest: Option<(f64, f64)>,
+    pub(super) forest: Option<(f64, f64)>,
     /// Metres between the trees of a forest
     #[arg(long, value_name = "METRES", default_value_t = 6.0, requires = "forest")]
     spacing: f64,
@@ -118,7 +118,7 @@ fn field(text: &str) -> Result<(f64, f64), String> {
         |text: &str| text.trim_end_matches('m').parse::<f64>().ok().filter(|s| *s > 0.0 && s.is_finite());
     side(width)
         .zip(side(depth))
-        .ok_or_else(|| format!("`{text}` is no field, expected metres such as 40x30m"))
+        .ok_or_else(|| format!("`{text}` is not a field, expected metres such as 40x30m"))
 }
 
 impl MeshArgs {
@@ -127,73 +127,68 @@ impl MeshArgs {
         self.forest.is_some()
     }
 
+    /// Whether trees are to be grown without leaves.
+    pub(super) fn is_bare(&self) -> bool {
+        self.leaves == Some(Leaves::None)
+    }
+
+    fn levels(&self) -> u32 {
+        self.lod.unwrap_or(1)
+    }
+
     fn settings(&self) -> MeshSettings {
         let leaves = match self.leaves {
-            Leaves::Outline | Leaves::Instances => LeafStyle::Outline,
-            Leaves::Simple => LeafStyle::Simple,
-            Leaves::Cards => LeafStyle::CrossedCards,
-            Leaves::None => LeafStyle::None,
+            None | Some(Leaves::Outline | Leaves::Instances) => LeafStyle::Outline,
+            Some(Leaves::Simple) => LeafStyle::Simple,
+            Some(Leaves::Cards) => LeafStyle::CrossedCards,
+            Some(Leaves::None) => LeafStyle::None,
         };
         MeshSettings {
-            tolerance: self.tolerance / 1000.0,
+            tolerance: self.tolerance.unwrap_or(TOLERANCE) / 1000.0,
             leaves,
             wind: self.wind,
             ..MeshSettings::default()
         }
     }
 
-    /// What only a .glb can hold, if it was asked for.
-    fn glb_only(&self, suffix: &str) -> Option<&'static str> {
-        let asked = [
-            (self.lod > 1, "levels of detail (--lod)"),
-            (self.leaves == Leaves::Instances && suffix != "usda", "instances (--leaves instances)"),
-            (self.billboard.is_some(), "billboards (--billboard)"),
-            (self.sway, "an animation (--sway)"),
-            (self.forest.is_some(), "a forest (--forest)"),
-        ];
-        asked.into_iter().find(|(asked, _)| *asked).map(|(_, what)| what)
-    }
-
-    /// Whether `suffix` can hold what was asked for.
-    pub(crate) fn check(&self, suffix: &str) -> anyhow::Result<()> {
-        match self.glb_only(suffix) {
-            Some(what) if suffix != "glb" => bail!("{what} needs a .glb file, not .{suffix}"),
-            _ => Ok(()),
+    /// Fails if files beside the one at `path` are wanted: standard output has none beside it.
+    pub(super) fn check_alone(&self, path: &Path, format: Format) -> anyhow::Result<()> {
+        if files::is_stdout(path) && self.leaves == Some(Leaves::Cards) && format != Format::Glb {
+            bail!(
+                "`--leaves cards` writes pictures beside a .{}, which standard output cannot have; .glb \
+                 holds them",
+                format.suffix()
+            );
         }
+        Ok(())
     }
 
-    /// Writes `tree` as the mesh file that the suffix of `path` names.
-    pub(crate) fn write(&self, path: &Path, species: &Species, seed: u64, tree: &Tree) -> anyhow::Result<()> {
-        let suffix = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        self.check(&suffix)?;
+    /// Writes `tree`, dressed for the season, as a mesh.
+    pub(super) fn write(
+        &self,
+        path: &Path,
+        format: Format,
+        species: &Species,
+        seed: u64,
+        tree: &Tree,
+    ) -> anyhow::Result<()> {
+        self.check_alone(path, format)?;
         let palette = Palette::of(species, self.season.map(Season::from));
-        // A winter tree is a copy without leaves; any other is used as it is.
-        let dressed;
-        let tree =
-            if (palette.leaves || tree.leaves.is_empty()) && (palette.blossoms || tree.blossoms.is_empty()) {
-                tree
-            } else {
-                let mut bare = tree.clone();
-                palette.dress(&mut bare);
-                dressed = bare;
-                &dressed
-            };
-        match suffix.as_str() {
-            "glb" => self.write_glb(path, species, seed, tree, palette),
-            "obj" => self.write_obj(path, species, tree, palette),
-            "ply" => {
+        match format {
+            Format::Glb => self.write_glb(path, species, seed, tree, palette),
+            Format::Obj => self.write_obj(path, species, tree, palette),
+            Format::Ply => {
                 let bark = self.welded(tree)?;
                 let meshers = [self.plain(tree, self.settings(), bark.as_ref())];
-                files::write_whole(path, |file| Ok(send(&meshers, &mut ply::Ply::new(file, palette))?))
+                files::write_out(path, |out| Ok(send(&meshers, &mut ply::Ply::new(out, palette))?))
             }
-            "stl" => {
+            Format::Stl => {
                 let bark = self.welded(tree)?;
-                let settings = MeshSettings { wind: false, ..self.settings() };
-                let meshers = [self.plain(tree, settings, bark.as_ref())];
-                files::write_whole(path, |file| Ok(send(&meshers, &mut stl::Stl::new(file))?))
+                let meshers = [self.plain(tree, self.settings(), bark.as_ref())];
+                files::write_out(path, |out| Ok(send(&meshers, &mut stl::Stl::new(out))?))
             }
-            "usda" => self.write_usda(path, species, seed, tree, palette),
-            other => bail!("`.{other}` is no mesh file, known are .{}", SUFFIXES.join(", .")),
+            Format::Usda => self.write_usda(path, species, seed, tree, palette),
+            Format::Json | Format::Png => bail!("a .{} file holds no mesh", format.suffix()),
         }
     }
 
@@ -215,7 +210,7 @@ impl MeshArgs {
         billboards: Option<&Billboards>,
     ) -> anyhow::Result<Vec<(Material, Vec<u8>)>> {
         let mut pictures = Vec::new();
-        if self.leaves == Leaves::Cards {
+        if self.leaves == Some(Leaves::Cards) {
             for (material, picture) in leaf_picture::of(tree, palette) {
                 pictures.push((material, png_file::bytes(&picture)?));
             }
@@ -234,7 +229,7 @@ impl MeshArgs {
         tree: &Tree,
         palette: Palette,
     ) -> anyhow::Result<()> {
-        let levels = lod::levels(tree, self.settings(), self.lod);
+        let levels = lod::levels(tree, self.settings(), self.levels());
         let rig = self.sway.then(|| Rig::of(tree));
         let billboards = self.billboard.map(|sides| Billboards::paint(&[tree], &palette, sides));
         let bark = self.welded(tree)?;
@@ -251,7 +246,7 @@ impl MeshArgs {
             rig: rig.as_ref(),
             pictures: self.pictures(tree, &palette, billboards.as_ref())?,
         };
-        files::write_whole(path, |file| Ok(send(&meshers, &mut Glb::new(file, &scene))?))
+        files::write_out(path, |out| Ok(send(&meshers, &mut Glb::new(out, &scene))?))
     }
 
     fn meshers<'a>(&self, levels: &'a [Level<'a>], rig: Option<&'a Rig>) -> Vec<Mesher<'a>> {
@@ -260,7 +255,7 @@ impl MeshArgs {
             if let Some(rig) = rig {
                 mesher = mesher.with_rig(rig);
             }
-            if self.leaves == Leaves::Instances { mesher.with_instanced_leaves() } else { mesher }
+            if self.leaves == Some(Leaves::Instances) { mesher.with_instanced_leaves() } else { mesher }
         };
         levels.iter().map(mesher).collect()
     }
@@ -274,8 +269,6 @@ impl MeshArgs {
         grow: impl Fn(u64) -> anyhow::Result<Tree>,
     ) -> anyhow::Result<usize> {
         let (width, depth) = self.forest.context("no forest was asked for")?;
-        let suffix = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        self.check(&suffix)?;
         let sites = forest::plant(width, depth, self.spacing, self.variants, seed)?;
         // Only variants that stand somewhere are grown.
         let mut used: Vec<u32> = sites.iter().map(|s| s.variant).collect();
@@ -292,7 +285,7 @@ impl MeshArgs {
             trees.push(tree);
         }
         let levels: Vec<Vec<Level<'_>>> =
-            trees.iter().map(|tree| lod::levels(tree, self.settings(), self.lod)).collect();
+            trees.iter().map(|tree| lod::levels(tree, self.settings(), self.levels())).collect();
         let palette = palette.context("a forest needs a tree")?;
         let billboards = self.billboard.map(|sides| {
             let trees: Vec<&Tree> = trees.iter().collect();
@@ -303,7 +296,7 @@ impl MeshArgs {
             meshers.extend(self.meshers(levels, None));
             meshers.extend(billboards.iter().map(|b| Mesher::of_cards(&trees[i], &b.cards[i])));
         }
-        let each = self.lod as usize + usize::from(billboards.is_some());
+        let each = self.levels() as usize + usize::from(billboards.is_some());
         let placed = sites.iter().enumerate().map(|(i, site)| {
             let first = used.binary_search(&site.variant).unwrap_or(0) * each;
             Placed {
@@ -323,17 +316,18 @@ impl MeshArgs {
             rig: None,
             pictures: self.pictures(&trees[0], &palette, billboards.as_ref())?,
         };
-        files::write_whole(path, |file| Ok(send(&meshers, &mut Glb::new(file, &scene))?))?;
+        files::write_out(path, |out| Ok(send(&meshers, &mut Glb::new(out, &scene))?))?;
         Ok(sites.len())
     }
 
     fn write_obj(&self, path: &Path, species: &Species, tree: &Tree, palette: Palette) -> anyhow::Result<()> {
-        let materials = path.with_extension("mtl");
-        let name = materials.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        // Standard output has nothing beside it.
+        let materials = (!files::is_stdout(path)).then(|| path.with_extension("mtl"));
+        let name = materials.as_deref().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
         let bark = self.welded(tree)?;
-        let settings = MeshSettings { wind: false, ..self.settings() };
-        let meshers = [self.plain(tree, settings, bark.as_ref())];
-        files::write_whole(path, |file| Ok(send(&meshers, &mut obj::Obj::new(file, &species.name, &name))?))?;
+        let meshers = [self.plain(tree, self.settings(), bark.as_ref())];
+        files::write_out(path, |out| Ok(send(&meshers, &mut obj::Obj::new(out, &species.name, &name))?))?;
+        let Some(materials) = materials else { return Ok(()) };
         let pictures = self.pictures_beside(path, tree, &palette)?;
         files::write_text(&materials, &obj::materials(&palette, &pictures))
     }
@@ -347,8 +341,7 @@ impl MeshArgs {
         palette: Palette,
     ) -> anyhow::Result<()> {
         let bark = self.welded(tree)?;
-        let settings = MeshSettings { wind: false, ..self.settings() };
-        let meshers = [self.plain(tree, settings, bark.as_ref()).with_instanced_leaves()];
+        let meshers = [self.plain(tree, self.settings(), bark.as_ref()).with_instanced_leaves()];
         let about = [
             ("generator", species.generator.family().to_string()),
             ("seed", seed.to_string()),
@@ -359,7 +352,7 @@ impl MeshArgs {
             about: about.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
             pictures: self.pictures_beside(path, tree, &palette)?,
         };
-        files::write_whole(path, |file| Ok(send(&meshers, &mut usda::Usda::new(file, &notes, palette))?))
+        files::write_out(path, |out| Ok(send(&meshers, &mut usda::Usda::new(out, &notes, palette))?))
     }
 
     /// Writes the pictures of leaves and blossom beside `path`, and says their names.

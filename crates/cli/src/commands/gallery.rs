@@ -7,14 +7,14 @@ use pleach_mesh::{Palette, Picture, Preview, PreviewSettings};
 use pleach_tree::species::{self, Season};
 use pleach_tree::{Species, Tree, TreeStats};
 
-/// Species a row, each with two pictures.
+/// Species per row, each with two pictures.
 const ACROSS: u32 = 3;
 /// How many of the built-in species are the dissertation's, in front.
 const FIFTEEN: usize = 15;
 const INK: Colour = Colour::opaque([40, 44, 40]);
 const GREY: Colour = Colour::opaque([120, 124, 120]);
 
-/// Draws the sheet, `size` pixels a tree.
+/// Draws the sheet, `size` pixels per tree.
 pub(super) fn sheet(
     size: u32,
     grow: impl Fn(&Species) -> anyhow::Result<Tree>,

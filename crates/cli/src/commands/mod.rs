@@ -1,12 +1,14 @@
-//! One module a command: what was typed, and what it does.
+//! One module per command: what was typed, and what it does.
 
 mod blend;
+mod completions;
 mod experiment;
 mod export;
 mod fit;
 mod gallery;
 mod grow;
 mod landmarks;
+mod man;
 mod map;
 mod mask;
 mod params;
@@ -15,7 +17,8 @@ mod score;
 mod silhouette;
 mod species;
 
-use clap::{Parser, Subcommand};
+use crate::{help, output};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 /// Finds the parameters of procedural trees that make them look like pictures.
 #[derive(Debug, Parser)]
@@ -24,6 +27,9 @@ pub(crate) struct Arguments {
     /// Threads to use; all cores by default. Results do not depend on it
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Write neither progress nor notes to standard error, only errors and warnings
+    #[arg(short, long, global = true)]
+    quiet: bool,
 
     #[command(subcommand)]
     command: Command,
@@ -42,10 +48,26 @@ enum Command {
     Species(species::SpeciesCommand),
     Params(params::Params),
     Experiment(experiment::Experiment),
+    Completions(completions::Completions),
+    Man(man::Man),
 }
 
 impl Arguments {
+    /// The command line's arguments; where they are wrong, or help is asked for, the program ends.
+    pub(crate) fn from_command_line() -> Self {
+        let matches = Self::laid_out().get_matches();
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
+
+    /// The program's commands and options, their texts laid out.
+    fn laid_out() -> clap::Command {
+        help::with_negative_numbers(help::laid_out(Self::command()))
+    }
+
     pub(crate) fn run(self) -> anyhow::Result<()> {
+        if self.quiet {
+            output::be_quiet();
+        }
         if let Some(threads) = self.threads {
             rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global()?;
         }
@@ -61,6 +83,11 @@ impl Arguments {
             Command::Blend(command) => command.run(),
             Command::Species(command) => command.run(),
             Command::Params(command) => command.run(),
+            Command::Completions(command) => command.run(),
+            Command::Man(command) => command.run(),
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -15,20 +15,27 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
-  pleach render quaking_aspen                                  quaking_aspen-1.png here
-  pleach render acer --season autumn --size 1024 -o acer.png   in autumn, large
-  pleach render palm --background transparent -o palm.png      for a page of any colour
-  pleach render acer --turntable 36 -o acer.png                an animated PNG
-  pleach render acer --turntable 36 -o frames/                 36 files
-  pleach render all -o gallery/                                every species, leafy
-  pleach render all --no-leaves -o winter/                     and bare
-  pleach render --gallery -o gallery.png                       fifteen species, leafy and in winter";
+  pleach render quaking_aspen                         quaking_aspen-1.png here
+  pleach render acer --season autumn -o acer.png      in autumn
+  pleach render palm --size 1600 --view 30,10         larger, from another side
+  pleach render palm --background transparent -o palm.png
+  pleach render acer --turntable 36 -o acer.png       an animated PNG
+  pleach render acer --turntable 36 -o frames/        36 files
+  pleach render all -o gallery/                       every species, leafy
+  pleach render all --no-leaves -o winter/            and bare
+  pleach render --gallery -o gallery.png              fifteen species on one sheet
+  pleach render acer -o - > acer.png                  to standard output
+
+This is the picture to look at: bark, light and shadow, 768 pixels high, enough for a page. \
+`pleach silhouette` draws the binary picture that fits compare, with 512 pixels, twice what a fit \
+compares; the flat drawing that `pleach grow` puts beside a skeleton has 1024, so that twigs are seen.";
 
 /// Draw a shaded picture of a tree
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Render {
-    /// A species, by name or file; `all` for every species that comes with pleach
+    /// A species, by name or file; `all` for every species that comes with pleach, `-` for a file from
+    /// standard input
     #[arg(required_unless_present = "gallery")]
     species: Option<String>,
     /// One sheet of the dissertation's fifteen species, leafy and in winter
@@ -37,10 +44,10 @@ pub(crate) struct Render {
     /// Seed of the tree; the species file's own, or 1, by default
     #[arg(long, value_name = "N", value_parser = input::seed)]
     seed: Option<u64>,
-    /// PNG file, or folder to write to; the working directory by default
+    /// PNG file, folder to write to, or `-` for standard output; the working directory by default
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
-    /// Width and height in pixels; in a gallery of each tree, 224 by default
+    /// Width and height in pixels; in a gallery, of each tree, 224 by default
     #[arg(long, value_name = "PIXELS", default_value_t = 768, default_value_if("gallery", "true", "224"), value_parser = clap::value_parser!(u32).range(16..=4096))]
     size: u32,
     /// Azimuth, or azimuth,elevation, in degrees
@@ -58,7 +65,7 @@ pub(crate) struct Render {
     /// What the tree stands on
     #[arg(long, value_enum, default_value_t)]
     ground: GroundArg,
-    /// So many pictures around the tree: one animated PNG, or files in a folder
+    /// This many pictures around the tree: one animated PNG, or files in a folder
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=360))]
     turntable: Option<u32>,
     #[command(flatten)]
@@ -94,7 +101,7 @@ impl Render {
         if name != "all" {
             return self.one(&input::species(name)?);
         }
-        if self.out.as_deref().is_some_and(is_file) {
+        if self.file()?.is_some() {
             bail!("pictures of all species need a folder, not a file: -o gallery/");
         }
         pleach_generators::names().into_iter().try_for_each(|name| self.one(&input::species(name)?))
@@ -137,15 +144,15 @@ impl Render {
         };
         let grow = |species: &Species| self.grow(species, self.seed.or(species.tree_seed).unwrap_or(1));
         let sheet = gallery::sheet(self.size, grow, &self.settings(0.0))?;
-        files::write_whole(&path, |file| Ok(png_file::write_indexed(file, &sheet)?))?;
-        output::note(format!("wrote {}", path.display()));
+        files::write_out(&path, |mut out| Ok(png_file::write_indexed(&mut out, &sheet)?))?;
+        output::wrote(&path);
         Ok(())
     }
 
-    /// The file to write to, if one was named.
+    /// The file to write to, if one was named; `-` is one.
     fn file(&self) -> anyhow::Result<Option<&Path>> {
-        let file = self.out.as_deref().filter(|path| is_file(path));
-        if let Some(file) = file {
+        let file = self.out.as_deref().filter(|path| files::is_file(path) || files::is_stdout(path));
+        if let Some(file) = file.filter(|path| !files::is_stdout(path)) {
             let suffix = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
             if suffix != "png" {
                 bail!("cannot write `.{suffix}` pictures, known is .png");
@@ -177,13 +184,8 @@ impl Render {
     }
 }
 
-/// Whether `path` names a file: it has a suffix, and is no folder.
-fn is_file(path: &Path) -> bool {
-    path.extension().is_some() && !path.is_dir()
-}
-
 fn write(path: &Path, pictures: &[pleach_mesh::Picture], milliseconds: u16) -> anyhow::Result<()> {
-    files::write_whole(path, |file| Ok(png_file::write(file, pictures, milliseconds)?))?;
-    output::note(format!("wrote {}", path.display()));
+    files::write_out(path, |mut out| Ok(png_file::write(&mut out, pictures, milliseconds)?))?;
+    output::wrote(path);
     Ok(())
 }

@@ -8,18 +8,20 @@ use pleach_tree::{Foliage, Growth};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
-  pleach silhouette acer                              drawn in the terminal
-  pleach silhouette acer --seed 7 -o acer.png         512 × 512, black on white, one bit
+  pleach silhouette acer                      drawn in the terminal
+  pleach silhouette acer --seed 7 -o acer.png
   pleach silhouette acer --view 90,20 --no-leaves -o side.png
+  pleach silhouette acer -o - > acer.png      to standard output
 
-The ground is the bottom edge, the trunk's foot is in the middle, and the larger of height and width
-fills 95 % of the picture. Azimuth 0 looks along +y with +x to the right.";
+The PNG is black on white, one bit per pixel. The ground is the bottom edge, the trunk's foot is in the \
+middle, and the larger of height and width fills 95 % of the picture. Azimuth 0 looks along +y with +x \
+to the right.";
 
 /// Draw the binary picture of a tree
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Silhouette {
-    /// A species, by name or file
+    /// A species, by name or file; `-` reads the file from standard input
     species: String,
     /// Seed of the tree; the species file's own, or 1, by default
     #[arg(long, value_name = "N", value_parser = input::seed)]
@@ -33,7 +35,7 @@ pub(crate) struct Silhouette {
     /// Draw stems only
     #[arg(long)]
     no_leaves: bool,
-    /// The PNG to write; without it the picture is drawn in the terminal
+    /// The PNG to write, or `-` for standard output; without it the picture is drawn in the terminal
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -59,17 +61,18 @@ impl Silhouette {
         let Some(path) = &self.out else {
             return output::line(in_characters(&draw(160, 160)));
         };
-        if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("png")) {
-            bail!("{} is no .png: silhouettes are written as PNG", path.display());
+        let png = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("png"));
+        if !png && !files::is_stdout(path) {
+            bail!("{} is not a .png: silhouettes are written as PNG", path.display());
         }
         let bitmap = draw(self.size, self.size);
-        files::write_whole(path, |file| Ok(bitmap.write_png(file)?))?;
-        output::note(format!("wrote {}", path.display()));
+        files::write_out(path, |mut out| Ok(bitmap.write_png(&mut out)?))?;
+        output::wrote(path);
         Ok(())
     }
 }
 
-/// Two by four pixels a character, as Braille dots: a terminal's finest picture.
+/// Two by four pixels per character, as Braille dots: a terminal's finest picture.
 fn in_characters(bitmap: &Bitmap) -> String {
     /// Bits of a Braille pattern by row and column.
     const DOTS: [[u32; 2]; 4] = [[0, 3], [1, 4], [2, 5], [6, 7]];

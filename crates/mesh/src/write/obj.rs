@@ -21,7 +21,7 @@ pub struct Obj<W> {
 
 impl<W: Write> Obj<W> {
     /// Writes to `out`, which should be buffered, an object called `name` that finds its materials in
-    /// `material_file` in the same folder.
+    /// `material_file` in the same folder; an empty name says that there is no such file.
     pub fn new(out: W, name: &str, material_file: &str) -> Self {
         let one_word = |text: &str| text.split_whitespace().collect::<Vec<_>>().join("_");
         Self {
@@ -66,7 +66,11 @@ impl<W: Write> Sink for Obj<W> {
             self.firsts.push(first);
             first += part.count.vertices as u32;
         }
-        writeln!(self.out, "# metres, y up\nmtllib {}\no {}", self.material_file, self.name)?;
+        writeln!(self.out, "# metres, y up")?;
+        if !self.material_file.is_empty() {
+            writeln!(self.out, "mtllib {}", self.material_file)?;
+        }
+        writeln!(self.out, "o {}", self.name)?;
         Ok(())
     }
 

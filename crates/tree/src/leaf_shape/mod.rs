@@ -55,6 +55,23 @@ impl LeafShape {
         Self::ALL.into_iter().find(|shape| *shape as i64 == number)
     }
 
+    /// The name of the shape in species files, such as `spiky_oak`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Ovate => "ovate",
+            Self::Linear => "linear",
+            Self::Cordate => "cordate",
+            Self::Maple => "maple",
+            Self::Palmate => "palmate",
+            Self::SpikyOak => "spiky_oak",
+            Self::RoundedOak => "rounded_oak",
+            Self::Elliptic => "elliptic",
+            Self::Rectangle => "rectangle",
+            Self::Triangle => "triangle",
+        }
+    }
+
     /// The right half of the outline as (u, v), u ≥ 0, from the base to the tip.
     ///
     /// A last point with u = 0 is the tip itself; without one the tip is a straight edge.
@@ -139,6 +156,16 @@ impl BlossomShape {
     #[must_use]
     pub fn from_number(number: i64) -> Option<Self> {
         Self::ALL.into_iter().find(|shape| *shape as i64 == number)
+    }
+
+    /// The name of the shape in species files, such as `cherry`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Cherry => "cherry",
+            Self::Orange => "orange",
+            Self::Magnolia => "magnolia",
+        }
     }
 
     /// Corners and faces of the unit shape.

@@ -65,7 +65,7 @@ pub(super) struct SearchArgs {
     /// (the dissertation's genetic algorithm) or random
     #[arg(long, value_name = "NAME", default_value = pleach_fit::Optimizer::NAMES[0])]
     pub(super) optimizer: String,
-    /// A setting of the optimiser, such as population=60; repeatable. `--set help` lists them
+    /// A setting of the optimiser, such as children=8; repeatable. `--set help` lists them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) settings: Vec<String>,
     /// What is made small: balance, blend, likeness, iou or accuracy

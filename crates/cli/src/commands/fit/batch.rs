@@ -97,7 +97,7 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
                     let flag = if mode == Mode::Continue { "" } else { " with --resume" };
                     let how =
                         format!("interrupted, {i} of {all} goals are done; the same command{flag} goes on");
-                    return Err(Interrupted(how).into());
+                    return Err(Interrupted::new(how).into());
                 }
                 Ok(Some(summary)) => (brief(&summary), Some(State::Finished(summary))),
             },

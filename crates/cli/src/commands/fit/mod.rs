@@ -169,7 +169,7 @@ impl Fit {
             Ended::Finished(summary) => (Some(summary), None),
             Ended::Interrupted(summary) => {
                 let has_begun = summary.is_some() || RunFolder::at(path.clone()).is_unfinished();
-                (summary, Some(Interrupted(how_to_go_on(goal, &path, mode, has_begun))))
+                (summary, Some(Interrupted::new(how_to_go_on(goal, &path, mode, has_begun))))
             }
         };
         if let Some(summary) = summary {
