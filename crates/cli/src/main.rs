@@ -1,11 +1,12 @@
 //! The program `pleach`: arguments, progress, files. Only this crate prints.
 //!
 //! Results go to standard output, progress and messages to standard error. Exit codes: 0 done, 1
-//! failed, 2 wrong usage.
+//! failed, 2 wrong usage, 130 ended by a signal.
 
 mod commands;
 mod files;
 mod input;
+mod interrupted;
 mod output;
 mod skeleton;
 
@@ -20,7 +21,7 @@ fn main() -> ExitCode {
         Err(error) if output::is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             output::error(&error);
-            ExitCode::FAILURE
+            if error.is::<interrupted::Interrupted>() { ExitCode::from(130) } else { ExitCode::FAILURE }
         }
     }
 }
