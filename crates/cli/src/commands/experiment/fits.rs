@@ -115,16 +115,20 @@ impl Kind for FitsSpec {
                     values
                 };
                 let (accuracy, iou, seconds) = (sorted(6), sorted(7), sorted(9));
-                let middle = |v: &[f64]| v.get(v.len() / 2).copied().unwrap_or(0.0);
-                let mean = seconds.iter().sum::<f64>() / seconds.len().max(1) as f64;
+                // Searches that are over before their first generation have no rows.
+                let cell = |value: Option<f64>, digits: usize| {
+                    value.map_or_else(String::new, |value| format!("{value:.digits$}"))
+                };
+                let middle = |v: &[f64]| v.get(v.len() / 2).copied();
+                let mean = seconds.iter().sum::<f64>() / seconds.len() as f64;
                 rows.push(vec![
                     name.clone(),
                     optimizer.clone(),
-                    format!("{:.4}", middle(&accuracy)),
-                    format!("{:.4}", accuracy.first().unwrap_or(&0.0)),
-                    format!("{:.4}", middle(&iou)),
-                    format!("{:.4}", iou.first().unwrap_or(&0.0)),
-                    format!("{mean:.0}"),
+                    cell(middle(&accuracy), 4),
+                    cell(accuracy.first().copied(), 4),
+                    cell(middle(&iou), 4),
+                    cell(iou.first().copied(), 4),
+                    cell(seconds.first().map(|_| mean), 0),
                 ]);
             }
         }

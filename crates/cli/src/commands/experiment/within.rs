@@ -167,10 +167,28 @@ pub(super) struct Word<T> {
 
 impl<'de, T: FromStr<Err: fmt::Display>> Deserialize<'de> for Word<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(deserializer)?;
-        let value = text.parse().map_err(D::Error::custom)?;
-        Ok(Self { text, value })
+        text(deserializer, |text| Ok::<_, T::Err>(Self { text: text.to_owned(), value: text.parse()? }))
     }
+}
+
+/// What `parse` makes of a text; a visitor, so that its errors are about the text's own place.
+fn text<'de, D: Deserializer<'de>, T, E: fmt::Display>(
+    deserializer: D,
+    parse: impl FnOnce(&str) -> Result<T, E>,
+) -> Result<T, D::Error> {
+    struct Reader<F, T, E>(F, PhantomData<(T, E)>);
+    impl<T, E: fmt::Display, F: FnOnce(&str) -> Result<T, E>> Visitor<'_> for Reader<F, T, E> {
+        type Value = T;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("a text")
+        }
+
+        fn visit_str<D: Error>(self, text: &str) -> Result<T, D> {
+            (self.0)(text).map_err(D::custom)
+        }
+    }
+    deserializer.deserialize_str(Reader(parse, PhantomData))
 }
 
 /// A species that exists, by name or by file.
@@ -187,11 +205,7 @@ impl Deref for SpeciesName {
 
 impl<'de> Deserialize<'de> for SpeciesName {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let name = String::deserialize(deserializer)?;
-        match input::species(&name) {
-            Ok(_) => Ok(Self(name)),
-            Err(error) => Err(D::Error::custom(error)),
-        }
+        text(deserializer, |name| input::species(name).map(|_| Self(name.to_owned())))
     }
 }
 
@@ -227,6 +241,6 @@ impl Deref for FileName {
 
 impl<'de> Deserialize<'de> for FileName {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
+        text(deserializer, str::parse)
     }
 }

@@ -43,7 +43,7 @@ const LARGEST: usize = 1 << 18;
 /// A spoilt copy of a text; not always text.
 pub(super) fn text(original: &str, draws: &mut Stream) -> Vec<u8> {
     let mut bytes = original.as_bytes().to_vec();
-    for _ in 0..=draws.below(EDITS) {
+    for _ in 0..edits(draws) {
         edit_text(&mut bytes, draws);
         bytes.truncate(LARGEST);
     }
@@ -53,11 +53,16 @@ pub(super) fn text(original: &str, draws: &mut Stream) -> Vec<u8> {
 /// A spoilt copy of a file of numbers and pixels.
 pub(super) fn binary(original: &[u8], draws: &mut Stream) -> Vec<u8> {
     let mut bytes = original.to_vec();
-    for _ in 0..=draws.below(EDITS) {
+    for _ in 0..edits(draws) {
         edit_bytes(&mut bytes, draws);
         bytes.truncate(LARGEST);
     }
     bytes
+}
+
+/// How many edits: one in half of the cases, so that many get past the first check.
+fn edits(draws: &mut Stream) -> usize {
+    if draws.chance(0.5) { 1 } else { 1 + draws.below(EDITS) }
 }
 
 fn edit_text(bytes: &mut Vec<u8>, draws: &mut Stream) {
@@ -69,7 +74,13 @@ fn edit_text(bytes: &mut Vec<u8>, draws: &mut Stream) {
                 return edit_bytes(bytes, draws);
             }
             let at = numbers[draws.below(numbers.len())].clone();
-            bytes.splice(at, NUMBERS[draws.below(NUMBERS.len())].bytes());
+            if draws.chance(0.5) {
+                // Another number of about the same size.
+                let digits: Vec<usize> = at.filter(|&i| bytes[i].is_ascii_digit()).collect();
+                bytes[digits[draws.below(digits.len())]] = b'0' + draws.below(10) as u8;
+            } else {
+                bytes.splice(at, NUMBERS[draws.below(NUMBERS.len())].bytes());
+            }
         }
         4 => insert(bytes, ODDITIES[draws.below(ODDITIES.len())].as_bytes(), draws),
         5 => {

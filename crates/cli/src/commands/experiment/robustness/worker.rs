@@ -149,7 +149,7 @@ impl Worker {
             let mut verdict = contained(self.area.as_ref(), case, self.folder.path());
             self.watch(None);
             let cpu = clock.now().saturating_sub(begun);
-            if cpu > self.limit && verdict == Verdict::Accepted {
+            if cpu > self.limit && !matches!(verdict, Verdict::Wrong(_) | Verdict::Panicked(_)) {
                 verdict = Verdict::OverTime;
             }
             if self.sender.send((case, Judged { verdict, cpu })).is_err() {
