@@ -141,6 +141,8 @@ fn options_are_checked_before_anything_runs() {
     let none = fits.split("[[goals]]").next().unwrap();
     let _ = dir.file("experiment.toml", none);
     dir.run(["experiment", "run", "."]).fails(1, &["experiment.toml:1:1: ", "missing field `goals`"]);
+    let _ = dir.file("experiment.toml", b"kind = \"fits\"\nx = \"\xff\"\n");
+    dir.run(["experiment", "run", "."]).fails(1, &["experiment.toml:2:6: ", "expected UTF-8"]);
     dir.run(["experiment", "check", ".", "--repetitions", "0"]).fails(2, &["--repetitions"]);
 }
 

@@ -180,10 +180,17 @@ pub(super) struct Source {
 impl Source {
     pub(super) fn read(folder: &Path) -> anyhow::Result<Self> {
         let path = folder.join("experiment.toml");
-        let text = std::fs::read_to_string(&path).with_context(|| {
+        let bytes = std::fs::read(&path).with_context(|| {
             format!("cannot read {}: an experiment is a folder with an experiment.toml", path.display())
         })?;
-        Ok(Self { path, text })
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self { path, text }),
+            Err(error) => {
+                let whole = error.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(&error.as_bytes()[..whole]).into_owned();
+                Err(Self { path, text }.wrong(whole..whole, "a byte that is no text, expected UTF-8"))
+            }
+        }
     }
 
     /// An error about the place `span`.
