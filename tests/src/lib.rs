@@ -6,6 +6,8 @@
 //! | `bad_input.rs` | everything that must end in a clear error |
 //! | `reference_stats.rs` | our trees against those of the reference generator |
 //! | `experiments.rs` | a slice of each experiment against its committed results |
+//! | `experiment_runs.rs` | what experiments write over and refuse, how they end and go on |
+//! | `robustness.rs` | spoilt input under limits of memory and time |
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};

@@ -1,8 +1,8 @@
 //! Blends of species: seed's §4.4.1 remade, and what it could not do counted.
 
-use super::spec::BlendSpec;
-use super::{Slice, Table, progress};
-use crate::{files, input, output};
+use super::spec::{BlendSpec, species_files};
+use super::{Journal, Kind as Experiment, Outputs, Slice, Table, progress, stop};
+use crate::{input, output};
 use anyhow::Context;
 use pleach_blend::draw::{Drawing, each_tree, picture, silhouettes};
 use pleach_blend::{Blend, BlendMap, Features, Point, Settings, map};
@@ -10,7 +10,7 @@ use pleach_silhouette::score::blurred_iou;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View, picture as sheets};
 use pleach_tree::{Growth, Key, Kind, Limits, Species, Tree};
 use rayon::prelude::*;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// One number of one question about one blend, or one group of them.
 const COLUMNS: [&str; 6] = ["question", "first", "second", "method", "measure", "value"];
@@ -92,32 +92,54 @@ const DRAWING: Drawing = Drawing { pixels: 128, detail: Detail::Full };
 const BLUR: f64 = 128.0 / 16.0;
 const SEED: u64 = 1;
 
-pub(super) fn run(folder: &Path, spec: &BlendSpec) -> anyhow::Result<String> {
-    let table = table(spec, Slice::default())?;
-    table.write(&folder.join("results.csv"))?;
-    let maps = Maps::of(&species(spec)?)?;
-    figure(&maps, folder)?;
-    with_palm(&maps, folder)?;
-    Ok(summary(&table))
-}
+const FIGURE: &str = "figure-4.8.png";
+const PALM: &str = "palm.png";
 
-pub(super) fn table(spec: &BlendSpec, slice: Slice) -> anyhow::Result<Table> {
-    let maps = Maps::of(&species(spec)?)?;
-    let mut rows = Rows(Vec::new());
-    explained(&maps, &mut rows);
-    landmarks(&maps, &mut rows)?;
-    palm(&maps, &mut rows)?;
-    let left_out = slice.repetitions.map_or(usize::MAX, |n| n as usize);
-    leave_one_out(&maps, left_out, &mut rows)?;
-    smoothness(&maps, spec.steps, left_out, &mut rows)?;
-    if slice.repetitions.is_none() {
-        validity(&maps, spec.points, &mut rows)?;
+impl Experiment for BlendSpec {
+    fn columns(&self) -> Vec<&'static str> {
+        COLUMNS.to_vec()
     }
-    Ok(Table { columns: COLUMNS.to_vec(), rows: rows.0 })
+
+    fn files(&self, _: &Path) -> (Vec<String>, Vec<PathBuf>) {
+        let species = species_files(self.species.get_ref());
+        ([FIGURE, PALM].map(str::to_owned).to_vec(), species.collect())
+    }
+
+    /// A job for each question.
+    fn rows(&self, _: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
+        let maps = Maps::of(&self.species()?)?;
+        let most = slice.of(usize::MAX);
+        let mut job = |question: &str, make: &dyn Fn(&mut Rows) -> anyhow::Result<()>| {
+            let rows = || {
+                let mut rows = Rows(Vec::new());
+                make(&mut rows)?;
+                Ok(rows.0)
+            };
+            journal.job(|row| row[0] == question, rows)
+        };
+        job("explained variance", &|rows| Ok(explained(&maps, rows)))?;
+        job("landmark", &|rows| landmarks(&maps, rows))?;
+        job("palm", &|rows| palm(&maps, rows))?;
+        job("leave one out", &|rows| leave_one_out(&maps, most, rows))?;
+        job("smoothness", &|rows| smoothness(&maps, *self.steps as u32, most, rows))?;
+        if slice.repetitions.is_none() {
+            job("random points", &|rows| validity(&maps, *self.points as usize, rows))?;
+        }
+        Ok(())
+    }
+
+    fn report(&self, _: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
+        let maps = Maps::of(&self.species()?)?;
+        figure(&maps, outputs)?;
+        with_palm(&maps, outputs)?;
+        Ok(summary(table))
+    }
 }
 
-fn species(spec: &BlendSpec) -> anyhow::Result<Vec<Species>> {
-    spec.species.iter().map(|name| Ok(input::species(name)?)).collect()
+impl BlendSpec {
+    fn species(&self) -> anyhow::Result<Vec<Species>> {
+        self.species.get_ref().iter().map(|name| Ok(input::species(name.get_ref())?)).collect()
+    }
 }
 
 fn explained(maps: &Maps, rows: &mut Rows) {
@@ -268,6 +290,7 @@ fn leave_one_out(maps: &Maps, most: usize, rows: &mut Rows) -> anyhow::Result<()
     let codes = maps.declared.landmarks().codes();
     let all = maps.species();
     for (i, species) in all.iter().enumerate().take(most) {
+        stop::check()?;
         let others: Vec<Species> = all.iter().filter(|s| s.name != species.name).cloned().collect();
         let without = Maps::of(&others)?;
         let code =
@@ -318,6 +341,7 @@ fn smoothness(maps: &Maps, steps: u32, most: usize, rows: &mut Rows) -> anyhow::
         let lines = pairs
             .par_iter()
             .map(|&pair| {
+                stop::check()?;
                 let line = Line::of(maps, method, pair, steps);
                 bar.inc(1);
                 line
@@ -389,15 +413,16 @@ fn switches(one: &Species, two: &Species) -> bool {
 }
 
 /// Random points of the hull: do all grow, and into something like a tree?
-fn validity(maps: &Maps, points: u32, rows: &mut Rows) -> anyhow::Result<()> {
+fn validity(maps: &Maps, points: usize, rows: &mut Rows) -> anyhow::Result<()> {
     let map = &maps.declared;
     let ranges = Ranges::of(maps.species())?;
-    let points = inside(map, points as usize);
+    let points = inside(map, points);
     let bar = progress("points", points.len() as u64);
     let verdicts: Vec<(bool, bool)> = points
         .par_iter()
         .enumerate()
         .map(|(i, point)| {
+            stop::check()?;
             bar.inc(1);
             let blend = map.at(*point)?;
             let valid = map.landmarks().space().check(blend.params.values().to_vec()).is_ok();
@@ -424,7 +449,7 @@ fn inside(map: &BlendMap, count: usize) -> Vec<Point> {
 }
 
 /// Figure 4.8: quaking aspen and silver birch, and what lies between them.
-fn figure(maps: &Maps, folder: &Path) -> anyhow::Result<()> {
+fn figure(maps: &Maps, outputs: &Outputs) -> anyhow::Result<()> {
     let named = |name: &str| maps.declared.landmarks().named(name);
     let pair = (named("quaking_aspen")?, named("silver_birch")?);
     let mut row = vec![("quaking aspen".to_owned(), maps.species()[pair.0].clone())];
@@ -436,11 +461,11 @@ fn figure(maps: &Maps, folder: &Path) -> anyhow::Result<()> {
         row.push((label.to_owned(), maps.between(method, pair, 0.5)?));
     }
     row.push(("silver birch".to_owned(), maps.species()[pair.1].clone()));
-    write_sheet(row, 5, 300, &folder.join("figure-4.8.png"))
+    outputs.picture(FIGURE, &sheet(row, 5, 300))
 }
 
 /// The palm half way to each other species, raw above ours.
-fn with_palm(maps: &Maps, folder: &Path) -> anyhow::Result<()> {
+fn with_palm(maps: &Maps, outputs: &Outputs) -> anyhow::Result<()> {
     let palm = maps.declared.landmarks().named("palm")?;
     let others: Vec<usize> = (0..maps.species().len()).filter(|&i| i != palm).collect();
     let mut cells = Vec::new();
@@ -452,15 +477,10 @@ fn with_palm(maps: &Maps, folder: &Path) -> anyhow::Result<()> {
             }
         }
     }
-    write_sheet(cells, 7, 176, &folder.join("palm.png"))
+    outputs.picture(PALM, &sheet(cells, 7, 176))
 }
 
-fn write_sheet(
-    cells: Vec<(String, Species)>,
-    columns: usize,
-    pixels: u32,
-    path: &Path,
-) -> anyhow::Result<()> {
+fn sheet(cells: Vec<(String, Species)>, columns: usize, pixels: u32) -> sheets::Picture {
     let drawing = Drawing { pixels, detail: Detail::Full };
     let cells: Vec<(String, Bitmap)> = cells
         .into_par_iter()
@@ -469,8 +489,7 @@ fn write_sheet(
             Err(_) => (format!("{label}: grows no tree"), Bitmap::new(pixels, pixels)),
         })
         .collect();
-    let sheet = sheets::sheet(&cells, columns);
-    files::write_whole(path, |file| Ok(sheet.write_png(file)?))
+    sheets::sheet(&cells, columns)
 }
 
 /// Sums and extremes of the table by question, method and measure.

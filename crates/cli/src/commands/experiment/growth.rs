@@ -1,11 +1,11 @@
 //! Time and size of trees: §4.2.2 and §4.2.3 of the dissertation.
 
 use super::plot::{Plot, Scale};
-use super::spec::GrowthSpec;
-use super::{Slice, Table, progress};
-use crate::{files, input, output};
+use super::spec::{GrowthSpec, species_files};
+use super::{Journal, Kind, Outputs, Slice, Table, progress};
+use crate::{input, output};
 use pleach_tree::{Foliage, Growth, Tree, Workspace};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Times are the least of this many, since other work can only add to them.
@@ -17,25 +17,85 @@ const TIMES: [&str; 2] = ["wall_branches_ms", "wall_whole_ms"];
 /// A figure of every tree of a species.
 type Figures = Vec<(String, Vec<f64>)>;
 
-pub(super) fn run(folder: &Path, spec: &GrowthSpec) -> anyhow::Result<String> {
-    let table = table(spec, Slice::default())?;
-    table.write(&folder.join("results.csv"))?;
-    let column = |c: usize| -> Figures {
-        let of = |name: &String| {
-            table.rows.iter().filter(|row| row[0] == *name).filter_map(|r| r[c].parse().ok()).collect()
+const STEMS_PLOT: &str = "stems.svg";
+const FOLIAGE_PLOT: &str = "foliage.svg";
+const COUNTS_PLOT: &str = "complexity.svg";
+
+impl Kind for GrowthSpec {
+    fn columns(&self) -> Vec<&'static str> {
+        let times = if self.timed { &TIMES[..] } else { &[] };
+        [&COUNTS, times].concat()
+    }
+
+    fn files(&self, _: &Path) -> (Vec<String>, Vec<PathBuf>) {
+        let plots: &[&str] = if self.timed { &[STEMS_PLOT, FOLIAGE_PLOT] } else { &[COUNTS_PLOT] };
+        (plots.iter().map(|name| (*name).to_owned()).collect(), species_files(&self.species).collect())
+    }
+
+    /// One row for each tree.
+    fn rows(&self, _: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
+        let most = **self.seeds.get_ref();
+        let seeds = slice.repetitions.unwrap_or(most).min(most);
+        let bar = progress("trees", self.species.len() as u64 * seeds);
+        let (mut workspace, mut tree) = (Workspace::default(), Tree::default());
+        for name in &self.species {
+            let name = name.get_ref().as_str();
+            let species = input::species(name)?;
+            for seed in 1..=seeds {
+                let key = [name.to_owned(), seed.to_string()];
+                journal.job(
+                    |row| row[..2] == key,
+                    || {
+                        let mut grow = |foliage: Foliage| -> anyhow::Result<f64> {
+                            let mut least = f64::INFINITY;
+                            for _ in 0..if self.timed { TRIES } else { 1 } {
+                                let started = Instant::now();
+                                let growth = Growth { foliage, ..Growth::seed(seed) };
+                                species.generator.grow(
+                                    &species.params,
+                                    &growth,
+                                    &mut workspace,
+                                    &mut tree,
+                                )?;
+                                least = least.min(started.elapsed().as_secs_f64() * 1e3);
+                            }
+                            Ok(least)
+                        };
+                        let branches = if self.timed { Some(grow(Foliage::None)?) } else { None };
+                        let whole = grow(Foliage::All)?;
+                        let counts =
+                            [tree.stems.len(), tree.knots.len(), tree.leaves.len() + tree.blossoms.len()];
+                        let times = branches.map(|branches| [branches, whole]);
+                        let times = times.iter().flatten().map(|ms| format!("{ms:.4}"));
+                        let row = key.iter().cloned().chain(counts.map(|n| n.to_string())).chain(times);
+                        Ok(vec![row.collect()])
+                    },
+                )?;
+                bar.inc(1);
+            }
+        }
+        bar.finish_and_clear();
+        Ok(())
+    }
+
+    fn report(&self, _: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
+        let column = |c: usize| -> Figures {
+            let of = |name: &str| {
+                table.rows.iter().filter(|row| row[0] == name).filter_map(|r| r[c].parse().ok()).collect()
+            };
+            self.species.iter().map(|name| (name.get_ref().to_string(), of(name.get_ref()))).collect()
         };
-        spec.species.iter().map(|name| (name.clone(), of(name))).collect()
-    };
-    if spec.timed {
-        times(folder, &column(3), &column(4), &column(5), &column(6))
-    } else {
-        counts(folder, &column(3), &column(4))
+        if self.timed {
+            times(outputs, &column(3), &column(4), &column(5), &column(6))
+        } else {
+            counts(outputs, &column(3), &column(4))
+        }
     }
 }
 
 /// Figure 4.5: time over size, and how it grows.
 fn times(
-    folder: &Path,
+    outputs: &Outputs,
     points: &Figures,
     leaves: &Figures,
     branches_ms: &Figures,
@@ -67,13 +127,19 @@ fn times(
             ADD_ON_MS.iter().find(|(n, _)| n == name).map_or_else(String::new, |(_, ms)| ms.to_string()),
         ]);
     }
-    files::write_text(&folder.join("stems.svg"), &stems.svg())?;
-    files::write_text(&folder.join("foliage.svg"), &foliage.svg())?;
+    outputs.text(STEMS_PLOT, &stems.svg())?;
+    outputs.text(FOLIAGE_PLOT, &foliage.svg())?;
     Ok(format!(
         "medians of one thread; the last column is the reference add-on's processor time\n\n{}\n\n\
-         time of the stems grows as Bézier points to the power {:.2} (least squares of the logarithms)",
+         {}",
         output::table(&rows, &[1, 2, 3, 4, 5]),
-        exponent(&all)
+        exponent(&all).map_or_else(
+            || "all trees are of one size: they do not say how time grows with it".to_owned(),
+            |exponent| format!(
+                "time of the stems grows as Bézier points to the power {exponent:.2} (least squares of the \
+                 logarithms)"
+            )
+        )
     ))
 }
 
@@ -98,7 +164,7 @@ const ADD_ON_MS: [(&str, u32); 15] = [
 ];
 
 /// Figure 4.7: size by species.
-fn counts(folder: &Path, points: &Figures, leaves: &Figures) -> anyhow::Result<String> {
+fn counts(outputs: &Outputs, points: &Figures, leaves: &Figures) -> anyhow::Result<String> {
     let mut plot = Plot::new("", "Bézier points", Scale::Index, Scale::Log);
     let mut rows =
         vec![["species", "Bézier points", "sd", "least", "most", "leaves", "sd"].map(str::to_owned).to_vec()];
@@ -110,51 +176,8 @@ fn counts(folder: &Path, points: &Figures, leaves: &Figures) -> anyhow::Result<S
         let figures = [mean(points), spread(points), least, most, mean(leaves), spread(leaves)];
         rows.push(std::iter::once(name.clone()).chain(figures.map(|f| format!("{f:.0}"))).collect());
     }
-    files::write_text(&folder.join("complexity.svg"), &plot.svg())?;
+    outputs.text(COUNTS_PLOT, &plot.svg())?;
     Ok(output::table(&rows, &[1, 2, 3, 4, 5, 6]))
-}
-
-/// One row a tree.
-pub(super) fn table(spec: &GrowthSpec, slice: Slice) -> anyhow::Result<Table> {
-    let seeds = slice.repetitions.unwrap_or(spec.seeds).min(spec.seeds);
-    let bar = progress("trees", spec.species.len() as u64 * seeds);
-    let (mut workspace, mut tree) = (Workspace::default(), Tree::default());
-    let mut rows = Vec::new();
-    for name in &spec.species {
-        let species = input::species(name)?;
-        for seed in 1..=seeds {
-            let mut grow = |foliage: Foliage| -> anyhow::Result<f64> {
-                let mut least = f64::INFINITY;
-                for _ in 0..TRIES {
-                    let started = Instant::now();
-                    let growth = Growth { foliage, ..Growth::seed(seed) };
-                    species.generator.grow(&species.params, &growth, &mut workspace, &mut tree)?;
-                    least = least.min(started.elapsed().as_secs_f64() * 1e3);
-                }
-                Ok(least)
-            };
-            let times = if spec.timed { vec![grow(Foliage::None)?, grow(Foliage::All)?] } else { Vec::new() };
-            if !spec.timed {
-                species.generator.grow(&species.params, &Growth::seed(seed), &mut workspace, &mut tree)?;
-            }
-            let mut row = vec![
-                name.clone(),
-                seed.to_string(),
-                tree.stems.len().to_string(),
-                tree.knots.len().to_string(),
-                (tree.leaves.len() + tree.blossoms.len()).to_string(),
-            ];
-            row.extend(times.iter().map(|ms| format!("{ms:.4}")));
-            rows.push(row);
-            bar.inc(1);
-        }
-    }
-    bar.finish_and_clear();
-    let mut columns = COUNTS.to_vec();
-    if spec.timed {
-        columns.extend(TIMES);
-    }
-    Ok(Table { columns, rows })
 }
 
 fn median(values: &[f64]) -> f64 {
@@ -174,12 +197,12 @@ fn spread(values: &[f64]) -> f64 {
         .sqrt()
 }
 
-/// The slope of log y over log x by least squares.
-fn exponent(points: &[(f64, f64)]) -> f64 {
+/// The slope of log y over log x by least squares; none where x never changes.
+fn exponent(points: &[(f64, f64)]) -> Option<f64> {
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
     let n = logs.len() as f64;
     let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);
     let xy: f64 = logs.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     let xx: f64 = logs.iter().map(|p| (p.0 - mx).powi(2)).sum();
-    xy / xx
+    (xx > 0.0).then(|| xy / xx).filter(|slope| slope.is_finite())
 }

@@ -6,33 +6,51 @@
 mod blend;
 mod fits;
 mod growth;
+mod journal;
 mod likeness;
+mod list;
 mod needle;
+mod outputs;
 mod plot;
+mod robustness;
 mod spec;
+mod stop;
+mod table;
 mod treefit;
+mod within;
 
 use crate::output;
-use anyhow::{Context, bail};
-use spec::Spec;
+use anyhow::bail;
+use journal::Journal;
+use outputs::Outputs;
+use spec::{Source, Spec};
 use std::path::{Path, PathBuf};
+pub(crate) use table::Table;
 
 const EXAMPLES: &str = "Examples:
+  pleach experiment                                               what there is, in experiments/
   pleach experiment run experiments/hewitt-ga                     all of it: results.csv, plots, pictures
-  pleach experiment run experiments/treefit --method default     one method of a benchmark again
+  pleach experiment run experiments/treefit --method default      one method of a benchmark again
+  pleach experiment run experiments/treefit --resume              goes on where ctrl-C or a kill ended it
   pleach experiment check experiments/hewitt-ga --repetitions 1 --evaluations 500
                                                                   rerun a slice and compare with results.csv";
 
-/// Run an experiment folder, or check its committed results
+/// List experiments, run one, or check its committed results
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Experiment {
     #[command(subcommand)]
-    action: Action,
+    action: Option<Action>,
 }
 
 #[derive(Debug, clap::Subcommand)]
 enum Action {
+    /// List the experiments of a folder with their questions
+    List {
+        /// A folder of experiments
+        #[arg(default_value = list::FOLDER)]
+        folder: PathBuf,
+    },
     /// Run everything and write results.csv, plots and pictures into the folder
     Run {
         /// A folder with an experiment.toml
@@ -49,129 +67,113 @@ enum Action {
     },
 }
 
-/// What of an experiment is run; only fits by several methods take parts.
+/// What of an experiment is run.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct Part {
-    /// Only this method, again for further ones; rows of the others stay as they are
+    /// Only this method, again for further ones; rows of the others stay as they are (kind treefit)
     #[arg(long = "method", value_name = "NAME")]
     methods: Vec<String>,
-    /// Go on with a run that was killed: rows that it had finished are kept
+    /// Go on with a run that was interrupted or killed: rows that it had finished are kept
     #[arg(long)]
     resume: bool,
-}
-
-impl Part {
-    /// Fails if a part is asked for.
-    fn is_all(&self) -> anyhow::Result<()> {
-        if self.methods.is_empty() && !self.resume {
-            return Ok(());
-        }
-        bail!("--method and --resume are for experiments of kind treefit");
-    }
+    /// Begin anew although an unfinished run has left rows
+    #[arg(long, conflicts_with = "resume")]
+    overwrite: bool,
 }
 
 /// Which part of an experiment is checked.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub(crate) struct Slice {
     /// Only the first so many repetitions
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     repetitions: Option<u64>,
     /// Only up to this many evaluations of a fit
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     evaluations: Option<u64>,
 }
 
-/// Rows of results under a declared set of columns.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Table {
-    columns: Vec<&'static str>,
-    rows: Vec<Vec<String>>,
+impl Slice {
+    /// So many of `all`: the first ones of a slice.
+    fn of(self, all: usize) -> usize {
+        self.repetitions.map_or(all, |n| all.min(usize::try_from(n).unwrap_or(usize::MAX)))
+    }
 }
 
-impl Table {
-    fn write(&self, path: &Path) -> anyhow::Result<()> {
-        crate::files::write_whole(path, |file| {
-            let mut csv = csv::Writer::from_writer(file);
-            csv.write_record(&self.columns)?;
-            self.rows.iter().try_for_each(|row| csv.write_record(row))?;
-            Ok(csv.flush()?)
-        })
-    }
+/// A kind of experiments.
+trait Kind {
+    /// The columns of its results.
+    fn columns(&self) -> Vec<&'static str>;
 
-    /// Reads a table that has these columns.
-    fn read(path: &Path, columns: &[&'static str]) -> anyhow::Result<Self> {
-        let mut csv =
-            csv::Reader::from_path(path).with_context(|| format!("cannot read {}", path.display()))?;
-        let heading: Vec<String> = csv.headers()?.iter().map(str::to_owned).collect();
-        if heading != columns {
-            bail!("{} has the columns {}, expected {}", path.display(), heading.join(","), columns.join(","));
-        }
-        let record = |record: csv::Result<csv::StringRecord>| -> anyhow::Result<Vec<String>> {
-            Ok(record?.iter().map(str::to_owned).collect())
-        };
-        Ok(Self {
-            columns: columns.to_vec(),
-            rows: csv.records().map(record).collect::<anyhow::Result<_>>()?,
-        })
-    }
+    /// What it writes beside the results, and what it reads: paths in and from `folder`.
+    fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>);
 
-    /// Compares with the committed results: every row here must stand there, time columns apart.
-    fn check(&self, path: &Path) -> anyhow::Result<()> {
-        let timeless = |row: &[String]| -> Vec<String> {
-            let kept = row.iter().zip(&self.columns).filter(|(_, column)| !column.starts_with("wall_"));
-            kept.map(|(cell, _)| cell.clone()).collect()
-        };
-        let committed = Self::read(path, &self.columns)?;
-        let committed: std::collections::BTreeSet<_> =
-            committed.rows.iter().map(|row| timeless(row)).collect();
-        for row in &self.rows {
-            let row = timeless(row);
-            if !committed.contains(&row) {
-                bail!("{} has no row like what came out now: {}", path.display(), row.join(","));
-            }
+    /// Makes the rows.
+    fn rows(&self, folder: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()>;
+
+    /// Makes plots and pictures of a whole run, and a report.
+    fn report(&self, folder: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String>;
+}
+
+impl Spec {
+    fn kind(&self) -> &dyn Kind {
+        match self {
+            Self::Fits(spec) => spec,
+            Self::Growth(spec) => spec,
+            Self::Blend(spec) => spec,
+            Self::Likeness(spec) => spec,
+            Self::Treefit(spec) => spec,
+            Self::Needle(spec) => spec,
+            Self::Robustness(spec) => spec,
         }
-        Ok(())
     }
 }
 
 impl Experiment {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         match &self.action {
-            Action::Run { folder, part } => {
-                let spec = Spec::read(folder)?;
-                if !matches!(spec, Spec::Treefit(_)) {
-                    part.is_all()?;
-                }
-                let report = match spec {
-                    Spec::Fits(spec) => fits::run(folder, &spec)?,
-                    Spec::Growth(spec) => growth::run(folder, &spec)?,
-                    Spec::Blend(spec) => blend::run(folder, &spec)?,
-                    Spec::Likeness(spec) => likeness::run(folder, &spec)?,
-                    Spec::Treefit(spec) => treefit::run(folder, &spec, part)?,
-                    Spec::Needle(spec) => needle::run(folder, &spec)?,
-                };
-                output::line(report)?;
-                output::note(format!("wrote {}", folder.join("results.csv").display()));
-                Ok(())
-            }
-            Action::Check { folder, slice } => {
-                let table = match Spec::read(folder)? {
-                    Spec::Fits(spec) => fits::table(folder, &spec, *slice)?.0,
-                    Spec::Growth(spec) => growth::table(&spec, *slice)?,
-                    Spec::Blend(spec) => blend::table(&spec, *slice)?,
-                    Spec::Likeness(spec) => likeness::table(folder, &spec, *slice)?,
-                    Spec::Treefit(spec) => treefit::table(folder, &spec, *slice)?,
-                    Spec::Needle(spec) => needle::table(&spec, *slice)?,
-                };
-                table.check(&folder.join("results.csv"))?;
-                output::line(format!(
-                    "{} rows agree with {}",
-                    table.rows.len(),
-                    folder.join("results.csv").display()
-                ))
-            }
+            None => output::line(list::of(Path::new(list::FOLDER))?),
+            Some(Action::List { folder }) => output::line(list::of(folder)?),
+            Some(Action::Run { folder, part }) => run(folder, part),
+            Some(Action::Check { folder, slice }) => check(folder, *slice),
         }
     }
+}
+
+fn run(folder: &Path, part: &Part) -> anyhow::Result<()> {
+    let source = Source::read(folder)?;
+    let spec = source.spec()?;
+    let kind = spec.kind();
+    let columns = kind.columns();
+    let (written, read) = kind.files(folder);
+    let outputs = Outputs::declare(folder, written, read)?;
+    let kept = match (&spec, part.methods.is_empty()) {
+        (_, true) => Vec::new(),
+        (Spec::Treefit(spec), false) => spec.rows_of_others(folder, &part.methods)?,
+        (_, false) => bail!("--method is for experiments of kind treefit"),
+    };
+    let mut journal = Journal::open(folder, &source.text, &columns, part)?;
+    journal.know(kept, treefit::is_same)?;
+    stop::catch_signals()?;
+    kind.rows(folder, Slice::default(), &mut journal).map_err(|error| journal.told(error))?;
+    let table = journal.table();
+    // Pictures may take a while as well: rows stay in the journal until all is written.
+    let report = kind.report(folder, &table, &outputs).map_err(|error| journal.told(error))?;
+    outputs.results(&table)?;
+    output::line(report)?;
+    output::note(format!("wrote {}", folder.join("results.csv").display()));
+    Ok(())
+}
+
+fn check(folder: &Path, slice: Slice) -> anyhow::Result<()> {
+    let spec = Source::read(folder)?.spec()?;
+    let kind = spec.kind();
+    let mut journal = Journal::unkept(&kind.columns());
+    stop::catch_signals()?;
+    kind.rows(folder, slice, &mut journal)?;
+    let table = journal.table();
+    let results = folder.join("results.csv");
+    table.check(&results)?;
+    output::line(format!("{} rows agree with {}", table.rows.len(), results.display()))
 }
 
 fn progress(what: &str, total: u64) -> indicatif::ProgressBar {

@@ -1,8 +1,10 @@
 //! How near to the truth parameters must be before their tree lies on the goal's.
 
 use super::plot::{Plot, Scale};
-use super::{Slice, Table, progress};
-use crate::{files, output};
+use super::spec::{Source, species_files};
+use super::within::{List, Part, Real, SpeciesName, Whole};
+use super::{Journal, Kind, Outputs, Slice, Table, progress};
+use crate::{input, output};
 use pleach_fit::settings::LIMITS;
 use pleach_fit::stream::Stream;
 use pleach_fit::{
@@ -13,8 +15,10 @@ use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
 use pleach_tree::Species;
 use serde::Deserialize;
-use std::path::Path;
+use serde::de::IgnoredAny;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use toml::Spanned;
 
 const COLUMNS: [&str; 8] =
     ["species", "distance", "moved", "iou", "iou_sd", "pixel_accuracy", "empty_accuracy", "best_ellipse_iou"];
@@ -26,57 +30,80 @@ const TREE_SEED: u64 = 1;
 /// Lane of [`Stream::at`].
 const LANE: u32 = 0x6e65;
 
+const PLOT: &str = "needle.svg";
+
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NeedleSpec {
+    #[serde(rename = "kind")]
+    _kind: IgnoredAny,
+    #[serde(rename = "question")]
+    _question: Option<String>,
     /// Species by name.
-    species: Vec<String>,
+    species: List<Spanned<SpeciesName>>,
     /// Standard deviations of the moves, as parts of the search range.
-    distances: Vec<f64>,
+    distances: List<Spanned<Real<Part>>, 1, 100>,
     /// Lists at each distance.
-    draws: u32,
+    draws: Whole<1, 100_000>,
 }
 
-pub(super) fn run(folder: &Path, spec: &NeedleSpec) -> anyhow::Result<String> {
-    let table = table(spec, Slice::default())?;
-    table.write(&folder.join("results.csv"))?;
-    let mut plot = Plot::new("distance of every number, part of its range", "IoU", Scale::Log, Scale::Linear);
-    let mut lines = vec![
-        std::iter::once("IoU at distance".to_owned())
-            .chain(spec.distances.iter().map(ToString::to_string))
-            .chain(["best ellipse".to_owned(), "numbers".to_owned()])
-            .collect::<Vec<_>>(),
-    ];
-    for name in &spec.species {
-        let of: Vec<&Vec<String>> = table.rows.iter().filter(|row| row[0] == *name).collect();
-        let points: Vec<(f64, f64)> =
-            of.iter().filter_map(|row| Some((row[1].parse().ok()?, row[3].parse().ok()?))).collect();
-        plot.line(name, &points, false);
-        let mut line = vec![name.clone()];
-        line.extend(points.iter().map(|(_, iou)| format!("{iou:.2}")));
-        let last = of.last().map_or(&[][..], |row| row.as_slice());
-        line.extend([7, 2].map(|at| last.get(at).cloned().unwrap_or_default()));
-        lines.push(line);
+impl NeedleSpec {
+    pub(super) fn checked(self, source: &Source) -> anyhow::Result<Self> {
+        source.all_differ(&self.species, |name| name.to_string(), "")?;
+        source.all_differ(&self.distances, |distance| distance.to_string(), "")?;
+        Ok(self)
     }
-    files::write_text(&folder.join("needle.svg"), &plot.svg())?;
-    Ok(output::table(&lines, &(1..lines[0].len()).collect::<Vec<_>>()))
 }
 
-/// One row a species and distance; a slice has the first few species.
-pub(super) fn table(spec: &NeedleSpec, slice: Slice) -> anyhow::Result<Table> {
-    let count = slice.repetitions.map_or(spec.species.len(), |n| (n as usize).min(spec.species.len()));
-    let species = &spec.species[..count];
-    let bar = progress("species", species.len() as u64);
-    let mut rows = Vec::new();
-    for name in species {
-        rows.extend(rows_of(&pleach_generators::species(name)?, spec)?);
-        bar.inc(1);
+impl Kind for NeedleSpec {
+    fn columns(&self) -> Vec<&'static str> {
+        COLUMNS.to_vec()
     }
-    bar.finish_and_clear();
-    Ok(Table { columns: COLUMNS.to_vec(), rows })
+
+    fn files(&self, _: &Path) -> (Vec<String>, Vec<PathBuf>) {
+        (vec![PLOT.to_owned()], species_files(&self.species).collect())
+    }
+
+    /// One row for each species and distance; a slice has the first few species.
+    fn rows(&self, _: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
+        let species = &self.species[..slice.of(self.species.len())];
+        let bar = progress("species", species.len() as u64);
+        for name in species {
+            let name = name.get_ref().as_str();
+            journal.job(|row| row[0] == name, || rows_of(&input::species(name)?, name, self))?;
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        Ok(())
+    }
+
+    fn report(&self, _: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
+        let mut plot =
+            Plot::new("distance of every number, part of its range", "IoU", Scale::Log, Scale::Linear);
+        let mut lines = vec![
+            std::iter::once("IoU at distance".to_owned())
+                .chain(self.distances.iter().map(|distance| distance.get_ref().to_string()))
+                .chain(["best ellipse".to_owned(), "numbers".to_owned()])
+                .collect::<Vec<_>>(),
+        ];
+        for name in &self.species {
+            let name = name.get_ref().as_str();
+            let of: Vec<&Vec<String>> = table.rows.iter().filter(|row| row[0] == name).collect();
+            let points: Vec<(f64, f64)> =
+                of.iter().filter_map(|row| Some((row[1].parse().ok()?, row[3].parse().ok()?))).collect();
+            plot.line(name, &points, false);
+            let mut line = vec![name.to_owned()];
+            line.extend(points.iter().map(|(_, iou)| format!("{iou:.2}")));
+            let last = of.last().map_or(&[][..], |row| row.as_slice());
+            line.extend([7, 2].map(|at| last.get(at).cloned().unwrap_or_default()));
+            lines.push(line);
+        }
+        outputs.text(PLOT, &plot.svg())?;
+        Ok(output::table(&lines, &(1..lines[0].len()).collect::<Vec<_>>()))
+    }
 }
 
-fn rows_of(species: &Species, spec: &NeedleSpec) -> anyhow::Result<Vec<Vec<String>>> {
+fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<Vec<Vec<String>>> {
     let tree = species.grow(TREE_SEED)?;
     let frame = Frame::automatic(&tree, &View::FRONT, true, SIZE, SIZE);
     let mut goal = Bitmap::default();
@@ -100,7 +127,8 @@ fn rows_of(species: &Species, spec: &NeedleSpec) -> anyhow::Result<Vec<Vec<Strin
     let moved: Vec<_> = space.genes().iter().filter(is_moved).collect();
     let evaluator = Evaluator::new(&problem, Objective::Iou, LIMITS)?.matching_height();
     let mut rows = Vec::new();
-    for (round, &distance) in (0..).zip(&spec.distances) {
+    for (round, distance) in (0..).zip(&spec.distances) {
+        let distance = **distance.get_ref();
         let near = |draw: u32| {
             let mut draws = Stream::at(TREE_SEED, LANE, round, draw);
             let mut genome = truth.clone();
@@ -110,7 +138,7 @@ fn rows_of(species: &Species, spec: &NeedleSpec) -> anyhow::Result<Vec<Vec<Strin
             }
             genome
         };
-        let genomes: Vec<Genome> = (0..spec.draws).map(near).collect();
+        let genomes: Vec<Genome> = (0..*spec.draws as u32).map(near).collect();
         let mut scores = evaluator.scores(&genomes, Size::ANY);
         scores.retain(|score| score.cost.is_finite());
         let n = scores.len().max(1) as f64;
@@ -118,7 +146,7 @@ fn rows_of(species: &Species, spec: &NeedleSpec) -> anyhow::Result<Vec<Vec<Strin
         let squares = scores.iter().map(|score| (score.iou - mean).powi(2)).sum::<f64>();
         let accuracy = scores.iter().map(|score| score.accuracy).sum::<f64>() / n;
         rows.push(vec![
-            species.name.clone(),
+            name.to_owned(),
             distance.to_string(),
             moved.len().to_string(),
             format!("{mean:.4}"),

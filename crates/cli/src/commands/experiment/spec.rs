@@ -1,44 +1,90 @@
-//! `experiment.toml`.
+//! `experiment.toml`: read and checked before anything runs.
+//!
+//! Every option's type carries its range (`within.rs`); what options say together is checked here. A
+//! message says where in the file the wrong option stands and what would be right.
 
 use super::needle::NeedleSpec;
+use super::robustness::RobustnessSpec;
 use super::treefit::TreefitSpec;
+use super::within::{FileName, List, Metres, Real, SpeciesName, Whole, Word};
 use anyhow::Context;
+use pleach_fit::{Objective, Optimizer};
 use serde::Deserialize;
+use serde::de::{DeserializeOwned, IgnoredAny};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
+use toml::Spanned;
 
 /// What an experiment runs.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[derive(Clone, Debug)]
 pub(super) enum Spec {
-    /// Optimisers against each other on goals.
     Fits(FitsSpec),
-    /// Time and size of trees, species by species.
     Growth(GrowthSpec),
-    /// Blends of species, ours against the dissertation's.
     Blend(BlendSpec),
-    /// Measures of how alike pictures of trees are, against each other.
     Likeness(LikenessSpec),
-    /// Fits of goals that the search has not grown.
     Treefit(TreefitSpec),
-    /// How near to the truth parameters must be.
     Needle(NeedleSpec),
+    Robustness(RobustnessSpec),
 }
+
+/// Kinds of experiments.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Kind {
+    /// Optimisers against each other on goals.
+    Fits,
+    /// Time and size of trees, species by species.
+    Growth,
+    /// Blends of species, ours against the dissertation's.
+    Blend,
+    /// Measures of how alike pictures of trees are, against each other.
+    Likeness,
+    /// Fits of goals that the search has not grown.
+    Treefit,
+    /// How near to the truth parameters must be.
+    Needle,
+    /// Spoilt input of every sort.
+    Robustness,
+}
+
+/// What every experiment says; the rest is up to its kind.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Head {
+    pub(super) kind: Kind,
+    /// What is asked, in a line.
+    #[serde(default)]
+    pub(super) question: String,
+}
+
+/// Largest seed: it must survive JSON.
+pub(super) const LARGEST_SEED: u64 = 1 << 53;
+
+/// A seed of trees or searches.
+pub(super) type Seed = Whole<0, LARGEST_SEED>;
+/// How often something is done with other seeds.
+pub(super) type Repetitions = Whole<1, 10_000>;
+/// Evaluations of a search.
+pub(super) type Evaluations = Whole<1, 100_000_000>;
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FitsSpec {
+    #[serde(rename = "kind")]
+    _kind: IgnoredAny,
+    #[serde(rename = "question")]
+    _question: Option<String>,
     /// The goals.
-    pub(super) goals: Vec<GoalSpec>,
+    pub(super) goals: List<Spanned<GoalSpec>>,
     /// Optimisers by name, at their default settings.
-    pub(super) optimizers: Vec<String>,
+    pub(super) optimizers: List<Spanned<Word<Optimizer>>>,
     /// Searches of each optimiser on each goal, seeded 1, 2, ….
-    pub(super) repetitions: u64,
+    pub(super) repetitions: Repetitions,
     /// Evaluations of each search.
-    pub(super) evaluations: u64,
+    pub(super) evaluations: Evaluations,
     /// Seed of every tree.
-    pub(super) tree_seed: u64,
+    pub(super) tree_seed: Seed,
     /// What is made small; the default objective if it is not said.
-    pub(super) objective: Option<String>,
+    pub(super) objective: Option<Word<Objective>>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -47,16 +93,34 @@ pub(super) struct GoalSpec {
     /// The picture, from the experiment's folder.
     pub(super) file: PathBuf,
     /// Height of its tree in metres.
-    pub(super) height: f64,
+    pub(super) height: Real<Metres>,
+    /// What it is called in the results; the file's name without its ending if it is not said.
+    name: Option<FileName>,
+}
+
+impl GoalSpec {
+    /// What it is called in the results.
+    pub(super) fn name(&self) -> String {
+        self.name.as_deref().map_or_else(|| stem(&self.file), str::to_owned)
+    }
+}
+
+/// A file's name without its ending.
+pub(super) fn stem(file: &Path) -> String {
+    file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct GrowthSpec {
+    #[serde(rename = "kind")]
+    _kind: IgnoredAny,
+    #[serde(rename = "question")]
+    _question: Option<String>,
     /// Species by name.
-    pub(super) species: Vec<String>,
+    pub(super) species: List<Spanned<SpeciesName>>,
     /// Seeds 1 to this of each species.
-    pub(super) seeds: u64,
+    pub(super) seeds: Spanned<Whole<1, 100_000>>,
     /// Whether growing is timed as well.
     pub(super) timed: bool,
 }
@@ -64,43 +128,189 @@ pub(super) struct GrowthSpec {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BlendSpec {
+    #[serde(rename = "kind")]
+    _kind: IgnoredAny,
+    #[serde(rename = "question")]
+    _question: Option<String>,
     /// Species by name; the palm, the quaking aspen and the silver birch among them.
-    pub(super) species: Vec<String>,
+    pub(super) species: Spanned<List<Spanned<SpeciesName>, 4, 100>>,
     /// Steps from one species to another.
-    pub(super) steps: u32,
+    pub(super) steps: Whole<1, 1000>,
     /// Random points of the hull.
-    pub(super) points: u32,
+    pub(super) points: Whole<1, 10_000_000>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LikenessSpec {
+    #[serde(rename = "kind")]
+    _kind: IgnoredAny,
+    #[serde(rename = "question")]
+    _question: Option<String>,
     /// Species by name.
-    pub(super) species: Vec<String>,
+    pub(super) species: List<Spanned<SpeciesName>, 2>,
     /// Species that had no part in the choice of weights.
-    pub(super) unseen_species: Vec<String>,
+    pub(super) unseen_species: List<Spanned<SpeciesName>, 0>,
     /// Seeds 1 to this of each species.
-    pub(super) seeds: u64,
+    pub(super) seeds: Whole<2, 100>,
     /// Seeds 1 to this had a part in the choice of weights.
-    pub(super) tuned_seeds: u64,
+    pub(super) tuned_seeds: Spanned<Whole<0, 100>>,
     /// Seeds 1 to this of each species are drawn in each other's frames.
-    pub(super) shared_scale_seeds: u64,
+    pub(super) shared_scale_seeds: Whole<1, 100>,
     /// Folders of pictures by another program, from the experiment's: the first of seed 1, and so on.
-    pub(super) reference: Vec<PathBuf>,
+    pub(super) reference: List<PathBuf, 0, 100>,
     /// Parameters that walk away from the truth, as slots.
-    pub(super) walks: Vec<String>,
-    /// Steps of each walk.
-    pub(super) walk_steps: u32,
+    pub(super) walks: List<Spanned<String>, 1, 100>,
+    /// Steps of each walk; shorter ones say too little about order.
+    pub(super) walk_steps: Whole<{ super::likeness::LEAST_STEPS as u64 }, 100>,
     /// Species whose first tree that the weights have not seen is the goal of a row of the sheet.
-    pub(super) sheet: Vec<String>,
+    pub(super) sheet: List<Spanned<String>, 1, 100>,
+    /// The walks, once they are made: curves need more of them than their rows say.
+    #[serde(skip)]
+    pub(super) walked: std::sync::OnceLock<Vec<super::likeness::Line>>,
 }
 
-impl Spec {
+/// The text of an `experiment.toml`, for messages that say where.
+#[derive(Debug)]
+pub(super) struct Source {
+    pub(super) path: PathBuf,
+    pub(super) text: String,
+}
+
+impl Source {
     pub(super) fn read(folder: &Path) -> anyhow::Result<Self> {
         let path = folder.join("experiment.toml");
-        let text = std::fs::read_to_string(&path).with_context(|| {
+        let bytes = std::fs::read(&path).with_context(|| {
             format!("cannot read {}: an experiment is a folder with an experiment.toml", path.display())
         })?;
-        toml::from_str(&text).with_context(|| format!("{} is no experiment", path.display()))
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self { path, text }),
+            Err(error) => {
+                let whole = error.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(&error.as_bytes()[..whole]).into_owned();
+                Err(Self { path, text }.wrong(whole..whole, "a byte that is no text, expected UTF-8"))
+            }
+        }
     }
+
+    /// An error about the place `span`.
+    pub(super) fn wrong(&self, span: Range<usize>, message: impl std::fmt::Display) -> anyhow::Error {
+        let before = self.text.get(..span.start).unwrap_or(&self.text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        anyhow::anyhow!("{}:{line}:{column}: {message}", self.path.display())
+    }
+
+    fn parse<T: DeserializeOwned>(&self) -> anyhow::Result<T> {
+        toml::from_str(&self.text).map_err(|e| self.wrong(e.span().unwrap_or(0..0), e.message().trim()))
+    }
+
+    pub(super) fn head(&self) -> anyhow::Result<Head> {
+        self.parse()
+    }
+
+    /// Everything, checked.
+    pub(super) fn spec(&self) -> anyhow::Result<Spec> {
+        Ok(match self.head()?.kind {
+            Kind::Fits => Spec::Fits(self.parse::<FitsSpec>()?.checked(self)?),
+            Kind::Growth => Spec::Growth(self.parse::<GrowthSpec>()?.checked(self)?),
+            Kind::Blend => Spec::Blend(self.parse::<BlendSpec>()?.checked(self)?),
+            Kind::Likeness => Spec::Likeness(self.parse::<LikenessSpec>()?.checked(self)?),
+            Kind::Treefit => Spec::Treefit(self.parse::<TreefitSpec>()?.checked(self)?),
+            Kind::Needle => Spec::Needle(self.parse::<NeedleSpec>()?.checked(self)?),
+            Kind::Robustness => Spec::Robustness(self.parse::<RobustnessSpec>()?.checked(self)?),
+        })
+    }
+
+    /// Fails where an entry has the name of an earlier one.
+    pub(super) fn all_differ<'a, T: 'a>(
+        &self,
+        entries: impl IntoIterator<Item = &'a Spanned<T>>,
+        name: impl Fn(&T) -> String,
+        hint: &str,
+    ) -> anyhow::Result<()> {
+        let mut seen = std::collections::BTreeSet::new();
+        for entry in entries {
+            let name = name(entry.get_ref());
+            // Where case does not count, two files would be one.
+            if !seen.insert(name.to_lowercase()) {
+                return Err(self.wrong(entry.span(), format!("`{name}` is there twice{hint}")));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What to do about two goals of one name.
+pub(super) const OTHER_NAME: &str = ": give one of the two another `name`";
+
+impl FitsSpec {
+    fn checked(self, source: &Source) -> anyhow::Result<Self> {
+        for goal in &self.goals {
+            if let Err(message) = goal.get_ref().name().parse::<FileName>() {
+                return Err(source.wrong(goal.span(), format!("{message}; `name` can be another")));
+            }
+        }
+        source.all_differ(&self.goals, GoalSpec::name, OTHER_NAME)?;
+        source.all_differ(&self.optimizers, |word| word.text.clone(), "")?;
+        Ok(self)
+    }
+}
+
+impl GrowthSpec {
+    fn checked(self, source: &Source) -> anyhow::Result<Self> {
+        source.all_differ(&self.species, |name| name.to_string(), "")?;
+        if self.timed && **self.seeds.get_ref() < 2 {
+            let message = "1 seed, expected at least 2 where trees are timed: one says nothing of growth";
+            return Err(source.wrong(self.seeds.span(), message));
+        }
+        Ok(self)
+    }
+}
+
+impl BlendSpec {
+    fn checked(self, source: &Source) -> anyhow::Result<Self> {
+        let species = self.species.get_ref();
+        source.all_differ(species, |name| name.to_string(), "")?;
+        for needed in ["palm", "quaking_aspen", "silver_birch"] {
+            if !species.iter().any(|name| **name.get_ref() == needed) {
+                let message = format!("`{needed}` is missing: its blends are looked at");
+                return Err(source.wrong(self.species.span(), message));
+            }
+        }
+        Ok(self)
+    }
+}
+
+impl LikenessSpec {
+    fn checked(self, source: &Source) -> anyhow::Result<Self> {
+        source.all_differ(self.species.iter().chain(&self.unseen_species), |name| name.to_string(), "")?;
+        let (seeds, tuned) = (*self.seeds, **self.tuned_seeds.get_ref());
+        if tuned >= seeds {
+            let message = format!("{tuned} of {seeds} seeds, expected at most {}", seeds - 1);
+            return Err(source.wrong(self.tuned_seeds.span(), message));
+        }
+        let space = pleach_generators::preset("quaking_aspen").context("the default species is built in")?;
+        for walk in &self.walks {
+            if let Err(problem) = space.generator.space().select(walk.get_ref()) {
+                return Err(source.wrong(walk.span(), format!("`{}` {problem}", walk.get_ref())));
+            }
+        }
+        for name in &self.sheet {
+            if !self.species.iter().any(|species| **species.get_ref() == *name.get_ref()) {
+                let message = format!("`{}` is not among the species", name.get_ref());
+                return Err(source.wrong(name.span(), message));
+            }
+        }
+        source.all_differ(&self.walks, String::clone, "")?;
+        source.all_differ(&self.sheet, String::clone, "")?;
+        Ok(self)
+    }
+}
+
+/// The species that are files, which an experiment reads.
+pub(super) fn species_files<'a>(
+    names: impl IntoIterator<Item = &'a Spanned<SpeciesName>>,
+) -> impl Iterator<Item = PathBuf> {
+    names.into_iter().map(|name| PathBuf::from(name.get_ref().as_str())).filter(|path| path.is_file())
 }

@@ -8,15 +8,18 @@ mod rates;
 mod report;
 mod walk;
 
-use super::spec::LikenessSpec;
-use super::{Slice, Table, progress};
+use super::spec::{LikenessSpec, species_files};
+use super::within::SpeciesName;
+use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use crate::input;
 use measures::{MEASURES, Seen, Values};
 use pictures::Drawn;
 use pleach_silhouette::Bitmap;
 use pleach_tree::Species;
 use rayon::prelude::*;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+pub(super) use walk::{LEAST_STEPS, Line};
 
 /// One number of one question about one set of pictures.
 ///
@@ -27,37 +30,63 @@ const COLUMNS: [&str; 6] = ["question", "set", "against", "measure", "comparison
 /// Pixels to a side of all pictures.
 const SIDE: u32 = 256;
 
-pub(super) fn run(folder: &Path, spec: &LikenessSpec) -> anyhow::Result<String> {
-    let (table, walks) = outcome(folder, spec, Slice::default())?;
-    table.write(&folder.join("results.csv"))?;
-    figures::curves(folder, &walks, spec)?;
-    figures::sheet(folder, spec)?;
-    Ok(report::tables(&table))
+impl Kind for LikenessSpec {
+    fn columns(&self) -> Vec<&'static str> {
+        COLUMNS.to_vec()
+    }
+
+    fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>) {
+        let written = figures::CURVES.into_iter().map(figures::curve_file).chain([figures::SHEET.to_owned()]);
+        let pictures = [true, false].map(|foliage| pictures::files(folder, self, foliage));
+        let read = pictures.into_iter().flatten().map(|(_, _, path)| path);
+        let species = species_files(self.species.iter().chain(&self.unseen_species));
+        (written.collect(), read.chain(species).collect())
+    }
+
+    /// A slice has the reference pictures and the walks of the first species.
+    fn rows(&self, folder: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
+        for (set, foliage) in [("reference", true), ("reference, bare", false)] {
+            let make = || rows(|rows| judge(set, &pictures::read(folder, self, foliage)?, rows));
+            journal.job(|row| row[0] != "walk" && row[1] == set, make)?;
+        }
+        let all = species(&self.species)?;
+        if slice.repetitions.is_none() {
+            let is_own = |row: &[String]| row[0] != "walk" && row[1].starts_with("own");
+            journal.job(is_own, || rows(|rows| own(self, &all, rows)))?;
+        }
+        let walking = &all[..slice.of(all.len())];
+        journal.job(
+            |row| row[0] == "walk",
+            || {
+                let lines = walk::lines(walking, self)?;
+                rows(|rows| {
+                    walk::rows(self.walked.get_or_init(|| lines), rows);
+                    Ok(())
+                })
+            },
+        )
+    }
+
+    fn report(&self, _: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
+        // Rows that an unfinished run has left do not come with their walks.
+        if self.walked.get().is_none() {
+            let _ = self.walked.set(walk::lines(&species(&self.species)?, self)?);
+        }
+        figures::curves(outputs, self.walked.get().map_or(&[], Vec::as_slice), self)?;
+        figures::sheet(outputs, self)?;
+        Ok(report::tables(table))
+    }
 }
 
-pub(super) fn table(folder: &Path, spec: &LikenessSpec, slice: Slice) -> anyhow::Result<Table> {
-    Ok(outcome(folder, spec, slice)?.0)
+fn species(names: &[Spanned<SpeciesName>]) -> anyhow::Result<Vec<Species>> {
+    names.iter().map(|name| Ok(input::species(name.get_ref())?)).collect()
 }
 
-/// A slice has the reference pictures and the walks of the first species.
-fn outcome(folder: &Path, spec: &LikenessSpec, slice: Slice) -> anyhow::Result<(Table, Vec<walk::Line>)> {
+/// What `make` collects.
+fn rows(make: impl FnOnce(&mut Rows) -> anyhow::Result<()>) -> anyhow::Result<Vec<Vec<String>>> {
     let mut rows = Rows(Vec::new());
-    for (set, foliage) in [("reference", true), ("reference, bare", false)] {
-        let drawn = pictures::read(folder, &spec.reference, &spec.species, foliage)?;
-        judge(set, &drawn, &mut rows);
-    }
-    let all = species(&spec.species)?;
-    if slice.repetitions.is_none() {
-        own(spec, &all, &mut rows)?;
-    }
-    let walking = slice.repetitions.map_or(all.len(), |n| all.len().min(n as usize));
-    let walks = walk::lines(&all[..walking], spec)?;
-    walk::rows(&walks, &mut rows);
-    Ok((Table { columns: COLUMNS.to_vec(), rows: rows.0 }, walks))
-}
-
-fn species(names: &[String]) -> anyhow::Result<Vec<Species>> {
-    names.iter().map(|name| Ok(input::species(name)?)).collect()
+    make(&mut rows)?;
+    Ok(rows.0)
 }
 
 /// Collects rows.
@@ -73,25 +102,26 @@ impl Rows {
 
 /// Own trees, each in its own frame and then in the goal's.
 fn own(spec: &LikenessSpec, species: &[Species], rows: &mut Rows) -> anyhow::Result<()> {
-    let leafy = pictures::draw(species, spec.seeds, true)?;
-    let half = |late: bool| -> Vec<Drawn> {
-        leafy.iter().filter(|d| (d.seed > spec.tuned_seeds) == late).cloned().collect()
-    };
-    judge("own, tuned on", &half(false), rows);
-    judge("own, not tuned on", &half(true), rows);
-    judge("own", &leafy, rows);
+    let leafy = pictures::draw(species, *spec.seeds, true)?;
+    let tuned = **spec.tuned_seeds.get_ref();
+    let half =
+        |late: bool| -> Vec<Drawn> { leafy.iter().filter(|d| (d.seed > tuned) == late).cloned().collect() };
+    judge("own, tuned on", &half(false), rows)?;
+    judge("own, not tuned on", &half(true), rows)?;
+    judge("own", &leafy, rows)?;
     moved("own", &leafy, rows);
-    judge("own, bare", &pictures::draw(species, spec.seeds, false)?, rows);
+    judge("own, bare", &pictures::draw(species, *spec.seeds, false)?, rows)?;
 
     // Species that had no part in the tuning, among all others.
     let mut more = leafy;
-    more.extend(pictures::draw(&self::species(&spec.unseen_species)?, spec.seeds, true)?);
-    let pairs = pairs(&more);
-    let unseen = |d: &Drawn| spec.unseen_species.contains(&d.species);
+    let unseen = self::species(&spec.unseen_species)?;
+    more.extend(pictures::draw(&unseen, *spec.seeds, true)?);
+    let pairs = pairs(&more)?;
+    let unseen = |d: &Drawn| unseen.iter().any(|species| species.name == d.species);
     let asked = rates::species(&more, |g, t| pairs[g][t], unseen);
     rates::rows("other species", "own, unseen species", &asked, rows);
 
-    let (goals, values) = pictures::at_goal_scale(species, spec.shared_scale_seeds)?;
+    let (goals, values) = pictures::at_goal_scale(species, *spec.shared_scale_seeds)?;
     let asked = rates::species(&goals, |g, t| values[t][g], |_| true);
     rates::rows("other species", "own, goal's scale", &asked, rows);
     Ok(())
@@ -99,13 +129,14 @@ fn own(spec: &LikenessSpec, species: &[Species], rows: &mut Rows) -> anyhow::Res
 
 /// Asks a set of pictures of several species whether trees of a goal's species are above others and
 /// above the goal's blobs.
-fn judge(set: &str, drawn: &[Drawn], rows: &mut Rows) {
-    let pairs = pairs(drawn);
+fn judge(set: &str, drawn: &[Drawn], rows: &mut Rows) -> anyhow::Result<()> {
+    let pairs = pairs(drawn)?;
     let asked = rates::species(drawn, |g, t| pairs[g][t], |_| true);
     rates::rows("other species", set, &asked, rows);
     for asked in rates::blobs(drawn, |g, t| pairs[g][t]) {
         rates::rows("blobs", set, &[asked], rows);
     }
+    Ok(())
 }
 
 /// What every measure says of goals that are moved aside by a sixteenth of the picture, as far as they
@@ -131,19 +162,20 @@ fn moved(set: &str, drawn: &[Drawn], rows: &mut Rows) {
 }
 
 /// Every measure of every two pictures.
-fn pairs(drawn: &[Drawn]) -> Vec<Vec<Values>> {
+fn pairs(drawn: &[Drawn]) -> anyhow::Result<Vec<Vec<Values>>> {
     let bar = progress("goals", drawn.len() as u64);
     // All measures are the same both ways: half of the table is enough.
     let upper: Vec<Vec<Values>> = drawn
         .par_iter()
         .enumerate()
         .map(|(g, goal)| {
+            stop::check()?;
             let row = drawn[..=g].iter().map(|other| measures::of(&goal.seen, &other.seen)).collect();
             bar.inc(1);
-            row
+            Ok(row)
         })
-        .collect();
+        .collect::<anyhow::Result<_>>()?;
     bar.finish_and_clear();
     let value = |a: usize, b: usize| upper[a.max(b)][a.min(b)];
-    (0..drawn.len()).map(|a| (0..drawn.len()).map(|b| value(a, b)).collect()).collect()
+    Ok((0..drawn.len()).map(|a| (0..drawn.len()).map(|b| value(a, b)).collect()).collect())
 }

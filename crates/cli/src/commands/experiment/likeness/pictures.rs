@@ -1,7 +1,7 @@
 //! Pictures of trees: own ones, and those of another program.
 
 use super::measures::{self, Seen, Values};
-use super::{SIDE, progress};
+use super::{LikenessSpec, SIDE, progress, stop};
 use anyhow::{Context, bail};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
@@ -47,6 +47,7 @@ fn grown<T: Send>(
         species.iter().flat_map(|s| (1..=seeds).map(move |seed| (s, seed))).collect();
     each.into_par_iter()
         .map(|(species, seed)| {
+            stop::check()?;
             let foliage = if foliage { Foliage::All } else { Foliage::None };
             let tree = species.grow_with(&Growth { foliage, parallel: false, ..Growth::seed(seed) })?;
             Ok((species.name.clone(), seed, look(&tree)))
@@ -77,26 +78,28 @@ pub(super) fn at_goal_scale(
     Ok((goals, values.into_iter().map(|(_, _, values)| values).collect()))
 }
 
-/// The pictures `SPECIES_SEED_front.png` in `folders`, or `…_front_bare.png`, at our size.
-pub(super) fn read(
-    folder: &Path,
-    folders: &[PathBuf],
-    species: &[String],
-    foliage: bool,
-) -> anyhow::Result<Vec<Drawn>> {
-    let options = GoalOptions { max_side: Some(SIDE), ..GoalOptions::default() };
+/// The pictures `SPECIES_SEED_front.png` in the folders of reference, or `…_front_bare.png`, with
+/// species and seed.
+pub(super) fn files(folder: &Path, spec: &LikenessSpec, foliage: bool) -> Vec<(String, u64, PathBuf)> {
     let ending = if foliage { "_front.png" } else { "_front_bare.png" };
+    let of = |name: &str| -> Vec<(String, u64, PathBuf)> {
+        let path = |seed: u64, place: &Path| folder.join(place).join(format!("{name}_{seed}{ending}"));
+        (1..).zip(&spec.reference).map(|(seed, place)| (name.to_owned(), seed, path(seed, place))).collect()
+    };
+    spec.species.iter().flat_map(|name| of(name.get_ref())).collect()
+}
+
+/// [`files`] at our size.
+pub(super) fn read(folder: &Path, spec: &LikenessSpec, foliage: bool) -> anyhow::Result<Vec<Drawn>> {
+    let options = GoalOptions { max_side: Some(SIDE), ..GoalOptions::default() };
     let mut drawn = Vec::new();
-    for name in species {
-        for (seed, place) in (1..).zip(folders) {
-            let path = folder.join(place).join(format!("{name}_{seed}{ending}"));
-            let bitmap =
-                Goal::load(&path, &options).with_context(|| format!("cannot use {}", path.display()))?.bitmap;
-            if (bitmap.width(), bitmap.height()) != (SIDE, SIDE) {
-                bail!("{} is not square", path.display());
-            }
-            drawn.push(Drawn { species: name.clone(), seed, seen: Seen::new(bitmap) });
+    for (species, seed, path) in files(folder, spec, foliage) {
+        let bitmap =
+            Goal::load(&path, &options).with_context(|| format!("cannot use {}", path.display()))?.bitmap;
+        if (bitmap.width(), bitmap.height()) != (SIDE, SIDE) {
+            bail!("{} is not square", path.display());
         }
+        drawn.push(Drawn { species, seed, seen: Seen::new(bitmap) });
     }
     Ok(drawn)
 }

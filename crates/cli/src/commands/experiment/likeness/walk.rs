@@ -2,7 +2,7 @@
 
 use super::measures::{self, MEASURES, Seen, Values};
 use super::pictures::silhouette;
-use super::{LikenessSpec, Rows, SIDE, progress};
+use super::{LikenessSpec, Rows, SIDE, progress, stop};
 use pleach_silhouette::{Frame, View};
 use pleach_tree::{Growth, Limits, Species};
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Step of a walk, as a part of the true value.
 pub(super) const STEP: f64 = 0.1;
 /// Shorter walks say too little about order.
-const LEAST_STEPS: usize = 5;
+pub(in super::super) const LEAST_STEPS: usize = 5;
 /// Seed of all trees: only the parameter changes.
 const SEED: u64 = 1;
 
@@ -18,7 +18,8 @@ const SEED: u64 = 1;
 type Walk = Vec<(u32, Values)>;
 
 /// One walk of one parameter of one species.
-pub(super) struct Line {
+#[derive(Clone, Debug)]
+pub(in super::super) struct Line {
     species: String,
     pub(super) parameter: String,
     /// −1 towards smaller values, 1 towards larger ones.
@@ -33,8 +34,10 @@ pub(super) fn lines(species: &[Species], spec: &LikenessSpec) -> anyhow::Result<
     for one in species {
         let goal = Goal::of(one)?;
         for parameter in &spec.walks {
+            let parameter = parameter.get_ref();
+            stop::check()?;
             for sign in [-1.0, 1.0] {
-                let walk = goal.walk(one, parameter, sign, spec.walk_steps)?;
+                let walk = goal.walk(one, parameter, sign, *spec.walk_steps as u32)?;
                 if walk.len() >= LEAST_STEPS && walk.iter().any(|(_, values)| values[0] < 1.0) {
                     lines.push(Line { species: one.name.clone(), parameter: parameter.clone(), sign, walk });
                 }

@@ -1,10 +1,10 @@
 //! One fit of one goal.
 
 use super::goals::{self, Problem};
-use super::spec::MethodSpec;
-use super::{FRESH, RUNS_ON};
+use super::spec::{From, MethodSpec};
+use super::{FRESH, stop};
 use crate::commands::fit::candidates;
-use anyhow::{Context, bail};
+use anyhow::Context;
 use pleach_fit::{
     Budget, Control, FirstGuess, FitProblem, FitSettings, FreshSeeds, Genome, GuessSettings, Objective,
     Start, TreeSeed, first_guess, fresh_seeds,
@@ -51,7 +51,7 @@ impl Guesses {
                     settings,
                     &candidates(problem),
                     &GuessSettings::default(),
-                    &RUNS_ON,
+                    stop::flag(),
                     |_, _| (),
                 )?;
                 let guessed = Guessed { found, seconds: started.elapsed() };
@@ -71,39 +71,35 @@ pub(super) fn fit(
 ) -> anyhow::Result<Attempt> {
     let mut fit = problem.fit.clone();
     let budget = Budget {
-        evaluations: method.evaluations,
-        timeout: method.seconds.map(Duration::try_from_secs_f64).transpose()?,
+        evaluations: method.evaluations.map(|n| *n),
+        timeout: method.seconds.map(|seconds| Duration::try_from_secs_f64(*seconds)).transpose()?,
         ..Budget::default()
     };
-    if budget == Budget::default() {
-        bail!("expected `evaluations` or `seconds`");
-    }
     let mut settings = FitSettings {
-        optimizer: method.optimizer.parse()?,
+        optimizer: method.optimizer.value.clone(),
         budget,
         seed,
         tree_seed: if method.any_seed { TreeSeed::Any } else { TreeSeed::Fixed(TREE_SEED) },
-        objective: method.objective.as_deref().map(str::parse).transpose()?.unwrap_or_default(),
+        objective: method.objective.as_ref().map(|word| word.value).unwrap_or_default(),
         ..FitSettings::default()
     };
     let mut first = None;
-    match method.from.as_str() {
-        "auto" => {
+    match method.from {
+        From::Auto => {
             let Guessed { found, seconds } = guesses.of(&fit, &settings)?;
             fit.base = found.nearest[0].values.clone();
             settings.start = Start::Lists(found.nearest.iter().map(|guess| guess.values.clone()).collect());
             let (name, confidence) = found.names[0].clone();
             first = Some((name, confidence, *seconds));
         }
-        "random" => (),
-        other => bail!("`from = \"{other}\"`: expected auto or random"),
+        From::Random => (),
     }
     let guess = first.as_ref().map(|_| Genome::new(fit.base.clone(), TREE_SEED));
     let (name, confidence, before) = first
         .map_or_else(Default::default, |(name, confidence, seconds)| (name, number(confidence), seconds));
     let started = Instant::now();
     let clock = || before + started.elapsed();
-    let outcome = pleach_fit::fit(&fit, &settings, Control::new(&clock, &RUNS_ON))?;
+    let outcome = pleach_fit::fit(&fit, &settings, Control::new(&clock, stop::flag()))?;
     let seconds = clock().as_secs_f64();
     let best = outcome.best.filter(|best| best.score.cost.is_finite()).context("nothing grew")?.genome;
 
@@ -113,7 +109,7 @@ pub(super) fn fit(
     let scores = card(&best)?;
     let guessed = guess.as_ref().map(card).transpose()?;
     let judged = problem.clean.as_ref().unwrap_or(&problem.fit);
-    let fresh = fresh_seeds(judged, settings.objective, Limits::default(), &best, FRESH, &RUNS_ON)?;
+    let fresh = fresh_seeds(judged, settings.objective, Limits::default(), &best, FRESH, stop::flag())?;
     let clean = problem.clean.as_ref().map(|clean| alike(problem, &best, &clean.goals[0])).transpose()?;
     let held_out = problem.held_out.as_ref().map(|view| alike(problem, &best, view)).transpose()?;
     let ceiling = problem.ceiling;

@@ -1,7 +1,7 @@
 //! The goals, with all that is known of the trees that they show.
 
 use super::spec::{Degraded, FileGoal, GoalSpec, OwnGoal};
-use super::{FRESH, RUNS_ON, SIZE};
+use super::{FRESH, SIZE, stop};
 use anyhow::Context;
 use pleach_fit::{FitProblem, Genome, GoalView, Objective, Unknown, fresh_seeds};
 use pleach_silhouette::goal::{Goal, GoalOptions};
@@ -45,14 +45,9 @@ impl Problem {
         let problem = Self::of(folder, spec)?;
         let ceiling = match spec {
             GoalSpec::Own(goal) => seeds_of(goal)?,
-            GoalSpec::File(FileGoal { like: Some(species), bare, .. }) => seeds_of(&OwnGoal {
-                species: species.clone(),
-                seed: LIKE_SEED,
-                bare: *bare,
-                second_view: None,
-                held_out: None,
-                degraded: None,
-            })?,
+            GoalSpec::File(FileGoal { like: Some(species), bare, .. }) => {
+                seeds_of(&OwnGoal::of(species, LIKE_SEED, *bare))?
+            }
             GoalSpec::File(goal) => others(folder, goal, &problem.fit.goals[0].goal)?,
         };
         Ok(Self { ceiling, ..problem })
@@ -126,7 +121,8 @@ fn seeds_of(goal: &OwnGoal) -> anyhow::Result<Option<Ceiling>> {
     let problem = Problem::own(&GoalSpec::Own(whole.clone()), &whole)?;
     let species = pleach_generators::species(&goal.species)?;
     let truth = Genome::new(species.params.values().to_vec(), goal.seed);
-    let fresh = fresh_seeds(&problem.fit, Objective::default(), Limits::default(), &truth, FRESH, &RUNS_ON)?;
+    let fresh =
+        fresh_seeds(&problem.fit, Objective::default(), Limits::default(), &truth, FRESH, stop::flag())?;
     Ok(fresh.map(|fresh| Ceiling { likeness: fresh.likeness.mean, iou: fresh.iou.mean }))
 }
 

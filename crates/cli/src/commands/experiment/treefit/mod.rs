@@ -8,7 +8,8 @@ mod spec;
 
 pub(super) use spec::TreefitSpec;
 
-use super::{Part, Slice, Table, progress};
+use super::table::Row;
+use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use crate::files;
 use anyhow::{Context, bail};
 use attempt::Guesses;
@@ -16,11 +17,9 @@ use goals::Problem;
 use pleach_fit::Genome;
 use pleach_tree::Species;
 use pleach_tree::species::Appearance;
-use spec::MethodSpec;
-use std::collections::HashMap;
+use spec::{GoalSpec, MethodSpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 const COLUMNS: [&str; 28] = [
     "goal",
@@ -57,127 +56,118 @@ const COLUMNS: [&str; 28] = [
 const SIZE: u32 = 256;
 /// Trees of other seeds that a result, and the truth, is judged by.
 const FRESH: usize = 16;
-/// Nobody ends an experiment but by killing it.
-static RUNS_ON: AtomicBool = AtomicBool::new(false);
 
-/// Finished rows by goal, method and repetition.
-type Rows = HashMap<[String; 3], Vec<String>>;
-
-fn key(row: &[String]) -> [String; 3] {
-    [row[0].clone(), row[2].clone(), row[3].clone()]
+fn fit_file(goal: &str) -> String {
+    format!("fits/{goal}.toml")
 }
 
-fn rows(path: &Path) -> anyhow::Result<impl Iterator<Item = ([String; 3], Vec<String>)>> {
-    Ok(Table::read(path, &COLUMNS)?.rows.into_iter().map(|row| (key(&row), row)))
+fn guess_file(goal: &str) -> String {
+    format!("fits/{goal}-guess.toml")
 }
 
-/// Where an unfinished run keeps its rows.
-fn unfinished(folder: &Path) -> PathBuf {
-    folder.join("results.csv.partial")
+/// Whether two rows are of the same fit.
+pub(super) fn is_same(a: &[String], b: &[String]) -> bool {
+    [0, 2, 3].iter().all(|&at| a[at] == b[at])
 }
 
-/// What is run, and what is known already.
-struct Plan<'a> {
-    folder: &'a Path,
-    spec: &'a TreefitSpec,
-    methods: Vec<&'a MethodSpec>,
-    /// At most so many fits of one goal by one method.
-    repetitions: u64,
-    known: Rows,
-    /// Whether rows and fits are written down as they come.
-    keeps: bool,
-}
+impl Kind for TreefitSpec {
+    fn columns(&self) -> Vec<&'static str> {
+        COLUMNS.to_vec()
+    }
 
-pub(super) fn run(folder: &Path, spec: &TreefitSpec, part: &Part) -> anyhow::Result<String> {
-    let mut known = Rows::new();
-    if !part.methods.is_empty() {
-        for name in &part.methods {
-            if spec.methods.iter().all(|method| method.name != *name) {
-                let names: Vec<&str> = spec.methods.iter().map(|method| method.name.as_str()).collect();
-                bail!("there is no method `{name}`; the experiment has {}", names.join(", "));
+    fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>) {
+        let fits = self.goals().flat_map(|goal| [fit_file(&goal.name()), guess_file(&goal.name())]);
+        let read = self.goals().flat_map(|goal| match goal {
+            GoalSpec::File(goal) => {
+                std::iter::once(&goal.file).chain(&goal.others).map(|file| folder.join(file)).collect()
             }
+            GoalSpec::Own(goal) => vec![PathBuf::from(&goal.species)],
+        });
+        (fits.chain([sheet::SHEET.to_owned()]).collect(), read.collect())
+    }
+
+    /// A slice is a few goals, whole: fits of fewer evaluations have other results.
+    fn rows(&self, folder: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
+        let is_slice = slice.repetitions.is_some() || slice.evaluations.is_some() || !journal.is_kept();
+        let most = slice.evaluations.unwrap_or(u64::MAX);
+        let is_in =
+            |m: &&MethodSpec| !is_slice || (m.seconds.is_none() && m.evaluations.is_some_and(|n| *n <= most));
+        let methods: Vec<&MethodSpec> = self.methods().filter(is_in).collect();
+        if methods.is_empty() {
+            bail!("no method has a number of evaluations that is at most {most}");
         }
-        known.extend(rows(&folder.join("results.csv"))?);
-        known.retain(|[_, method, _], _| !part.methods.contains(method));
-    }
-    let partial = unfinished(folder);
-    if part.resume && partial.exists() {
-        known.extend(rows(&partial)?);
-    }
-    let methods = spec.methods.iter().collect();
-    let plan = Plan { folder, spec, methods, repetitions: u64::MAX, known, keeps: true };
-    let table = plan.table()?;
-    table.write(&folder.join("results.csv"))?;
-    let _ = std::fs::remove_file(partial);
-    sheet::draw(folder, spec)?;
-    report::of(spec, &table)
-}
-
-/// A slice is a few goals, whole: fits of fewer evaluations have other results.
-pub(super) fn table(folder: &Path, spec: &TreefitSpec, slice: Slice) -> anyhow::Result<Table> {
-    let count = slice.repetitions.map_or(spec.goals.len(), |n| (n as usize).min(spec.goals.len()));
-    let most = slice.evaluations.unwrap_or(u64::MAX);
-    let is_in = |m: &&MethodSpec| m.seconds.is_none() && m.evaluations.is_some_and(|n| n <= most);
-    let methods: Vec<&MethodSpec> = spec.methods.iter().filter(is_in).collect();
-    if methods.is_empty() {
-        bail!("every method makes more than {most} evaluations");
-    }
-    let spec = TreefitSpec { goals: spec.goals[..count].to_vec(), methods: spec.methods.clone() };
-    Plan { folder, spec: &spec, methods, repetitions: 1, known: Rows::new(), keeps: false }.table()
-}
-
-impl Plan<'_> {
-    fn table(mut self) -> anyhow::Result<Table> {
-        let repetitions = |method: &MethodSpec| method.repetitions.unwrap_or(1).min(self.repetitions);
+        let repetitions =
+            |method: &MethodSpec| if is_slice { 1 } else { method.repetitions.map_or(1, |n| *n) };
         let mut jobs = Vec::new();
-        for goal in &self.spec.goals {
-            for method in self.methods.iter().filter(|method| method.fits(goal.kind())) {
+        for goal in self.goals().take(slice.of(self.goals.len())) {
+            for method in methods.iter().filter(|method| method.fits(goal.kind())) {
                 jobs.extend((1..=repetitions(method)).map(|repetition| (goal, *method, repetition)));
             }
         }
         let bar = progress("fits", jobs.len() as u64);
         let mut current: Option<(Problem, Guesses)> = None;
-        let mut table = Table { columns: COLUMNS.to_vec(), rows: Vec::new() };
+        let keeps = journal.is_kept();
         for (goal, method, repetition) in jobs {
             let name = goal.name();
-            let row = match self.known.remove(&[name.clone(), method.name.clone(), repetition.to_string()]) {
-                Some(row) => row,
-                None => {
-                    let (problem, guesses) = match current.take().filter(|(problem, _)| problem.name == name)
-                    {
-                        Some(same) => current.insert(same),
-                        None => {
-                            let problem = Problem::with_ceiling(self.folder, goal)?;
-                            current.insert((problem, Guesses::default()))
-                        }
-                    };
-                    let result = attempt::fit(problem, guesses, method, repetition)
-                        .with_context(|| format!("{name}, {}, repetition {repetition}", method.name))?;
-                    if self.keeps && repetition == 1 && method.name == self.spec.methods[0].name {
-                        let fits = self.folder.join("fits");
-                        files::make_folder(&fits)?;
-                        write_species(&fits.join(format!("{name}.toml")), &name, problem, &result.best)?;
-                        if let Some(guess) = &result.guess {
-                            let file = fits.join(format!("{name}-guess.toml"));
-                            write_species(&file, &name, problem, guess)?;
-                        }
-                    }
-                    result.row
-                }
+            let key = [(0, &name), (2, &method.name), (3, &repetition.to_string())];
+            let is_of = |row: &[String]| key.iter().all(|(at, cell)| row[*at] == **cell);
+            let make = || {
+                let is_first = repetition == 1 && method.name == self.first_method().name;
+                let row = fitted(folder, goal, method, repetition, &mut current, keeps && is_first)?;
+                Ok(vec![row])
             };
-            table.rows.push(row);
-            if self.keeps {
-                // A run that is killed twice keeps what the first one had finished beyond this place.
-                let mut all = table.clone();
-                all.rows.extend(self.known.values().cloned());
-                all.rows[table.rows.len()..].sort();
-                all.write(&unfinished(self.folder))?;
-            }
+            journal.job(is_of, make)?;
             bar.inc(1);
         }
         bar.finish_and_clear();
-        Ok(table)
+        Ok(())
     }
+
+    fn report(&self, folder: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
+        sheet::draw(folder, self, outputs)?;
+        report::of(self, table)
+    }
+}
+
+impl TreefitSpec {
+    /// The rows of methods that are not run again.
+    pub(super) fn rows_of_others(&self, folder: &Path, again: &[String]) -> anyhow::Result<Vec<Row>> {
+        for name in again {
+            if self.methods().all(|method| method.name != *name) {
+                let names: Vec<&str> = self.methods().map(|method| method.name.as_str()).collect();
+                bail!("there is no method `{name}`; the experiment has {}", names.join(", "));
+            }
+        }
+        let mut rows = Table::read(&folder.join("results.csv"), &COLUMNS)?.rows;
+        rows.retain(|row| !again.contains(&row[2]));
+        Ok(rows)
+    }
+}
+
+/// The row of a fit; what was found is written as well if it `is_kept`.
+fn fitted(
+    folder: &Path,
+    goal: &GoalSpec,
+    method: &MethodSpec,
+    repetition: u64,
+    current: &mut Option<(Problem, Guesses)>,
+    is_kept: bool,
+) -> anyhow::Result<Row> {
+    let name = goal.name();
+    let (problem, guesses) = match current.take().filter(|(problem, _)| problem.name == name) {
+        Some(same) => current.insert(same),
+        None => current.insert((Problem::with_ceiling(folder, goal)?, Guesses::default())),
+    };
+    let result = attempt::fit(problem, guesses, method, repetition)
+        .with_context(|| format!("{name}, {}, repetition {repetition}", method.name))?;
+    if is_kept && !stop::is_raised() {
+        files::make_folder(&folder.join("fits"))?;
+        write_species(&folder.join(fit_file(&name)), &name, problem, &result.best)?;
+        if let Some(guess) = &result.guess {
+            write_species(&folder.join(guess_file(&name)), &name, problem, guess)?;
+        }
+    }
+    Ok(result.row)
 }
 
 /// A fit as a species file, so that anybody can grow it.

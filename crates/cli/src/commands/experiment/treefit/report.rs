@@ -20,7 +20,7 @@ pub(super) fn of(spec: &TreefitSpec, table: &Table) -> anyhow::Result<String> {
     let heading = ["goals", "method"].into_iter().chain(SHOWN).chain(["near ceiling", "above ellipse"]);
     let mut lines = vec![heading.map(str::to_owned).collect::<Vec<_>>()];
     for kind in Kind::ALL {
-        for method in spec.methods.iter().filter(|method| method.fits(kind)) {
+        for method in spec.methods().filter(|method| method.fits(kind)) {
             let of: Vec<&Vec<String>> =
                 table.rows.iter().filter(|row| row[1] == kind.name() && row[2] == method.name).collect();
             if of.is_empty() {
@@ -52,7 +52,7 @@ pub(super) fn of(spec: &TreefitSpec, table: &Table) -> anyhow::Result<String> {
     let text = output::table(&lines, &(2..lines[0].len()).collect::<Vec<_>>());
     let [goal, named] = [column("goal")?, column("named")?];
     let known = [Kind::Own, Kind::Bare].map(Kind::name);
-    let first = |row: &&Vec<String>| row[2] == spec.methods[0].name && known.contains(&row[1].as_str());
+    let first = |row: &&Vec<String>| row[2] == spec.first_method().name && known.contains(&row[1].as_str());
     let guessed: Vec<&Vec<String>> = table.rows.iter().filter(first).collect();
     let right = guessed.iter().filter(|row| row[goal].trim_end_matches("_bare") == row[named]).count();
     Ok(format!(
@@ -66,10 +66,11 @@ pub(super) fn of(spec: &TreefitSpec, table: &Table) -> anyhow::Result<String> {
 /// On how many leafy own goals each method is the best of those with the same start and budget, by the
 /// mean of likeness and IoU, and by the likeness of fresh seeds; first repetitions.
 fn wins(spec: &TreefitSpec, table: &Table, both: [usize; 2], fresh: usize) -> String {
-    let terms =
-        |m: &MethodSpec| (m.from.clone(), m.evaluations, m.seconds.map(f64::to_bits), m.objective.clone());
+    let terms = |m: &MethodSpec| {
+        (m.from, m.evaluations, m.seconds.map(|s| s.to_bits()), m.objective.as_ref().map(|o| o.value))
+    };
     let mut groups: Vec<Vec<&MethodSpec>> = Vec::new();
-    for method in spec.methods.iter().filter(|method| method.fits(Kind::Own)) {
+    for method in spec.methods().filter(|method| method.fits(Kind::Own)) {
         match groups.iter_mut().find(|group| terms(group[0]) == terms(method)) {
             Some(group) => group.push(method),
             None => groups.push(vec![method]),
@@ -79,7 +80,7 @@ fn wins(spec: &TreefitSpec, table: &Table, both: [usize; 2], fresh: usize) -> St
     for group in groups.into_iter().filter(|group| group.len() > 1) {
         for (by, columns) in [("likeness and IoU", &both[..]), ("fresh likeness", &[fresh])] {
             let mut counts = vec![0; group.len()];
-            for goal in spec.goals.iter().filter(|goal| goal.kind() == Kind::Own) {
+            for goal in spec.goals().filter(|goal| goal.kind() == Kind::Own) {
                 let score = |method: &&MethodSpec| -> f64 {
                     let row = table.rows.iter().find(|r| r[0] == goal.name() && r[2] == method.name);
                     let value = |&at: &usize| row.and_then(|row| row[at].parse::<f64>().ok());
