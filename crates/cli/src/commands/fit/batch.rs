@@ -6,7 +6,7 @@ use super::goal::{Goals, MaskSource};
 use super::{Fit, RUNS, catch_signals, is_interruption};
 use crate::{files, output};
 use anyhow::{Context, bail, ensure};
-use pleach_fit::FitSettings;
+use pleach_fit::{FitSettings, GuessLibrary};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -95,12 +95,13 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
     write(&table, &jobs)?;
 
     let stop = catch_signals()?;
+    let mut library = GuessLibrary::new();
     let all = jobs.len();
     for i in 0..all {
         let name = format!("[{}/{all}] {}", i + 1, jobs[i].goal.display());
         let (line, state) = match &jobs[i].state {
             State::Finished(summary) => (format!("finished before, {}", brief(summary)), None),
-            _ => match one(fit, settings, &jobs[i], &stop) {
+            _ => match one(fit, settings, &jobs[i], &mut library, &stop) {
                 Err(error) => (format!("failed: {}", output::causes(&error, ": ")), Some(State::Failed)),
                 Ok(None) => {
                     output::note(format!("{name}: interrupted"));
@@ -157,6 +158,7 @@ fn one(
     fit: &Fit,
     settings: &FitSettings,
     job: &Job<'_>,
+    library: &mut GuessLibrary,
     stop: &Arc<AtomicBool>,
 ) -> anyhow::Result<Option<Value>> {
     if stop.load(Ordering::SeqCst) {
@@ -169,7 +171,7 @@ fn one(
     if !resume {
         folder.forget()?;
     }
-    let summary: Summary = match fit.fit(&goals, &folder, settings, stop, resume) {
+    let summary: Summary = match fit.fit(&goals, &folder, settings, library, stop, resume) {
         // Asked to stop before there was a tree: no fault of the goal.
         Err(error) if is_interruption(&error) => return Ok(None),
         result => result?,
@@ -186,11 +188,11 @@ fn brief(summary: &Value) -> String {
     let number = |key: &str| summary[key].as_f64().unwrap_or(f64::NAN);
     let looks = summary["looks_like"][0]["species"].as_str();
     format!(
-        "likeness {:.3}, IoU {:.3}{}; {} trees in {:.1} s",
+        "likeness {:.3}, IoU {:.3}{}; {} in {:.1} s",
         number("likeness"),
         number("iou"),
         looks.map_or_else(String::new, |species| format!(", looks like {species}")),
-        summary["evaluations"],
+        super::report::trees(summary["evaluations"].as_u64().unwrap_or_default()),
         number("seconds"),
     )
 }

@@ -7,6 +7,7 @@ mod folder;
 mod goal;
 mod options;
 mod progress;
+mod report;
 mod start;
 mod views;
 
@@ -20,8 +21,8 @@ pub(super) use goal::places;
 use goal::{Goals, MaskSource};
 use options::Settings;
 use pleach_fit::{
-    Budget, CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, Objective, StopReason,
-    Unknown,
+    Budget, CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, GuessLibrary,
+    Objective, StopReason, Unknown, check_freedom,
 };
 use pleach_silhouette::goal::Goal;
 use pleach_tree::{Foliage, Growth};
@@ -51,6 +52,10 @@ const EXAMPLES: &str = "Examples:
 The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png,
 history.csv (a row a generation), parameters.csv (how well the goal determines each parameter) and
 summary.json; and a checkpoint while the fit is unfinished.
+
+Likeness says how much two silhouettes look like trees of one kind: 1 is the same picture, two trees
+of one species have some 0.7, trees of two species some 0.3. A fit ends with what it would be for its
+goal, a verdict, and what to do next.
 
 Asked to stop (ctrl-C), a fit writes what it has found and ends with an error; --resume goes on with
 it and comes to what it would have come to. The first guess and the judging of the result, which need
@@ -133,7 +138,11 @@ struct GoalArgs {
     /// A further picture of the same tree that is not fitted but scored; repeatable
     #[arg(long, value_name = "AZ[,EL]=FILE", allow_hyphen_values = true)]
     holdout_view: Vec<views::KnownPicture>,
-    /// The goal is a bare tree: grow no leaves
+    /// Whether the tree has leaves: `auto` looks whether the goal is more like trees with leaves or
+    /// like bare ones (with --from auto; otherwise it has)
+    #[arg(long, value_enum, default_value_t = start::Leaves::Auto, conflicts_with = "no_leaves")]
+    leaves: start::Leaves,
+    /// The same as --leaves off
     #[arg(long)]
     no_leaves: bool,
 }
@@ -156,7 +165,7 @@ struct SearchArgs {
     /// (the dissertation's genetic algorithm) or random
     #[arg(long, value_name = "NAME", default_value = pleach_fit::Optimizer::NAMES[0])]
     optimizer: String,
-    /// A setting of the optimiser, such as population=60; repeatable. `--set help` lists them
+    /// A setting of the optimiser, such as children=40 for evolution; repeatable. `--set help` lists them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
     /// What is made small: balance, blend, likeness, iou or accuracy
@@ -191,6 +200,13 @@ struct BudgetArgs {
     target_iou: Option<f64>,
 }
 
+impl GoalArgs {
+    /// What was said of leaves.
+    const fn leaves(&self) -> start::Leaves {
+        if self.no_leaves { start::Leaves::Off } else { self.leaves }
+    }
+}
+
 impl Fit {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let settings = self.settings()?;
@@ -205,7 +221,8 @@ impl Fit {
             bail!("--free-frame is about further pictures, and there is none: --view auto=FILE");
         }
         // Before a folder is made.
-        self.search.from.species()?;
+        let start = self.search.from.species()?;
+        check_freedom(start.generator.space(), &settings.freedom, settings.tree_seed)?;
         match &self.goals[..] {
             [goal] if self.shard.is_none() => self.single(goal, &settings),
             _ => batch::run(self, &settings),
@@ -227,14 +244,15 @@ impl Fit {
                 folder.path().display()
             )
         };
-        let summary = match self.fit(&goals, &folder, settings, &catch_signals()?, resume) {
+        let mut library = GuessLibrary::new();
+        let summary = match self.fit(&goals, &folder, settings, &mut library, &catch_signals()?, resume) {
             Err(error) if is_interruption(&error) => return Err(interrupted()),
             result => result?,
         };
         if self.json {
             output::json(&summary)?;
         } else {
-            output::line(folder::report(&summary, &folder))?;
+            output::line(report::report(&summary, goal, folder.path()))?;
         }
         if summary.interrupted() {
             return Err(interrupted());
@@ -249,6 +267,7 @@ impl Fit {
         goal: &Goals,
         folder: &RunFolder,
         asked_for: &FitSettings,
+        library: &mut GuessLibrary,
         stop: &Arc<AtomicBool>,
         resume: bool,
     ) -> anyhow::Result<Summary> {
@@ -257,7 +276,9 @@ impl Fit {
         let checkpoint =
             CheckpointSettings { path: folder.checkpoint(), interval: self.checkpoint_every, resume };
         let mut started = Instant::now();
-        let looks_like = self.search.from.begin(self.goals.len() > 1, &mut problem, &mut settings, stop)?;
+        let leaves = self.goal_options.leaves();
+        let quiet = self.goals.len() > 1;
+        let begun = self.search.from.begin(quiet, leaves, (&mut problem, &mut settings), library, stop)?;
         if resume {
             // The first guess is made again, but its time has been counted.
             started = Instant::now();
@@ -278,7 +299,7 @@ impl Fit {
         let aftermath = match outcome.stop {
             // Whoever waits for the prompt has it at once.
             StopReason::Interrupted => None,
-            _ => match Aftermath::of(&problem, &settings, &best, stop) {
+            _ => match Aftermath::of(&problem, &settings, &best, begun.references.clone(), library, stop) {
                 Err(FitError::Interrupted) => None,
                 result => Some(result?),
             },
@@ -320,7 +341,9 @@ impl Fit {
             height: args.height,
             foliage: problem.foliage,
             from: self.search.from.to_string(),
-            looks_like,
+            looks_like: begun.looks_like,
+            leaves_detected: begun.leaves_detected,
+            references: begun.references.as_ref(),
             options: asked::asked(self, asked_for)?,
         })
     }
@@ -346,7 +369,7 @@ impl Fit {
             generator: start.generator,
             base: start.params.values().to_vec(),
             goals,
-            foliage: !self.goal_options.no_leaves,
+            foliage: self.goal_options.leaves().are_expected(),
         })
     }
 
