@@ -408,7 +408,7 @@ fn a_list_of_goals_gives_each_its_options() {
     goals(&dir);
     let _ = dir.file(
         "a/goals.csv",
-        "file,height,view,ground_row,no_leaves\ntree.png,12.5,90,60,\n../acer.png,,,,true\n",
+        "file,height,view,ground_row,leaves\ntree.png,12.5,90,60,\n../acer.png,,,,off\n",
     );
     let list = |more: &[&'static str]| {
         dir.run([&FIT[..], &["--list", "a/goals.csv", "--evaluations", "20", "--out", "runs"], more].concat())
@@ -416,8 +416,8 @@ fn a_list_of_goals_gives_each_its_options() {
     let _ = list(&["--height", "7"]).ok();
     let (tree, acer) = (summary(&dir.path("runs/tree")), summary(&dir.path("runs/acer")));
     assert_eq!((&tree["height_m"], &acer["height_m"]), (&12.5.into(), &7.0.into()));
-    assert_eq!((&tree["options"]["view"], &tree["options"]["no-leaves"]), (&"90,0".into(), &"false".into()));
-    assert_eq!(acer["options"]["no-leaves"], "true");
+    assert_eq!((&tree["options"]["view"], &tree["options"]["leaves"]), (&"90,0".into(), &"auto".into()));
+    assert_eq!((&acer["options"]["leaves"], &acer["leaves"]), (&"off".into(), &false.into()));
     assert_eq!(tree["options"]["ground-row"], "60");
     // Sizes in metres, for tables.
     let table = std::fs::read_to_string(dir.path("runs/summary.csv")).unwrap();

@@ -3,7 +3,7 @@
 //! A checkpoint is one line of header and one of JSON:
 //!
 //! ```text
-//! pleach-checkpoint 2 <length of the body in bytes> <checksum of the body, 16 hexadecimal digits>
+//! pleach-checkpoint 3 <length of the body in bytes> <checksum of the body, 16 hexadecimal digits>
 //! {"fingerprint": …, "search": …, "history": […], "elapsed_s": …}
 //! ```
 //!
@@ -20,7 +20,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 /// The number in the header; files of other versions are refused.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const MAGIC: &str = "pleach-checkpoint";
 
 /// What a checkpoint holds.
@@ -34,6 +34,8 @@ pub struct Checkpoint<M> {
     pub history: Vec<Row>,
     /// Seconds used so far by the caller's clock.
     pub elapsed_s: f64,
+    /// How many of them had passed when the search began.
+    pub before_search_s: f64,
 }
 
 /// Why a checkpoint was not read or written.
@@ -107,23 +109,25 @@ impl<M: Serialize> Checkpoint<M> {
         let body =
             serde_json::to_vec(self).map_err(io::Error::other).map_err(io("cannot be put into words"))?;
         let header = format!("{MAGIC} {VERSION} {} {:016x}\n", body.len(), Fnv::of(&body));
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut name = path.file_name().unwrap_or_default().to_owned();
-        name.push(".tmp");
-        let temporary = path.with_file_name(name);
+        name.push(".");
         let write = || -> io::Result<()> {
-            let mut file = File::create(&temporary)?;
+            // A new file under a name that nobody has: no link that lies there is followed, and two
+            // programs do not write into one file. It goes if anything fails.
+            let mut builder = tempfile::Builder::new();
+            #[cfg(unix)]
+            builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+            let mut file = builder.prefix(&name).suffix(".tmp").tempfile_in(folder)?;
             file.write_all(header.as_bytes())?;
             file.write_all(&body)?;
-            file.sync_all()
+            file.as_file().sync_all()?;
+            file.persist(path)?;
+            Ok(())
         };
-        write().and_then(|()| fs::rename(&temporary, path)).map_err(|source| {
-            // Best effort: the write has failed already, and that is what is told.
-            let _ = fs::remove_file(&temporary);
-            io("cannot be written")(source)
-        })?;
+        write().map_err(io("cannot be written"))?;
         // The rename itself lasts once the folder is on the disk. Not every file system lets folders
         // be flushed, and none needs it against a killed process: best effort.
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
         Ok(())
     }
@@ -149,8 +153,45 @@ impl<M: DeserializeOwned> Checkpoint<M> {
         if !differences.is_empty() {
             return Err(CheckpointError::OtherRun { path: path_buf(), differences });
         }
-        serde_json::from_slice(body)
-            .map_err(|e| CheckpointError::WrongBody { path: path_buf(), message: e.to_string() })
+        let wrong = |message: String| CheckpointError::WrongBody { path: path_buf(), message };
+        let checkpoint: Self = serde_json::from_slice(body).map_err(|e| wrong(e.to_string()))?;
+        checkpoint.check().map_err(wrong)?;
+        Ok(checkpoint)
+    }
+}
+
+/// Most seconds that a run can have used: three hundred years.
+const MOST_SECONDS: f64 = 1e10;
+
+impl<M> Checkpoint<M> {
+    /// What no run writes though the file's form allows it.
+    fn check(&self) -> Result<(), String> {
+        for (name, seconds) in [("elapsed_s", self.elapsed_s), ("before_search_s", self.before_search_s)] {
+            if !(0.0..=MOST_SECONDS).contains(&seconds) {
+                return Err(format!("`{name}` is {seconds}, expected 0 to {MOST_SECONDS:e}"));
+            }
+        }
+        if self.before_search_s > self.elapsed_s {
+            return Err("`before_search_s` is more than `elapsed_s`".to_owned());
+        }
+        let (rows, generations) = (self.history.len() as u64, self.search.generation);
+        if rows != generations {
+            return Err(format!("the history has {rows} rows for {generations} generations"));
+        }
+        let number = |i: usize| i as u64 + 1;
+        if let Some((i, row)) = self.history.iter().enumerate().find(|(i, row)| row.generation != number(*i))
+        {
+            return Err(format!("row {} of the history is of generation {}", i + 1, row.generation));
+        }
+        let evaluated = self.history.windows(2).all(|pair| pair[0].evaluations <= pair[1].evaluations)
+            && self.history.last().is_none_or(|last| last.evaluations <= self.search.evaluations);
+        if !evaluated {
+            return Err("the evaluations in the history do not add up".to_owned());
+        }
+        if self.search.evaluations > 0 && self.search.best.is_none() {
+            return Err(format!("{} evaluations and no best individual", self.search.evaluations));
+        }
+        Ok(())
     }
 }
 
@@ -202,7 +243,7 @@ mod tests {
             score: Score { cost: f64::INFINITY, iou: 1.0 / 3.0, ..Score::of_cost(0.0) },
         });
         let fingerprint = Fingerprint::default().with("goal", &1).with("settings", &2);
-        Checkpoint { fingerprint, search, history: Vec::new(), elapsed_s: 0.3 }
+        Checkpoint { fingerprint, search, history: Vec::new(), elapsed_s: 0.3, before_search_s: 0.1 }
     }
 
     #[test]
@@ -244,6 +285,58 @@ mod tests {
     }
 
     #[test]
+    #[cfg(unix)]
+    fn links_under_the_temporary_name_are_not_followed() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, victim) = (folder.path().join("checkpoint"), folder.path().join("victim"));
+        fs::write(&victim, "precious").unwrap();
+        std::os::unix::fs::symlink(&victim, folder.path().join("checkpoint.tmp")).unwrap();
+        // Nor is a link at the checkpoint's own name: it is replaced.
+        std::os::unix::fs::symlink(&victim, &path).unwrap();
+        sample().write(&path).unwrap();
+        assert_eq!(fs::read_to_string(&victim).unwrap(), "precious");
+        assert!(fs::symlink_metadata(&path).unwrap().is_file());
+    }
+
+    #[test]
+    fn what_no_run_can_have_written_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("checkpoint");
+        let read = |checkpoint: &Checkpoint<Hewitt>| {
+            checkpoint.write(&path).unwrap();
+            Checkpoint::<Hewitt>::read(&path, &checkpoint.fingerprint)
+        };
+        let row = Row {
+            generation: 1,
+            evaluations: 20,
+            best_cost: 0.5,
+            generation_best_cost: 0.5,
+            iou: 0.5,
+            accuracy: 0.5,
+            likeness: None,
+            elapsed_s: 0.1,
+        };
+        let mut good = Checkpoint { history: vec![row], ..sample() };
+        good.search.generation = 1;
+        good.search.evaluations = 25;
+        assert_eq!(read(&good).unwrap(), good);
+        let with = |change: fn(&mut Checkpoint<Hewitt>)| {
+            let mut forged = good.clone();
+            change(&mut forged);
+            let error = read(&forged).unwrap_err();
+            assert!(matches!(error, CheckpointError::WrongBody { .. }), "{error}");
+            error.to_string()
+        };
+        assert!(with(|c| c.elapsed_s = -1.0).contains("`elapsed_s` is -1"));
+        assert!(with(|c| c.elapsed_s = 1e308).contains("expected 0 to 1e10"));
+        assert!(with(|c| c.before_search_s = 5.0).contains("more than `elapsed_s`"));
+        assert!(with(|c| c.history.clear()).contains("0 rows for 1 generations"));
+        assert!(with(|c| c.history[0].generation = 7).contains("row 1 of the history is of generation 7"));
+        assert!(with(|c| c.search.evaluations = 3).contains("do not add up"));
+        assert!(with(|c| c.search.best = None).contains("no best individual"));
+    }
+
+    #[test]
     fn other_runs_versions_and_missing_files_say_so() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("checkpoint");
@@ -255,7 +348,7 @@ mod tests {
         let error = Checkpoint::<Hewitt>::read(&path, &other).unwrap_err().to_string();
         assert!(error.ends_with("it differs in goal"), "{error}");
         let text = String::from_utf8(fs::read(&path).unwrap()).unwrap();
-        fs::write(&path, text.replacen(" 2 ", " 9 ", 1)).unwrap();
+        fs::write(&path, text.replacen(" 3 ", " 9 ", 1)).unwrap();
         let error = Checkpoint::<Hewitt>::read(&path, &sample.fingerprint).unwrap_err().to_string();
         assert!(error.contains("version 9"), "{error}");
         let nowhere = folder.path().join("no/such/folder");

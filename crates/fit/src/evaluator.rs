@@ -240,15 +240,12 @@ impl Evaluator {
     ///
     /// Allocates nothing once `memory` has held a tree as large as this one.
     pub fn evaluate(&self, genome: &Genome, memory: &mut EvalWorkspace) -> Score {
-        self.evaluate_within(genome, Size::ANY, memory, None)
+        self.evaluate_within(genome, Size::ANY, memory, false)
     }
 
-    /// The score of `genome` and its likeness, whatever the objective is: of one and the same tree.
-    pub(crate) fn evaluate_and_look(&self, genome: &Genome) -> (Score, f64) {
-        let mut looks = 0.0;
-        let score =
-            self.with_memory(|memory| self.evaluate_within(genome, Size::ANY, memory, Some(&mut looks)));
-        (score, looks)
+    /// The score of `genome` with its likeness, whatever the objective is.
+    pub(crate) fn evaluate_and_look(&self, genome: &Genome) -> Score {
+        self.with_memory(|memory| self.evaluate_within(genome, Size::ANY, memory, true))
     }
 
     /// [`Evaluator::evaluate`] in memory that is kept from call to call.
@@ -265,13 +262,7 @@ impl Evaluator {
         result
     }
 
-    fn evaluate_within(
-        &self,
-        genome: &Genome,
-        most: Size,
-        memory: &mut EvalWorkspace,
-        looks: Option<&mut f64>,
-    ) -> Score {
+    fn evaluate_within(&self, genome: &Genome, most: Size, memory: &mut EvalWorkspace, looks: bool) -> Score {
         let EvalWorkspace { params, values, tree, workspace, rasteriser, bitmap, comparisons } = memory;
         let mut growth = Growth {
             seed: genome.tree_seed,
@@ -293,7 +284,7 @@ impl Evaluator {
             return Score::FAILED;
         }
         let mut sum = Score::of_cost(0.0);
-        let mut unlike = 0.0;
+        let mut likeness = Some(0.0);
         if let Some(factor) = self.factor(tree)
             && self.generator.resize(values, factor)
         {
@@ -317,26 +308,71 @@ impl Evaluator {
             for view in &self.views {
                 let (from, frame) = view.placed(&genome.nuisances);
                 rasteriser.draw(tree, &from, &frame, self.foliage, bitmap);
-                let agreement = view.compare(bitmap, self.objective, comparisons);
-                if looks.is_some() {
-                    unlike += 1.0 - view.likeness(bitmap, comparisons);
-                }
+                let agreement = view.compare(bitmap, self.objective, looks, comparisons);
+                likeness = likeness.zip(agreement.likeness).map(|(sum, here)| sum + here);
                 sum.cost += 1.0 - agreement.value;
                 sum.iou += agreement.iou;
                 sum.accuracy += agreement.accuracy;
             }
         }
         let pictures = f64::from(self.seeds) * self.views.len() as f64;
-        if let Some(looks) = looks {
-            *looks = 1.0 - unlike / pictures;
+        Score {
+            cost: sum.cost / pictures,
+            iou: sum.iou / pictures,
+            accuracy: sum.accuracy / pictures,
+            likeness: likeness.map(|sum| sum / pictures),
+            ..sum
         }
-        Score { cost: sum.cost / pictures, iou: sum.iou / pictures, accuracy: sum.accuracy / pictures, ..sum }
+    }
+
+    /// The direction and the frame of each goal, as `genome` says where they are not known.
+    pub(crate) fn placed(&self, genome: &Genome) -> Vec<(View, Frame)> {
+        self.views.iter().map(|view| view.placed(&genome.nuisances)).collect()
+    }
+
+    /// Grows the trees that `genome` is judged by, as they are, and shows them to `look` one by one;
+    /// none if one of them does not grow.
+    pub(crate) fn show(
+        &self,
+        genome: &Genome,
+        foliage: bool,
+        mut look: impl FnMut(&Tree, &mut Rasteriser),
+    ) -> Option<()> {
+        self.with_memory(|memory| {
+            let EvalWorkspace { params, tree, workspace, rasteriser, .. } = memory;
+            params.set(self.generator.space(), &genome.values).ok()?;
+            for number in 0..self.seeds {
+                let growth = Growth {
+                    seed: genome.tree_seed.wrapping_add(u64::from(number)),
+                    limits: self.limits,
+                    foliage: if foliage { Foliage::All } else { Foliage::None },
+                    parallel: false,
+                };
+                self.generator.grow(params, &growth, workspace, tree).ok()?;
+                look(tree, rasteriser);
+            }
+            Some(())
+        })
+    }
+
+    /// Likeness and intersection over union of `picture` with goal number `view`.
+    pub(crate) fn resemblance(&self, view: usize, picture: &Bitmap) -> (f64, f64) {
+        self.with_memory(|memory| {
+            let view = &self.views[view];
+            let agreement = view.compare(picture, Objective::Likeness, true, &mut memory.comparisons);
+            (agreement.value, agreement.iou)
+        })
     }
 
     /// How much larger `tree` has to be for the height that it should have, if it is not so already.
     fn factor(&self, tree: &Tree) -> Option<f64> {
+        self.height?;
+        self.factor_for(height_of(tree, self.foliage))
+    }
+
+    /// How much larger a tree of `height` metres has to be, if it is not right already.
+    pub(crate) fn factor_for(&self, height: f64) -> Option<f64> {
         let Height { goal, tolerance } = self.height?;
-        let height = height_of(tree);
         let factor = goal / height;
         let is_off = (height - goal).abs() > tolerance;
         (is_off && (1.0 / MOST_RESIZING..MOST_RESIZING).contains(&factor)).then_some(factor)
@@ -349,23 +385,38 @@ impl Evaluator {
         shares.sum::<f64>() / self.views.len() as f64
     }
 
-    /// The goals and where they were taken from, for fingerprints.
-    pub(crate) fn goal_bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        for view in &self.views {
-            bytes.extend(
-                format!("{:?} {:?} {:?} {}\n", view.view, view.frame, view.unknown, self.foliage).bytes(),
-            );
-            bytes.extend(view.goal.words().iter().flat_map(|word| word.to_le_bytes()));
+    /// The goals, where they were taken from and how large their trees are, for fingerprints: by name,
+    /// so that a run that differs in one of them can say in which.
+    pub(crate) fn goal_parts(&self) -> [(&'static str, Vec<u8>); 4] {
+        let mut pictures = Vec::new();
+        let mut scales = String::new();
+        let mut views = String::new();
+        for PreparedView { goal, view, frame, unknown, .. } in &self.views {
+            pictures.extend(format!("{} {}\n", goal.width(), goal.height()).bytes());
+            pictures.extend(goal.words().iter().flat_map(|word| word.to_le_bytes()));
+            // What is asked for is the tree's height; the scale follows from it and the picture.
+            let top = goal.ink_box().map_or(0, |(_, top, _, _)| top);
+            let height = (frame.ground_row - f64::from(top)) * frame.metres_per_pixel;
+            scales += &format!("{height:.6}\n");
+            views += &format!("{view:?} {unknown:?} {:?} {:?}\n", frame.axis_column, frame.ground_row);
         }
-        bytes
+        let leaves = vec![u8::from(self.foliage)];
+        [
+            ("the goal's picture", pictures),
+            ("the tree's height (--height)", scales.into_bytes()),
+            ("view, ground or trunk", views.into_bytes()),
+            ("leaves (--leaves)", leaves),
+        ]
     }
 }
 
-/// Metres from the ground to the highest knot or middle line of a leaf: the height to a pixel or two,
-/// at a fraction of the price of [`pleach_tree::stats::Bounds`].
-fn height_of(tree: &Tree) -> f64 {
+/// Metres from the ground to the highest knot or, with `foliage`, middle line of a leaf: the height to a
+/// pixel or two, at a fraction of the price of [`pleach_tree::stats::Bounds`].
+pub(crate) fn height_of(tree: &Tree, foliage: bool) -> f64 {
     let knots = tree.knots.iter().map(|knot| knot.point.z).fold(0.0, f64::max);
+    if !foliage {
+        return knots;
+    }
     let leaves = tree.leaves.iter().chain(&tree.blossoms);
     let top = |leaf: &Leaf| leaf.position.z + leaf.along.z.max(0.0);
     knots.max(f64::from(leaves.map(top).fold(0.0, f32::max)))
@@ -379,6 +430,8 @@ struct Agreement {
     iou: f64,
     /// What the objective makes large.
     value: f64,
+    /// Likeness, where it was looked at.
+    likeness: Option<f64>,
 }
 
 impl PreparedView {
@@ -389,18 +442,27 @@ impl PreparedView {
         (placement.view(&self.view), placement.frame(&self.frame))
     }
 
-    fn compare(&self, bitmap: &Bitmap, objective: Objective, memory: &mut Comparisons) -> Agreement {
+    fn compare(
+        &self,
+        bitmap: &Bitmap,
+        objective: Objective,
+        looks: bool,
+        memory: &mut Comparisons,
+    ) -> Agreement {
         let overlaps = self.prepared.overlaps(bitmap, &mut memory.overlaps);
         let accuracy = 1.0 - overlaps.differing as f64 / self.goal.area() as f64;
         let iou = overlaps.iou();
+        let looks = looks || objective.looks();
+        let likeness = looks.then(|| self.likeness(bitmap, memory));
+        let alike = likeness.unwrap_or_default();
         let value = match objective {
             Objective::Accuracy => accuracy,
             Objective::Iou => iou,
             Objective::Blend => blend(&overlaps),
-            Objective::Likeness => self.likeness(bitmap, memory),
-            Objective::Balance => f64::midpoint(blend(&overlaps), self.likeness(bitmap, memory)),
+            Objective::Likeness => alike,
+            Objective::Balance => f64::midpoint(blend(&overlaps), alike),
         };
-        Agreement { accuracy, iou, value }
+        Agreement { accuracy, iou, value, likeness }
     }
 
     fn likeness(&self, bitmap: &Bitmap, memory: &mut Comparisons) -> f64 {
@@ -427,7 +489,11 @@ impl Evaluate for Evaluator {
             .par_iter()
             // Trees differ a hundredfold in cost: each is a piece of work of its own.
             .with_max_len(1)
-            .map(|genome| self.with_memory(|memory| self.evaluate_within(genome, most, memory, None)))
+            .map(|genome| self.with_memory(|memory| self.evaluate_within(genome, most, memory, false)))
             .collect()
+    }
+
+    fn likeness(&self, genome: &Genome) -> Option<f64> {
+        self.evaluate_and_look(genome).likeness
     }
 }

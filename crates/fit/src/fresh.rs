@@ -54,16 +54,15 @@ pub fn fresh_seeds(
     let trees: Vec<Genome> = seeds.map(|tree_seed| Genome { tree_seed, ..genome.clone() }).collect();
     let evaluator = Evaluator::new(problem, objective, limits)?;
     let scores = stoppable::map(&trees, stop, |tree| evaluator.evaluate_and_look(tree))?;
-    if scores.is_empty() || scores.iter().any(|(score, _)| !score.cost.is_finite()) {
+    if scores.is_empty() || scores.iter().any(|score| !score.cost.is_finite()) {
         return Ok(None);
     }
-    let spread = |of: fn(&Score) -> f64| Spread::of(scores.iter().map(|(score, _)| of(score)));
-    let likeness = Spread::of(scores.iter().map(|(_, looks)| *looks));
+    let spread = |of: fn(&Score) -> f64| Spread::of(scores.iter().map(of));
     Ok(Some(FreshSeeds {
         count,
         iou: spread(|score| score.iou),
         pixel_accuracy: spread(|score| score.accuracy),
-        likeness,
+        likeness: spread(|score| score.likeness.unwrap_or_default()),
         cost: spread(|score| score.cost),
     }))
 }

@@ -38,6 +38,9 @@ pub struct Score {
     /// Share of equal pixels, in 0..=1; the mean over views. An empty picture may score high: see
     /// [`crate::Evaluator::empty_accuracy`].
     pub accuracy: f64,
+    /// Likeness to the goal, in 0..=1, the mean over views; none where the objective does not look at
+    /// it.
+    pub likeness: Option<f64>,
     /// How large the tree was.
     pub size: Size,
     /// Factor by which the tree was resized to the goal's height before it was drawn; 1 for none.
@@ -68,7 +71,14 @@ impl Score {
     /// A bare cost, for problems that are no pictures.
     #[must_use]
     pub const fn of_cost(cost: f64) -> Self {
-        Self { cost, iou: 0.0, accuracy: 0.0, size: Size { stems: 0, leaves: 0, knots: 0 }, resized: 1.0 }
+        Self {
+            cost,
+            iou: 0.0,
+            accuracy: 0.0,
+            likeness: None,
+            size: Size { stems: 0, leaves: 0, knots: 0 },
+            resized: 1.0,
+        }
     }
 }
 

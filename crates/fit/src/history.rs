@@ -23,6 +23,8 @@ pub struct Row {
     pub iou: f64,
     /// Pixel accuracy of the best individual so far, in 0..=1.
     pub accuracy: f64,
+    /// Likeness of the best individual so far, in 0..=1; none for what is no picture.
+    pub likeness: Option<f64>,
     /// Seconds so far by the caller's clock: the one column that differs between two runs.
     pub elapsed_s: f64,
 }
@@ -41,7 +43,7 @@ pub struct Column {
 }
 
 /// The columns of `history.csv`, declared once.
-pub const COLUMNS: [Column; 7] = [
+pub const COLUMNS: [Column; 8] = [
     Column {
         name: "generation",
         doc: "number of the generation, from 1",
@@ -79,6 +81,12 @@ pub const COLUMNS: [Column; 7] = [
         value: |row| row.accuracy,
     },
     Column {
+        name: "likeness",
+        doc: "likeness of the best individual so far",
+        is_time: false,
+        value: |row| row.likeness.unwrap_or(f64::NAN),
+    },
+    Column {
         name: "elapsed_s",
         doc: "seconds so far (wall clock, not comparable)",
         is_time: true,
@@ -104,6 +112,9 @@ pub struct Progress<'a> {
     pub evaluations_now: u64,
     /// The best individual so far; none before the first batch.
     pub best: Option<&'a Scored>,
+    /// Likeness of the best individual, in 0..=1. Where the objective does not look at it, that of the
+    /// best at the end of the last generation; none before the first.
+    pub likeness: Option<f64>,
     /// Time so far, earlier parts of a resumed run included.
     pub elapsed: Duration,
     /// Time since this part of the run began.
@@ -116,7 +127,7 @@ pub struct Progress<'a> {
 ///
 /// Called on the thread that runs the fit, between batches: whatever takes long here delays it.
 pub trait Observer {
-    /// After every batch, about ten times a second, and once at the start and at the end.
+    /// After every batch, about three times a second, and once at the start and at the end.
     fn progress(&mut self, progress: &Progress<'_>) {
         let _ = progress;
     }
@@ -145,12 +156,13 @@ mod tests {
             generation_best_cost: f64::INFINITY,
             iou: 1.0 / 3.0,
             accuracy: 1.0,
+            likeness: Some(0.5),
             elapsed_s: 0.25,
         };
         let numbers: Vec<f64> = row.cells().map(|cell| cell.parse().unwrap()).collect();
         let values: Vec<f64> = COLUMNS.iter().map(|column| (column.value)(&row)).collect();
         assert_eq!(numbers, values);
-        assert_eq!(values, [3.0, 60.0, 0.1 + 0.2, f64::INFINITY, 1.0 / 3.0, 1.0, 0.25]);
+        assert_eq!(values, [3.0, 60.0, 0.1 + 0.2, f64::INFINITY, 1.0 / 3.0, 1.0, 0.5, 0.25]);
         let time: Vec<&str> = COLUMNS.iter().filter(|c| c.is_time).map(|c| c.name).collect();
         assert_eq!(time, ["elapsed_s"]);
     }

@@ -15,6 +15,8 @@
 //! | [`budget`] | [`Budget`], [`StopReason`], [`Clock`] |
 //! | [`history`] | one row a generation; [`Observer`] |
 //! | [`checkpoint`] | the state of a fit in a file that survives a crash |
+//! | [`setting`] | [`Setting`]: what each setting of an optimiser may be |
+//! | [`verdict`] | [`Verdict`]: whether a fit is good, in words |
 //! | [`run`] | [`fit`]: all of it together |
 //!
 //! # Invariants
@@ -39,19 +41,23 @@ pub mod objective;
 pub mod profile;
 pub mod run;
 pub mod search;
+pub mod setting;
 pub mod settings;
 pub mod space;
 mod stoppable;
 pub mod stream;
 #[cfg(test)]
 mod testing;
+pub mod verdict;
 
 pub use budget::{Budget, Clock, StopReason};
 pub use checkpoint::CheckpointError;
 pub use evaluator::{EvalWorkspace, Evaluator, FitProblem, GoalView, ProblemError};
 pub use fresh::{FreshSeeds, Spread, fresh_seeds};
 pub use genome::{Genome, Score, Scored, Size};
-pub use guess::{Candidate, FirstGuess, Guess, GuessSettings, first_guess};
+pub use guess::{
+    Candidate, FirstGuess, Guess, GuessLibrary, GuessSettings, Reference, References, first_guess,
+};
 pub use history::{COLUMNS, Column, Observer, Progress, Row};
 pub use method::{Method, Start};
 pub use nuisance::{Azimuth, Placement, Unknown, placements};
@@ -59,5 +65,7 @@ pub use objective::Objective;
 pub use profile::{Profile, Seen, profile, put_back_unseen};
 pub use run::{CheckpointSettings, Control, FitError, Outcome, fit, settled};
 pub use search::{Evaluate, Search, SearchState};
+pub use setting::{SETTINGS, Setting, SettingKind};
 pub use settings::{AnyMethod, FitSettings, Optimizer};
-pub use space::{Freedom, SearchSpace, TreeSeed};
+pub use space::{Freedom, PRIOR, SearchSpace, TreeSeed, check_freedom};
+pub use verdict::{Kindred, Off, Verdict};

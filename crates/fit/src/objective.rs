@@ -50,6 +50,13 @@ impl Objective {
     }
 }
 
+impl Objective {
+    /// Whether it looks at likeness.
+    pub(crate) const fn looks(self) -> bool {
+        matches!(self, Self::Likeness | Self::Balance)
+    }
+}
+
 impl fmt::Display for Objective {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())

@@ -119,11 +119,12 @@ fn alternatives(gene: &Gene, value: f64) -> Vec<((usize, usize), f64)> {
     list
 }
 
-/// Gives numbers that are not seen the value that they have in `start`, one after the other, where all
-/// of them together cost less than a tenth of `tolerance`.
+/// Gives numbers that are not seen the value that they have in `start`, those that cost least first,
+/// where all of them together cost less than a tenth of `tolerance`; those for which that is too far go
+/// half the way, if they can.
 ///
 /// A fit leaves such numbers wherever the search happened to be; those of a known species are at least
-/// a tree's. Returns the individual, with its score, and the slots that went back.
+/// a tree's. Returns the individual, with its score, and the slots that went all the way.
 ///
 /// # Errors
 /// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once `stop`
@@ -140,34 +141,106 @@ pub fn put_back_unseen(
     let (space, evaluator) = prepare(problem, settings)?;
     let hidden = space.size_variations(&best.genome.values);
     let most = best.score.cost + SPENT_ON_RETURN * tolerance;
-    let mut waiting: VecDeque<usize> = profiles
+    let back = Back { space: &space, evaluator: &evaluator, most, stop };
+    let moved: Vec<(usize, f64)> = profiles
         .iter()
-        .filter(|profile| profile.seen == Seen::NotSeen)
-        .map(|profile| profile.slot)
-        .filter(|slot| best.genome.values[*slot] != start[*slot] && !hidden.contains(slot))
+        .filter(|profile| profile.seen == Seen::NotSeen && !hidden.contains(&profile.slot))
+        .map(|profile| (profile.slot, start[profile.slot]))
+        .filter(|&(slot, there)| best.genome.values[slot] != there)
         .collect();
     let mut kept = best.clone();
-    let mut slots = Vec::new();
-    while !waiting.is_empty() {
-        let steps = steps_back(&space, &kept.genome, &waiting, start);
-        let trials: Vec<&Genome> =
-            steps.iter().filter(|step| step.is_read).map(|step| &step.genome).collect();
-        let mut scores = stoppable::map(&trials, stop, |genome| evaluator.score(genome))?.into_iter();
-        for Step { slot, genome, is_read } in steps {
-            waiting.pop_front();
+    let gone = back.all(&mut kept, moved.clone())?;
+    let halves = moved.into_iter().filter(|(slot, _)| !gone.contains(slot)).filter_map(|(slot, there)| {
+        let gene = space.genes().iter().find(|gene| gene.slot() == Some(slot))?;
+        let here = kept.genome.values[slot];
+        let half = gene.from_unit(gene.to_unit(here).midpoint(gene.to_unit(there)));
+        (!gene.is_choice() && half != here).then_some((slot, half))
+    });
+    let halves = halves.collect();
+    back.all(&mut kept, halves)?;
+    Ok((kept, gone))
+}
+
+/// What going back has to keep to.
+struct Back<'a> {
+    space: &'a SearchSpace,
+    evaluator: &'a Evaluator,
+    /// Largest cost.
+    most: f64,
+    stop: &'a AtomicBool,
+}
+
+impl Back<'_> {
+    /// Gives slots of `kept` their new values, one after the other, those first that alone cost least;
+    /// returns those that had room.
+    fn all(&self, kept: &mut Scored, moves: Vec<(usize, f64)>) -> Result<Vec<usize>, FitError> {
+        let alone: Vec<Genome> = moves
+            .iter()
+            .map(|&(slot, value)| {
+                let mut genome = kept.genome.clone();
+                genome.values[slot] = value;
+                genome
+            })
+            .collect();
+        let costs = stoppable::map(&alone, self.stop, |genome| {
+            let slot = genome.values.iter().zip(&kept.genome.values).position(|(a, b)| a != b);
             // What is not read leaves the tree and its score as they are.
-            let score = if is_read { scores.next() } else { Some(kept.score) };
-            match score.filter(|score| score.cost <= most) {
-                Some(score) => {
-                    kept = Scored { genome, score };
-                    slots.push(slot);
+            if slot.is_some_and(|slot| self.is_read(&kept.genome, slot)) {
+                self.evaluator.score(genome).cost
+            } else {
+                kept.score.cost
+            }
+        })?;
+        let mut order: Vec<usize> = (0..moves.len()).filter(|&i| costs[i] <= self.most).collect();
+        order.sort_by(|&a, &b| costs[a].total_cmp(&costs[b]));
+        let mut waiting: VecDeque<(usize, f64)> = order.into_iter().map(|i| moves[i]).collect();
+        let mut slots = Vec::new();
+        while !waiting.is_empty() {
+            let steps = self.steps(&kept.genome, &waiting);
+            let trials: Vec<&Genome> =
+                steps.iter().filter(|step| step.is_read).map(|step| &step.genome).collect();
+            let mut scores =
+                stoppable::map(&trials, self.stop, |genome| self.evaluator.score(genome))?.into_iter();
+            for Step { slot, genome, is_read } in steps {
+                waiting.pop_front();
+                let score = if is_read { scores.next() } else { Some(kept.score) };
+                match score.filter(|score| score.cost <= self.most) {
+                    Some(score) => {
+                        *kept = Scored { genome, score };
+                        slots.push(slot);
+                    }
+                    // Those after it were tried together with it, and are tried again without.
+                    None => break,
                 }
-                // Those after it were tried together with it.
-                None => break,
             }
         }
+        Ok(slots)
     }
-    Ok((kept, slots))
+
+    fn is_read(&self, genome: &Genome, slot: usize) -> bool {
+        let gene = self.space.genes().iter().find(|gene| gene.slot() == Some(slot));
+        gene.is_none_or(|gene| self.space.is_read(&genome.values, gene))
+    }
+
+    /// The next steps from `from`: as many as there are threads to grow their trees.
+    ///
+    /// Most numbers that are not seen do go back, so a step is tried before the one before it is known to
+    /// be allowed. How many are tried together decides what is done in vain, not what comes of it.
+    fn steps(&self, from: &Genome, waiting: &VecDeque<(usize, f64)>) -> Vec<Step> {
+        let mut genome = from.clone();
+        let mut trials = rayon::current_num_threads();
+        let mut steps = Vec::new();
+        for &(slot, value) in waiting {
+            let is_read = self.is_read(&genome, slot);
+            if is_read && trials == 0 {
+                break;
+            }
+            trials -= usize::from(is_read);
+            genome.values[slot] = value;
+            steps.push(Step { slot, genome: genome.clone(), is_read });
+        }
+        steps
+    }
 }
 
 /// A number that goes back, after all those before it in a list have.
@@ -175,27 +248,6 @@ struct Step {
     slot: usize,
     genome: Genome,
     is_read: bool,
-}
-
-/// The next steps from `from`: as many as there are threads to grow their trees.
-///
-/// Most numbers that are not seen do go back, so a step is tried before the one before it is known to
-/// be allowed. How many are tried together decides what is done in vain, not what comes of it.
-fn steps_back(space: &SearchSpace, from: &Genome, waiting: &VecDeque<usize>, start: &[f64]) -> Vec<Step> {
-    let mut genome = from.clone();
-    let mut trials = rayon::current_num_threads();
-    let mut steps = Vec::new();
-    for &slot in waiting {
-        let gene = space.genes().iter().find(|gene| gene.slot() == Some(slot));
-        let is_read = gene.is_none_or(|gene| space.is_read(&genome.values, gene));
-        if is_read && trials == 0 {
-            break;
-        }
-        trials -= usize::from(is_read);
-        genome.values[slot] = start[slot];
-        steps.push(Step { slot, genome: genome.clone(), is_read });
-    }
-    steps
 }
 
 fn prepare(problem: &FitProblem, settings: &FitSettings) -> Result<(SearchSpace, Evaluator), FitError> {

@@ -67,6 +67,9 @@ pub struct Outcome {
     pub generations: u64,
     /// Time by the caller's clock, in all parts of a resumed run.
     pub elapsed: Duration,
+    /// What of it had passed when the search began: a first guess, where the clock was started before
+    /// it. The rest is the search's.
+    pub before_search: Duration,
     /// Why it ended.
     pub stop: StopReason,
     /// One row for every finished generation.
@@ -111,8 +114,9 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
     if settings.optimizer.matches_height() && space.sizes_are_free() {
         evaluator = evaluator.matching_height();
     }
-    let fingerprint = Fingerprint::default()
-        .with_bytes("goal", evaluator.goal_bytes())
+    let parts = evaluator.goal_parts().into_iter();
+    let fingerprint = parts
+        .fold(Fingerprint::default(), |parts, (name, bytes)| parts.with_bytes(name, bytes))
         .with("generator", problem.generator.family())
         .with_bytes("generator's settings", format!("{:?}", problem.generator))
         .with("fixed values", &problem.base)
@@ -137,7 +141,11 @@ pub(crate) fn search_space(problem: &FitProblem, settings: &FitSettings) -> Resu
         space.widen(list)?;
     }
     let settles = settings.optimizer.matches_height() && space.sizes_are_free();
-    Ok(space.settling(settles))
+    if settings.optimizer.keeps_to_reason() {
+        let start = settings.start.lists().first().unwrap_or(&problem.base);
+        space = space.plausible(start);
+    }
+    Ok(space.settling(settles).drawn_to(settings.start.lists(), settings.optimizer.prior()))
 }
 
 /// The slots of `genome` that the fit of `problem` has set to zero because one tree cannot show them:
@@ -157,13 +165,13 @@ pub fn settled(
 
 /// [`fit`] on anything that can be scored.
 pub(crate) fn drive(
-    objective: &(impl Evaluate + ?Sized),
+    objective: &impl Evaluate,
     space: SearchSpace,
     settings: &FitSettings,
     fingerprint: Fingerprint,
     control: Control<'_>,
 ) -> Result<Outcome, FitError> {
-    let mut driver = Driver::begin(space, settings, fingerprint, control)?;
+    let mut driver = Driver::begin(objective, space, settings, fingerprint, control)?;
     driver.announce();
     if driver.verdict().is_none() {
         let generation = driver.search.state.evaluations;
@@ -183,20 +191,26 @@ pub(crate) fn drive(
 }
 
 /// A search that minds its budget, tells its observers and saves itself.
-struct Driver<'a> {
+struct Driver<'a, 'e> {
+    /// For what scores do not tell.
+    objective: &'e dyn Evaluate,
     search: Search<AnyMethod>,
     budget: Budget,
     fingerprint: Fingerprint,
     control: Control<'a>,
     history: Vec<Row>,
     elapsed_before: Duration,
+    before_search: Duration,
     evaluations_before: u64,
+    /// Likeness of the best, and the cost by which it is known again.
+    likeness: Option<(f64, Option<f64>)>,
     saved: Duration,
     pace: Pace,
 }
 
-impl<'a> Driver<'a> {
+impl<'a, 'e> Driver<'a, 'e> {
     fn begin(
+        objective: &'e dyn Evaluate,
         space: SearchSpace,
         settings: &FitSettings,
         fingerprint: Fingerprint,
@@ -208,26 +222,34 @@ impl<'a> Driver<'a> {
             }
             _ => None,
         };
-        let (state, history, elapsed_s) = resumed.map_or_else(
-            || {
+        let now = control.clock.elapsed();
+        let (state, history, elapsed_before, before_search) = match resumed {
+            None => {
                 let method = settings.optimizer.method(settings.seed, settings.start.clone());
-                (SearchState::new(method, &settings.start), Vec::new(), 0.0)
-            },
-            |checkpoint| (checkpoint.search, checkpoint.history, checkpoint.elapsed_s),
-        );
+                (SearchState::new(method, &settings.start), Vec::new(), Duration::ZERO, now)
+            }
+            Some(Checkpoint { search, history, elapsed_s, before_search_s, .. }) => {
+                let seconds = |s| Duration::try_from_secs_f64(s).unwrap_or_default();
+                (search, history, seconds(elapsed_s), seconds(before_search_s))
+            }
+        };
         let evaluations_before = state.evaluations;
         let mut search = Search::resume(state, Arc::new(space));
         search.evaluation_limit = settings.budget.evaluations.unwrap_or(u64::MAX).max(evaluations_before);
-        let pace = Pace::new(control.clock.elapsed());
+        let pace = Pace::new(now);
         search.batch = pace.batch;
         let driver = Self {
+            objective,
             search,
             budget: settings.budget,
             fingerprint,
             history,
-            elapsed_before: Duration::try_from_secs_f64(elapsed_s).unwrap_or_default(),
+            elapsed_before,
+            before_search,
             evaluations_before,
-            saved: control.clock.elapsed(),
+            // Of a resumed run, that of the best in its last row.
+            likeness: None,
+            saved: now,
             pace,
             control,
         };
@@ -271,11 +293,15 @@ impl<'a> Driver<'a> {
 
     fn tell_progress(&mut self) {
         let spent = self.spent();
+        let best = self.search.state.best.as_ref();
+        let known =
+            self.likeness.map_or_else(|| self.history.last().and_then(|row| row.likeness), |known| known.1);
         let progress = Progress {
             generation: spent.generations,
             evaluations: spent.evaluations,
             evaluations_now: spent.evaluations - self.evaluations_before,
-            best: self.search.state.best.as_ref(),
+            best,
+            likeness: best.and_then(|best| best.score.likeness).or(known),
             elapsed: spent.elapsed,
             elapsed_now: spent.elapsed - self.elapsed_before,
             used: self.budget.used(&spent),
@@ -288,6 +314,8 @@ impl<'a> Driver<'a> {
     /// After a batch: a row if it finished a generation, progress, a checkpoint if one is due.
     fn after_batch(&mut self) {
         let elapsed = self.elapsed();
+        let likeness = self.likeness_of_best();
+        let best_cost = self.search.best_cost().unwrap_or(f64::INFINITY);
         let state = &self.search.state;
         if let (true, Some(best), Some(last)) =
             (state.is_between_generations(), &state.best, state.generation_best)
@@ -295,10 +323,11 @@ impl<'a> Driver<'a> {
             let row = Row {
                 generation: state.generation,
                 evaluations: state.evaluations,
-                best_cost: best.score.cost,
+                best_cost,
                 generation_best_cost: last.cost,
                 iou: best.score.iou,
                 accuracy: best.score.accuracy,
+                likeness,
                 elapsed_s: elapsed.as_secs_f64(),
             };
             self.history.push(row);
@@ -320,6 +349,21 @@ impl<'a> Driver<'a> {
         }
     }
 
+    /// Likeness of the best individual at the end of a generation: what its score says, or one more
+    /// tree where the best has changed and the objective does not look at likeness.
+    fn likeness_of_best(&mut self) -> Option<f64> {
+        let state = &self.search.state;
+        let best = state.best.as_ref().filter(|_| state.is_between_generations())?;
+        let cost = best.score.cost;
+        if best.score.likeness.is_some() {
+            return best.score.likeness;
+        }
+        let known = self.likeness.filter(|known| known.0.to_bits() == cost.to_bits());
+        let (_, likeness) =
+            *self.likeness.insert(known.unwrap_or_else(|| (cost, self.objective.likeness(&best.genome))));
+        likeness
+    }
+
     fn save(&self) -> Result<(), CheckpointError> {
         let Some(file) = &self.control.checkpoint else {
             return Ok(());
@@ -329,6 +373,7 @@ impl<'a> Driver<'a> {
             search: self.search.state.clone(),
             history: self.history.clone(),
             elapsed_s: self.elapsed().as_secs_f64(),
+            before_search_s: self.before_search.as_secs_f64(),
         };
         checkpoint.write(&file.path)
     }
@@ -343,6 +388,7 @@ impl<'a> Driver<'a> {
         }
         Ok(Outcome {
             elapsed: self.elapsed(),
+            before_search: self.before_search,
             best: self.search.state.best,
             evaluations: self.search.state.evaluations,
             generations: self.search.state.generation,
@@ -352,7 +398,7 @@ impl<'a> Driver<'a> {
     }
 }
 
-impl<O: Evaluate> Solver<O, FitState> for Driver<'_> {
+impl<O: Evaluate> Solver<O, FitState> for Driver<'_, '_> {
     fn name(&self) -> &str {
         <Search<AnyMethod> as Solver<O, FitState>>::name(&self.search)
     }

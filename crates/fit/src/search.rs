@@ -13,11 +13,21 @@ pub trait Evaluate {
     /// The scores of `genomes`, in their order, the same on any number of threads. A tree larger than
     /// `most` may be given up as one that does not grow.
     fn scores(&self, genomes: &[Genome], most: Size) -> Vec<Score>;
+
+    /// Likeness of `genome` to the goal, in 0..=1; none for what is no picture.
+    fn likeness(&self, genome: &Genome) -> Option<f64> {
+        let _ = genome;
+        None
+    }
 }
 
 impl<T: Evaluate + ?Sized> Evaluate for &T {
     fn scores(&self, genomes: &[Genome], most: Size) -> Vec<Score> {
         (**self).scores(genomes, most)
+    }
+
+    fn likeness(&self, genome: &Genome) -> Option<f64> {
+        (**self).likeness(genome)
     }
 }
 
@@ -33,9 +43,10 @@ pub struct SearchState<M> {
     pub generation: u64,
     /// Individuals evaluated.
     pub evaluations: u64,
-    /// The best individual ever seen; none before the first.
+    /// The best individual ever seen, by cost and what draws it to the start together; none before the
+    /// first. Its score is of the goal alone.
     pub best: Option<Scored>,
-    /// Cost of the best individual of the last finished generation.
+    /// Score of the best individual of the last finished generation, as the method was told it.
     pub generation_best: Option<Score>,
     members: Vec<Genome>,
     scores: Vec<Score>,
@@ -126,6 +137,13 @@ impl<M> Search<M> {
     }
 }
 
+impl<M> Search<M> {
+    /// What the search makes small, of the best individual: its cost and what draws it to the start.
+    pub(crate) fn best_cost(&self) -> Option<f64> {
+        self.state.best.as_ref().map(|best| best.score.cost + self.space.prior_cost(&best.genome))
+    }
+}
+
 impl<M: Method> Search<M> {
     /// Evaluates the next batch with `score`; returns its best individual.
     fn step(
@@ -150,16 +168,27 @@ impl<M: Method> Search<M> {
         for (member, score) in batch.iter_mut().zip(&scores) {
             self.space.resize(member, score.resized);
         }
-        let (at, &top) = scores
+        // What the method is told holds what draws numbers to the start; what is kept of the best does not.
+        let space = &self.space;
+        let told: Vec<Score> = scores
+            .iter()
+            .zip(&*batch)
+            .map(|(score, member)| Score { cost: score.cost + space.prior_cost(member), ..*score })
+            .collect();
+        let (at, &of_top) = told
             .iter()
             .enumerate()
             .min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))
             .ok_or_else(|| Error::msg("an empty batch: the method asked for nothing"))?;
-        let top = Scored { genome: batch[at].clone(), score: top };
-        if state.best.as_ref().is_none_or(|best| top.score.cost < best.score.cost) {
+        let top = Scored { genome: batch[at].clone(), score: scores[at] };
+        if state
+            .best
+            .as_ref()
+            .is_none_or(|best| of_top.cost < best.score.cost + space.prior_cost(&best.genome))
+        {
             state.best = Some(top.clone());
         }
-        state.scores.extend(scores);
+        state.scores.extend(told);
         if state.scores.len() == state.members.len() {
             state.method.tell(&self.space, &state.members, &state.scores);
             state.generation_best = state.scores.iter().copied().min_by(|a, b| a.cost.total_cmp(&b.cost));

@@ -79,6 +79,22 @@ impl Optimizer {
     }
 }
 
+impl Optimizer {
+    /// Whether it searches what is [plausible](pleach_tree::Generator::plausible) only, and not all of
+    /// the search ranges. The dissertation's algorithm and the random floor do not.
+    pub(crate) const fn keeps_to_reason(&self) -> bool {
+        !matches!(self, Self::Random(_) | Self::Hewitt(_))
+    }
+
+    /// How strongly numbers are drawn to the start: see [`SearchSpace::drawn_to`].
+    pub(crate) const fn prior(&self) -> f64 {
+        match self {
+            Self::Evolution(settings) => settings.prior,
+            Self::Random(_) | Self::Hewitt(_) | Self::Cma(_) | Self::De(_) => 0.0,
+        }
+    }
+}
+
 impl FromStr for Optimizer {
     type Err = UnknownOptimizer;
 

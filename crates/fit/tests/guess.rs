@@ -6,9 +6,12 @@ mod common;
 
 use common::goal_of;
 use pleach_fit::{
-    Candidate, FirstGuess, FitError, FitProblem, FitSettings, GuessSettings, TreeSeed, first_guess,
+    Candidate, FirstGuess, FitError, FitProblem, FitSettings, GuessLibrary, GuessSettings, TreeSeed,
+    first_guess,
 };
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
 use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering;
 
 /// Nobody asks these to stop.
 static GO: AtomicBool = AtomicBool::new(false);
@@ -82,7 +85,7 @@ fn asked_to_stop_there_is_no_guess() {
     let problem = goal_of("palm", 3, 64);
     let stop = AtomicBool::new(false);
     // Raised once the first batch is done.
-    let raise = |_, _| stop.store(true, std::sync::atomic::Ordering::Relaxed);
+    let raise = |_, _| stop.store(true, Ordering::Relaxed);
     let stopped = first_guess(
         &problem,
         &FitSettings::default(),
@@ -91,5 +94,87 @@ fn asked_to_stop_there_is_no_guess() {
         &stop,
         raise,
     );
+    assert!(matches!(stopped, Err(FitError::Interrupted)));
+}
+
+/// A picture of `name` without leaves.
+fn bare(name: &str, seed: u64) -> FitProblem {
+    let mut problem = goal_of(name, seed, 96);
+    let tree = pleach_generators::preset(name).unwrap().grow(seed).unwrap();
+    let goal = &mut problem.goals[0];
+    goal.frame = Frame::automatic(&tree, &View::FRONT, false, 96, 96);
+    let mut picture = Bitmap::default();
+    Rasteriser::with_detail(Detail::Half).draw(&tree, &View::FRONT, &goal.frame, false, &mut picture);
+    goal.goal = picture;
+    problem
+}
+
+/// Goals of several species, sizes and heights after each other: what a library keeps changes nothing.
+#[test]
+fn a_library_serves_many_goals_and_gives_the_bits_of_a_fresh_one() {
+    let mut taller = goal_of("acer", 8, 96);
+    taller.goals[0].frame.metres_per_pixel *= 1.7;
+    let goals = [goal_of("palm", 3, 96), taller, bare("acer", 9), goal_of("small_pine", 5, 64)];
+    let settings = FitSettings::default();
+    let how = GuessSettings { variants: 2, seeds: 2, detect_leaves: true, ..GuessSettings::default() };
+    let mut library = GuessLibrary::new();
+    let mut told = Vec::new();
+    for problem in &goals {
+        let mut steps = 0;
+        let kept =
+            library.first_guess(problem, &settings, &candidates(), &how, &GO, |_, _| steps += 1).unwrap();
+        told.push(steps);
+        let fresh = first_guess(problem, &settings, &candidates(), &how, &GO, |_, _| ()).unwrap();
+        assert_eq!(kept, fresh);
+    }
+    // Twenty trees are one step; a goal of another size in pixels has them drawn again.
+    assert_eq!(told, [1, 1, 1, 1]);
+    // Asked to stop, a library that has its trees stops as well, and works again after.
+    let stop = AtomicBool::new(true);
+    let stopped = library.first_guess(&goals[0], &settings, &candidates(), &how, &stop, |_, _| ());
+    assert!(matches!(stopped, Err(FitError::Interrupted)));
+    let again = library.first_guess(&goals[0], &settings, &candidates(), &how, &GO, |_, _| ()).unwrap();
+    assert_eq!(again, first_guess(&goals[0], &settings, &candidates(), &how, &GO, |_, _| ()).unwrap());
+}
+
+#[test]
+fn a_goal_shows_whether_it_has_leaves() {
+    let how = GuessSettings { variants: 0, detect_leaves: true, ..GuessSettings::default() };
+    let mut library = GuessLibrary::new();
+    for name in NAMES {
+        for (problem, expected) in [(goal_of(name, 21, 96), true), (bare(name, 21), false)] {
+            // What the caller expects does not matter.
+            for foliage in [true, false] {
+                let problem = FitProblem { foliage, ..problem.clone() };
+                let found = library
+                    .first_guess(&problem, &FitSettings::default(), &candidates(), &how, &GO, |_, _| ())
+                    .unwrap();
+                assert_eq!(found.foliage, expected, "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn references_say_what_a_likeness_is_worth() {
+    let problem = goal_of("lombardy_poplar", 31, 128);
+    let settings = FitSettings::default();
+    let found = guess(&problem, &settings).references;
+    let (one, other) = (found.same_species.unwrap(), found.other_species.unwrap());
+    assert_eq!(found.species.as_deref(), Some("lombardy_poplar"));
+    assert!(one.likeness > 0.7 && one.likeness > other.likeness + 0.3, "{found:?}");
+    assert!(one.iou > other.iou && found.best_ellipse.iou > 0.5, "{found:?}");
+    // A shape like an ellipse overlaps best, and is no tree.
+    assert!(found.best_ellipse.likeness < one.likeness - 0.2, "{found:?}");
+
+    // Without a first guess they are about the same, and without candidates there is the ellipse.
+    let mut library = GuessLibrary::new();
+    let cheap = library.references(&problem, &settings, &candidates(), &GO).unwrap();
+    assert!((cheap.same_species.unwrap().likeness - one.likeness).abs() < 0.1, "{cheap:?}");
+    assert_eq!((cheap.species, cheap.best_ellipse), (found.species, found.best_ellipse));
+    let alone = library.references(&problem, &settings, &[], &GO).unwrap();
+    assert_eq!((alone.same_species, alone.best_ellipse), (None, found.best_ellipse));
+    let stop = AtomicBool::new(true);
+    let stopped = library.references(&problem, &settings, &candidates(), &stop);
     assert!(matches!(stopped, Err(FitError::Interrupted)));
 }

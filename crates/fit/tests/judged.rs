@@ -8,7 +8,7 @@ use common::goal_of;
 use pleach_fit::settings::LIMITS;
 use pleach_fit::{
     Budget, Control, EvalWorkspace, Evaluator, FitError, FitProblem, FitSettings, Freedom, Genome, Objective,
-    Score, Scored, Seen, Start, fit, fresh_seeds, profile, put_back_unseen, settled,
+    Score, Scored, Seen, Start, TreeSeed, fit, fresh_seeds, profile, put_back_unseen, settled,
 };
 use std::num::NonZeroU32;
 use std::sync::atomic::AtomicBool;
@@ -156,4 +156,36 @@ fn going_back_step_by_step_is_the_same_on_any_number_of_threads() {
     let evaluator = Evaluator::new(&problem, Objective::Iou, LIMITS).unwrap();
     assert_eq!(evaluate(&evaluator, &kept.genome).cost, kept.score.cost);
     assert!((kept.clone(), slots.clone()) == run(2) && (kept, slots) == run(8));
+}
+
+/// Pipes and beads are nobody's trees: stems taper as the start's do, or at most to a point.
+#[test]
+fn nothing_is_searched_that_nobody_would_draw() {
+    let problem = goal_of("palm", 1, 64);
+    let space = problem.generator.space();
+    let slot = |name: &str| space.select(name).unwrap()[0];
+    // A palm's trunk has rings and its fronds are long: fits that start there keep both.
+    assert!(problem.base[slot("taper[0]")] > 2.0 && problem.base[slot("leaf_scale")] > 0.5);
+    let acer = pleach_generators::preset("acer").unwrap().params.values().to_vec();
+    let most = |start: &[f64], optimizer: &str| {
+        let settings = FitSettings {
+            optimizer: optimizer.parse().unwrap(),
+            budget: Budget::evaluations(150),
+            // The second list may be anything: it is brought into the range of the first.
+            start: Start::Lists(vec![start.to_vec(), problem.base.clone()]),
+            tree_seed: TreeSeed::Fixed(1),
+            ..FitSettings::default()
+        };
+        let problem = FitProblem { base: start.to_vec(), ..problem.clone() };
+        let (clock, stop) = (|| std::time::Duration::ZERO, AtomicBool::new(false));
+        let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
+        let profiles = profile(&problem, &settings, &best, 0.02, &GO).unwrap();
+        assert!(profiles.iter().any(|p| p.slot == slot("taper[1]")));
+        let tapers = space.select("taper").unwrap().into_iter().map(|slot| best.genome.values[slot]);
+        tapers.fold(0.0, f64::max)
+    };
+    for optimizer in ["evolution", "cma", "de"] {
+        assert!(most(&acer, optimizer) <= 1.0, "{optimizer}");
+        assert!(most(&problem.base, optimizer) <= problem.base[slot("taper[0]")], "{optimizer}");
+    }
 }

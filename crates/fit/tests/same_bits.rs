@@ -80,6 +80,7 @@ fn a_fit_killed_at_any_checkpoint_comes_to_the_same_end() {
         let mut resumed = outcome;
         for outcome in [&mut whole, &mut resumed] {
             outcome.elapsed = Duration::ZERO;
+            outcome.before_search = Duration::ZERO;
             outcome.history.iter_mut().for_each(|row| row.elapsed_s = 0.0);
         }
         assert_eq!(resumed, whole, "{name}");
@@ -93,7 +94,17 @@ fn another_goal_is_another_run() {
     let settings = settings("random", 20);
     run(&goal_of("palm", 1, 64), &settings, Some(file.clone()));
     let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
-    let control = Control { checkpoint: Some(file), ..Control::new(&clock, &stop) };
+    let control = Control { checkpoint: Some(file.clone()), ..Control::new(&clock, &stop) };
     let error = fit(&goal_of("palm", 1, 48), &settings, control).unwrap_err().to_string();
-    assert!(error.ends_with("it differs in goal"), "{error}");
+    assert!(error.contains("it differs in the goal's picture"), "{error}");
+
+    // The same picture of a larger tree, and of one without leaves.
+    let control = || Control { checkpoint: Some(file.clone()), ..Control::new(&clock, &stop) };
+    let mut taller = goal_of("palm", 1, 64);
+    taller.goals[0].frame.metres_per_pixel *= 1.2;
+    let error = fit(&taller, &settings, control()).unwrap_err().to_string();
+    assert!(error.ends_with("it differs in the tree's height (--height)"), "{error}");
+    let bare = FitProblem { foliage: false, ..goal_of("palm", 1, 64) };
+    let error = fit(&bare, &settings, control()).unwrap_err().to_string();
+    assert!(error.ends_with("it differs in leaves (--leaves)"), "{error}");
 }

@@ -209,6 +209,14 @@ pub trait Generator: Send + Sync + fmt::Debug {
         &[]
     }
 
+    /// The values in slot number `slot` that trees have which anyone would draw: its search range, or a
+    /// part of it. Beyond it, a tree may look right as a silhouette and be absurd.
+    ///
+    /// Searches go no farther, unless where they start is beyond it.
+    fn plausible(&self, slot: usize) -> (f64, f64) {
+        self.space().search_range(slot)
+    }
+
     /// Whether a small change of the number in slot number `slot` deals the parts of a tree out anew:
     /// counts, what counts are computed from, angles that add up from part to part.
     ///

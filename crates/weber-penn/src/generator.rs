@@ -47,6 +47,18 @@ impl Generator for WeberPenn {
         }
     }
 
+    fn plausible(&self, slot: usize) -> (f64, f64) {
+        let (low, high) = space().search_range(slot);
+        let most = match space().param_of(slot).name.as_ref() {
+            // Above it stems are pipes with round ends and strings of beads.
+            "taper" => 1.0,
+            // Half a metre is a large leaf; fronds of palms and fans are longer, where a fit starts there.
+            "leaf_scale" => 0.5,
+            _ => high,
+        };
+        (low, high.min(most))
+    }
+
     fn redeals(&self, slot: usize) -> bool {
         let param = space().param_of(slot);
         let feeds_counts = matches!(param.name.as_ref(), "base_size" | "branch_dist" | "seg_splits");

@@ -1,8 +1,11 @@
 //! Which numbers a search may change, and how far.
 
 mod gene;
+mod prior;
 
 pub use gene::{Gene, Place};
+pub use prior::PRIOR;
+use prior::Prior;
 
 use crate::evaluator::FitProblem;
 use crate::genome::Genome;
@@ -65,6 +68,35 @@ pub struct SearchSpace {
     usual: Vec<f64>,
     tree_seed: TreeSeed,
     settles: bool,
+    /// What draws numbers to where the search starts, if anything does.
+    prior: Option<Prior>,
+}
+
+/// Tells whether every pattern of `freedom` names parameters of `params`, and something is left to
+/// search.
+///
+/// # Errors
+/// The first pattern that names none, or [`SpaceError::NothingFree`]: what [`crate::fit`] would say
+/// after a first guess.
+pub fn check_freedom(params: &ParamSpace, freedom: &Freedom, tree_seed: TreeSeed) -> Result<(), SpaceError> {
+    let is_any_free = free_slots(params, freedom)?.contains(&true);
+    if is_any_free || tree_seed == TreeSeed::Any { Ok(()) } else { Err(SpaceError::NothingFree) }
+}
+
+/// For each slot whether it is free.
+fn free_slots(params: &ParamSpace, freedom: &Freedom) -> Result<Vec<bool>, SpaceError> {
+    let mut is_free = vec![freedom.free.is_empty(); params.len()];
+    for (patterns, value) in [(&freedom.free, true), (&freedom.fix, false)] {
+        for pattern in patterns {
+            let slots = params
+                .select(pattern)
+                .map_err(|problem| SpaceError::Pattern { pattern: pattern.clone(), problem })?;
+            for slot in slots {
+                is_free[slot] = value;
+            }
+        }
+    }
+    Ok(is_free)
 }
 
 impl SearchSpace {
@@ -125,17 +157,7 @@ impl SearchSpace {
         (nuisances, usual): (Vec<Gene>, Vec<f64>),
     ) -> Result<Self, SpaceError> {
         params.check(base.to_vec())?;
-        let mut is_free = vec![freedom.free.is_empty(); params.len()];
-        for (patterns, value) in [(&freedom.free, true), (&freedom.fix, false)] {
-            for pattern in patterns {
-                let slots = params
-                    .select(pattern)
-                    .map_err(|problem| SpaceError::Pattern { pattern: pattern.clone(), problem })?;
-                for slot in slots {
-                    is_free[slot] = value;
-                }
-            }
-        }
+        let is_free = free_slots(&params, freedom)?;
         let genes: Vec<Gene> = (0..params.len())
             .filter(|&slot| is_free[slot])
             .map(|slot| {
@@ -154,7 +176,16 @@ impl SearchSpace {
         if genes.is_empty() && tree_seed != TreeSeed::Any {
             return Err(SpaceError::NothingFree);
         }
-        Ok(Self { params, generator: None, genes, base: base.to_vec(), usual, tree_seed, settles: false })
+        Ok(Self {
+            params,
+            generator: None,
+            genes,
+            base: base.to_vec(),
+            usual,
+            tree_seed,
+            settles: false,
+            prior: None,
+        })
     }
 
     /// Widens the ranges to hold `values`, one a slot: another start.
@@ -170,6 +201,36 @@ impl SearchSpace {
             }
         }
         Ok(())
+    }
+
+    /// Narrows the ranges to what is [plausible](Generator::plausible), unless `start`, one value a slot,
+    /// has more or less.
+    #[must_use]
+    pub fn plausible(mut self, start: &[f64]) -> Self {
+        let Some(generator) = &self.generator else { return self };
+        for gene in &mut self.genes {
+            if let Some(slot) = gene.slot() {
+                let (low, high) = generator.plausible(slot);
+                gene.low = gene.low.max(low.min(start[slot]));
+                gene.high = gene.high.min(high.max(start[slot]));
+            }
+        }
+        self.genes.retain(|gene| !gene.is_constant());
+        self
+    }
+
+    /// Has the search draw numbers to the nearest of `lists`: see [`SearchSpace::prior_cost`].
+    #[must_use]
+    pub fn drawn_to(mut self, lists: &[Vec<f64>], weight: f64) -> Self {
+        self.prior = (weight > 0.0 && !lists.is_empty()).then(|| Prior { lists: lists.to_vec(), weight });
+        self
+    }
+
+    /// What the search adds to the cost of `genome` for being unlike what it started from: 0 unless
+    /// [`SearchSpace::drawn_to`] has said otherwise.
+    #[must_use]
+    pub fn prior_cost(&self, genome: &Genome) -> f64 {
+        self.prior.as_ref().map_or(0.0, |prior| prior.of(&self.genes, &genome.values))
     }
 
     /// The free numbers: slots in order, then nuisances.
@@ -312,6 +373,19 @@ mod tests {
     fn freedom(free: &[&str], fix: &[&str]) -> Freedom {
         let strings = |list: &[&str]| list.iter().map(|s| (*s).to_owned()).collect();
         Freedom { free: strings(free), fix: strings(fix) }
+    }
+
+    #[test]
+    fn patterns_are_checked_before_anything_else() {
+        let params = params(vec![real("a", 0.0, 1.0), real("b", 0.0, 1.0)]);
+        let check = |free: &[&str], fix: &[&str], seed| check_freedom(&params, &freedom(free, fix), seed);
+        assert_eq!(check(&["a"], &["b"], TreeSeed::Fixed(1)), Ok(()));
+        assert!(
+            matches!(check(&["aa"], &[], TreeSeed::Any), Err(SpaceError::Pattern { pattern, .. }) if pattern == "aa")
+        );
+        assert!(matches!(check(&[], &["c"], TreeSeed::Fixed(1)), Err(SpaceError::Pattern { .. })));
+        assert_eq!(check(&["a"], &["a"], TreeSeed::Fixed(1)), Err(SpaceError::NothingFree));
+        assert_eq!(check(&["a"], &["a"], TreeSeed::Any), Ok(()));
     }
 
     #[test]

@@ -1,15 +1,16 @@
-//! What is asked of a result once the search has ended: how it does with other seeds, and what of it
-//! the goal determines.
+//! What is asked of a result once the search has ended: how it does with other seeds, what of it the
+//! goal determines, and what its likeness is worth.
 
+use super::start::candidates;
 use crate::output;
 use indicatif::ProgressBar;
 use pleach_fit::{
-    FitError, FitProblem, FitSettings, FreshSeeds, Profile, Scored, Seen, Start, fresh_seeds, profile,
-    put_back_unseen, settled,
+    FitError, FitProblem, FitSettings, FreshSeeds, GuessLibrary, Profile, References, Scored, Seen, Start,
+    fresh_seeds, profile, put_back_unseen, settled,
 };
 use pleach_tree::{Limits, ParamSpace};
 use std::sync::atomic::AtomicBool;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Trees of other seeds that a result is judged by.
 const FRESH: usize = 16;
@@ -24,18 +25,26 @@ pub(super) struct Aftermath {
     pub(super) profiles: Vec<Profile>,
     /// Slots that went back to the start's value.
     pub(super) put_back: Vec<usize>,
+    /// What its likeness stands beside.
+    pub(super) references: References,
+    /// What all this took.
+    pub(super) seconds: f64,
     /// Slots of variations of size, which are 0.
     settled: Vec<usize>,
 }
 
 impl Aftermath {
-    /// Judges `best`; [`FitError::Interrupted`] once `stop` is raised.
+    /// Judges `best`; `references` are those of the first guess, if there was one.
+    /// [`FitError::Interrupted`] once `stop` is raised.
     pub(super) fn of(
         problem: &FitProblem,
         settings: &FitSettings,
         best: &Scored,
+        references: Option<References>,
+        library: &mut GuessLibrary,
         stop: &AtomicBool,
     ) -> Result<Self, FitError> {
+        let started = Instant::now();
         let bar = if output::is_watched() { ProgressBar::new_spinner() } else { ProgressBar::hidden() };
         bar.enable_steady_tick(Duration::from_millis(100));
         bar.set_message("judging the result: other seeds, and every parameter");
@@ -58,9 +67,14 @@ impl Aftermath {
         } else {
             judge(&best.genome)?
         };
+        let references = match references {
+            Some(references) => references,
+            None => library.references(problem, settings, &candidates(problem), stop)?,
+        };
         bar.finish_and_clear();
         let settled = settled(problem, settings, &best.genome)?;
-        Ok(Self { fresh, best, profiles, put_back, settled })
+        let seconds = started.elapsed().as_secs_f64();
+        Ok(Self { fresh, best, profiles, put_back, references, seconds, settled })
     }
 
     /// Comments of the species file: what the goal does not show.

@@ -42,9 +42,20 @@ pub(super) struct GoalArgs {
     /// A further picture of the same tree that is not fitted but scored; repeatable
     #[arg(long, value_name = "AZ[,EL]=FILE", allow_hyphen_values = true)]
     pub(super) holdout_view: Vec<views::KnownPicture>,
-    /// The goal is a bare tree: grow no leaves
+    /// Whether the tree has leaves: `auto` looks whether the goal is more like trees with leaves or
+    /// like bare ones (with --from auto; otherwise it has)
+    #[arg(long, value_enum, default_value_t = start::Leaves::Auto, conflicts_with = "no_leaves")]
+    pub(super) leaves: start::Leaves,
+    /// The same as --leaves off
     #[arg(long)]
     pub(super) no_leaves: bool,
+}
+
+impl GoalArgs {
+    /// What was said of leaves.
+    pub(super) const fn leaves(&self) -> start::Leaves {
+        if self.no_leaves { start::Leaves::Off } else { self.leaves }
+    }
 }
 
 #[derive(Debug, clap::Args)]
@@ -65,7 +76,7 @@ pub(super) struct SearchArgs {
     /// (the dissertation's genetic algorithm) or random
     #[arg(long, value_name = "NAME", default_value = pleach_fit::Optimizer::NAMES[0])]
     pub(super) optimizer: String,
-    /// A setting of the optimiser, such as children=8; repeatable. `--set help` lists them
+    /// A setting of the optimiser, such as children=8 for evolution; repeatable. `--set help` lists them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) settings: Vec<String>,
     /// What is made small: balance, blend, likeness, iou or accuracy

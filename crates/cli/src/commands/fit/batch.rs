@@ -9,7 +9,7 @@ use super::{Fit, RUNS, list, run_name, signals};
 use crate::interrupted::Interrupted;
 use crate::{files, input, output};
 use anyhow::{Context, bail, ensure};
-use pleach_fit::FitSettings;
+use pleach_fit::{FitSettings, GuessLibrary};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -82,12 +82,13 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
     write(&table, &jobs)?;
 
     let stop = signals::catch()?;
+    let mut library = GuessLibrary::new();
     let all = jobs.len();
     for i in 0..all {
         let name = format!("[{}/{all}] {}", i + 1, jobs[i].task.goal.display());
         let (line, state) = match &jobs[i].state {
             State::Finished(summary) => (format!("finished before, {}", brief(summary)), None),
-            _ => match one(fit, settings, &jobs[i].task, mode, &stop) {
+            _ => match one(fit, settings, &jobs[i].task, mode, &mut library, &stop) {
                 Err(error) => {
                     let reason = output::causes(&error, ": ");
                     (format!("failed: {reason}"), Some(State::Failed(reason)))
@@ -181,6 +182,7 @@ fn one(
     settings: &FitSettings,
     task: &Task,
     mode: Mode,
+    library: &mut GuessLibrary,
     stop: &Arc<AtomicBool>,
 ) -> anyhow::Result<Option<Value>> {
     if stop.load(Ordering::SeqCst) {
@@ -188,7 +190,7 @@ fn one(
     }
     // What was waiting when a batch stopped has no checkpoint, and starts.
     let mode = if mode == Mode::Resume && !task.folder.is_unfinished() { Mode::New } else { mode };
-    match task.run(fit, settings, mode, stop)? {
+    match task.run(fit, settings, mode, library, stop)? {
         Ended::Finished(summary) => Ok(Some(serde_json::to_value(summary)?)),
         // Asked to stop: no fault of the goal.
         Ended::Interrupted(_) => Ok(None),
@@ -200,11 +202,11 @@ fn brief(summary: &Value) -> String {
     let number = |key: &str| summary[key].as_f64().unwrap_or(f64::NAN);
     let looks = summary["looks_like"][0]["species"].as_str();
     format!(
-        "likeness {:.3}, IoU {:.3}{}; {} trees in {:.1} s",
+        "likeness {:.3}, IoU {:.3}{}; {} in {:.1} s",
         number("likeness"),
         number("iou"),
         looks.map_or_else(String::new, |species| format!(", looks like {species}")),
-        summary["evaluations"],
+        super::report::trees(summary["evaluations"].as_u64().unwrap_or_default()),
         number("seconds"),
     )
 }

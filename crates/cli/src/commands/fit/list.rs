@@ -2,7 +2,7 @@
 
 use super::args::GoalArgs;
 use super::goal::MaskSource;
-use super::{options, views};
+use super::{options, start, views};
 use anyhow::{Context, bail, ensure};
 use clap::ValueEnum as _;
 use std::path::{Path, PathBuf};
@@ -54,9 +54,11 @@ const COLUMNS: [Column; 7] = [
         set: |args, cell, _| number(cell).map(|column| args.axis_column = Some(column)),
     },
     Column {
-        name: "no_leaves",
+        name: "leaves",
         set: |args, cell, _| {
-            args.no_leaves = cell.parse().map_err(|_| "expected true or false".to_owned())?;
+            args.leaves =
+                start::Leaves::from_str(cell, true).map_err(|_| "expected auto, on or off".to_owned())?;
+            args.no_leaves = false;
             Ok(())
         },
     },

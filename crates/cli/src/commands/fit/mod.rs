@@ -9,6 +9,7 @@ mod list;
 mod live;
 mod options;
 mod progress;
+mod report;
 mod request;
 mod run_folder;
 mod signals;
@@ -25,7 +26,7 @@ use anyhow::bail;
 use args::{BudgetArgs, GoalArgs, SearchArgs};
 pub(super) use goal::places;
 use options::Settings;
-use pleach_fit::{Budget, FitSettings, Objective};
+use pleach_fit::{Budget, FitSettings, GuessLibrary, Objective, check_freedom};
 use run_folder::{Mode, RunFolder};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -132,7 +133,8 @@ impl Fit {
             bail!("--free-frame is about further pictures, and there is none: --view auto=FILE");
         }
         // Before a folder is made.
-        self.search.from.species()?;
+        let start = self.search.from.species()?;
+        check_freedom(start.generator.space(), &settings.freedom, settings.tree_seed)?;
         match &self.goals[..] {
             [goal] if !self.is_batch() => self.single(goal, &settings),
             _ => batch::run(self, &settings),
@@ -165,7 +167,9 @@ impl Fit {
             folder: RunFolder::at(path.clone()),
         };
         let mode = self.mode();
-        let (summary, interrupted) = match task.run(self, settings, mode, &signals::catch()?)? {
+        let mut library = GuessLibrary::new();
+        let ended = task.run(self, settings, mode, &mut library, &signals::catch()?)?;
+        let (summary, interrupted) = match ended {
             Ended::Finished(summary) => (Some(summary), None),
             Ended::Interrupted(summary) => {
                 let has_begun = summary.is_some() || RunFolder::at(path.clone()).is_unfinished();
@@ -177,7 +181,7 @@ impl Fit {
                 output::json(&summary)?;
             } else {
                 let folder = RunFolder::at(path).of_results(interrupted.is_some());
-                output::line(summary::report(&summary, &folder))?;
+                output::line(report::report(&summary, goal, &folder))?;
             }
         }
         interrupted.map_or(Ok(()), |interrupted| Err(interrupted.into()))

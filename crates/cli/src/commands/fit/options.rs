@@ -1,7 +1,7 @@
 //! Arguments of `fit` that are more than a number.
 
 use anyhow::{Context, bail};
-use pleach_fit::{FitSettings, Optimizer, TreeSeed};
+use pleach_fit::{FitSettings, Optimizer, Setting, TreeSeed};
 use serde_json::Value;
 use std::num::NonZeroU32;
 use std::time::Duration;
@@ -80,12 +80,15 @@ pub(super) fn optimizer(name: &str, settings: &[String]) -> anyhow::Result<Optim
     let fields = fields(&mut value)?;
     for setting in settings {
         let (key, text) =
-            setting.split_once('=').with_context(|| format!("`--set {setting}` is no KEY=VALUE"))?;
+            setting.split_once('=').with_context(|| format!("`--set {setting}` is not KEY=VALUE"))?;
         let known: Vec<String> = fields.keys().cloned().collect();
         let Some(field) = fields.get_mut(key) else {
             bail!("`{name}` has no setting `{key}`, known are {}", known.join(", "));
         };
-        *field = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.to_owned()));
+        let declared = Setting::find(name, key).context("every setting is declared")?;
+        *field = declared
+            .read(text)
+            .with_context(|| format!("`--set {setting}`: expected {} for `{key}`", declared.kind))?;
     }
     serde_json::from_value(value)
         .with_context(|| format!("the settings of `{name}` do not fit together: {}", settings.join(" ")))
@@ -94,8 +97,11 @@ pub(super) fn optimizer(name: &str, settings: &[String]) -> anyhow::Result<Optim
 /// The settings of the optimiser called `name` with their defaults.
 pub(super) fn describe(name: &str) -> anyhow::Result<String> {
     let mut value = serde_json::to_value(name.parse::<Optimizer>()?)?;
-    let lines: Vec<String> =
-        fields(&mut value)?.iter().map(|(key, value)| format!("  {key}={value}")).collect();
+    let range = |key: &str| Setting::find(name, key).map_or_else(String::new, |s| s.kind.to_string());
+    let lines: Vec<String> = fields(&mut value)?
+        .iter()
+        .map(|(key, value)| format!("  {key}={}  ({})", value.to_string().trim_matches('"'), range(key)))
+        .collect();
     Ok(format!("settings of `{name}` and their defaults:\n{}", lines.join("\n")))
 }
 
@@ -106,4 +112,37 @@ fn fields(value: &mut Value) -> anyhow::Result<&mut serde_json::Map<String, Valu
         .and_then(|outer| outer.values_mut().next())
         .and_then(Value::as_object_mut)
         .context("this optimiser has no settings")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_taken_within_their_ranges_and_refused_in_words() {
+        let set = |name: &str, setting: &str| optimizer(name, &[setting.to_owned()]);
+        let Ok(Optimizer::Evolution(settings)) = set("evolution", "children=40") else {
+            panic!("children=40")
+        };
+        assert_eq!(settings.children, 40);
+        assert!(set("hewitt", "merge=Mean").is_ok());
+        for (name, setting, expected) in [
+            ("evolution", "step=-1", "expected a number from 0.000001 to 1 for `step`"),
+            ("evolution", "children=1e9", "expected a whole number from 1 to 100000 for `children`"),
+            ("evolution", "match_height=1", "expected true or false for `match_height`"),
+            ("hewitt", "merge=best", "expected Both or Uniform or Mean for `merge`"),
+            ("evolution", "population=60", "`evolution` has no setting `population`"),
+            ("evolution", "children", "is not KEY=VALUE"),
+        ] {
+            let error = set(name, setting).unwrap_err().to_string();
+            assert!(error.contains(expected), "{setting}: {error}");
+        }
+    }
+
+    #[test]
+    fn all_settings_are_described_with_their_ranges() {
+        let text = describe("hewitt").unwrap();
+        assert!(text.contains("  merge=Both  (Both or Uniform or Mean)"), "{text}");
+        assert!(text.contains("  population=20  (a whole number from 2 to 100000)"), "{text}");
+    }
 }

@@ -1,10 +1,11 @@
 //! What is seen of a running fit.
 
+use super::report;
 use crate::output;
 use indicatif::{ProgressBar, ProgressStyle};
 use pleach_fit::{CheckpointError, FitSettings, Observer, Progress};
 
-/// A bar with the best score, evaluations a second and the time left; nothing where nobody watches.
+/// A bar with what is made small and likeness of the best tree, trees per second and the time left; nothing where nobody watches.
 pub(super) struct Bar {
     bar: ProgressBar,
     warned: bool,
@@ -42,11 +43,8 @@ impl Observer for Bar {
         } else {
             String::new()
         };
-        let best = progress.best.map_or_else(
-            || "no tree yet".to_owned(),
-            |b| format!("IoU {:.3}, {:.2} % of pixels", b.score.iou, 100.0 * b.score.accuracy),
-        );
-        self.bar.set_message(format!("{best}; {} trees, {rate:.0}/s{left}", progress.evaluations));
+        let trees = report::trees(progress.evaluations);
+        self.bar.set_message(format!("{}; {trees}, {}{left}", state(progress), report::rate(rate)));
     }
 
     fn checkpoint_failed(&mut self, error: &CheckpointError) {
@@ -57,5 +55,38 @@ impl Observer for Bar {
                 output::note(format!("warning: {error}; the fit goes on without a new checkpoint"))
             });
         }
+    }
+}
+
+/// How good the best tree is: first what the search makes small, since nothing else falls steadily.
+fn state(progress: &Progress<'_>) -> String {
+    let Some(best) = progress.best else { return "no tree yet".to_owned() };
+    let likeness = progress.likeness.map_or_else(String::new, |likeness| format!(", likeness {likeness:.3}"));
+    format!("cost {:.4}{likeness}, IoU {:.3}", best.score.cost, best.score.iou)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pleach_fit::{Genome, Score, Scored};
+    use std::time::Duration;
+
+    #[test]
+    fn what_is_made_small_comes_first() {
+        let score = Score { iou: 0.25, ..Score::of_cost(0.5) };
+        let best = Scored { genome: Genome::new(Vec::new(), 1), score };
+        let progress = |likeness, best| Progress {
+            generation: 1,
+            evaluations: 20,
+            evaluations_now: 20,
+            best,
+            likeness,
+            elapsed: Duration::from_secs(1),
+            elapsed_now: Duration::from_secs(1),
+            used: None,
+        };
+        assert_eq!(state(&progress(Some(0.75), Some(&best))), "cost 0.5000, likeness 0.750, IoU 0.250");
+        assert_eq!(state(&progress(None, Some(&best))), "cost 0.5000, IoU 0.250");
+        assert_eq!(state(&progress(None, None)), "no tree yet");
     }
 }

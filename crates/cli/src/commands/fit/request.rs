@@ -110,7 +110,7 @@ fn options(
         ("axis-column", optional(goal.axis_column.map(|column| column.to_string()))),
         ("view", list(&goal.view.iter().map(ToString::to_string).collect::<Vec<_>>())),
         ("free-frame", goal.free_frame.to_string()),
-        ("no-leaves", goal.no_leaves.to_string()),
+        ("leaves", format!("{:?}", goal.leaves()).to_lowercase()),
         ("from", search.from.to_string()),
         ("free", list(&search.free)),
         ("fix", list(&search.fix)),

@@ -3,7 +3,7 @@
 use crate::{input, output};
 use anyhow::Context;
 use indicatif::{ProgressBar, ProgressStyle};
-use pleach_fit::{Candidate, FitProblem, FitSettings, GuessSettings, Start, first_guess};
+use pleach_fit::{Candidate, FitProblem, FitSettings, GuessLibrary, GuessSettings, References, Start};
 use pleach_tree::Species;
 use pleach_tree::species::Appearance;
 use serde::Serialize;
@@ -50,6 +50,35 @@ pub(super) struct LooksLike {
     confidence: f64,
 }
 
+/// Whether a fit grows leaves: what `--leaves` says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Leaves {
+    /// If the goal looks more like trees with leaves than like bare ones; with --from auto only
+    Auto,
+    /// Always
+    On,
+    /// Never: the goal is a bare tree
+    Off,
+}
+
+impl Leaves {
+    /// Whether leaves are grown unless the goal says otherwise.
+    pub(super) const fn are_expected(self) -> bool {
+        !matches!(self, Self::Off)
+    }
+}
+
+/// What is known once a fit has begun.
+#[derive(Default)]
+pub(super) struct Begun {
+    /// What the goal looks like, if that was asked for.
+    pub(super) looks_like: Vec<LooksLike>,
+    /// What its likeness stands beside, if the guess has told.
+    pub(super) references: Option<References>,
+    /// Whether it was looked at whether the goal has leaves.
+    pub(super) leaves_detected: bool,
+}
+
 /// Species with less confidence than this are not spoken of.
 const LEAST_CONFIDENCE: f64 = 0.01;
 
@@ -76,30 +105,33 @@ impl From {
         Ok(input::species(name)?.appearance)
     }
 
-    /// Sets where the search begins; returns, and says unless `quiet`, what the goal looks like, if
-    /// that was asked for.
+    /// Sets where the search begins, and whether leaves are grown if that is to be seen in the goal;
+    /// says unless `quiet` what the goal looks like.
     pub(super) fn begin(
         &self,
         quiet: bool,
-        problem: &mut FitProblem,
-        settings: &mut FitSettings,
+        leaves: Leaves,
+        (problem, settings): (&mut FitProblem, &mut FitSettings),
+        library: &mut GuessLibrary,
         stop: &AtomicBool,
-    ) -> anyhow::Result<Vec<LooksLike>> {
+    ) -> anyhow::Result<Begun> {
         match self {
             Self::Random => settings.start = Start::Random,
             Self::Species(_) => settings.start = Start::Lists(vec![problem.base.clone()]),
-            Self::Auto => return guess(quiet, problem, settings, stop),
+            Self::Auto => return guess(quiet, leaves, problem, settings, library, stop),
         }
-        Ok(Vec::new())
+        Ok(Begun::default())
     }
 }
 
 fn guess(
     quiet: bool,
+    leaves: Leaves,
     problem: &mut FitProblem,
     settings: &mut FitSettings,
+    library: &mut GuessLibrary,
     stop: &AtomicBool,
-) -> anyhow::Result<Vec<LooksLike>> {
+) -> anyhow::Result<Begun> {
     let bar = if output::is_watched() { ProgressBar::new(1) } else { ProgressBar::hidden() };
     if let Ok(style) = ProgressStyle::with_template("first guess {wide_bar} {pos} of {len} trees") {
         bar.set_style(style);
@@ -108,19 +140,28 @@ fn guess(
         bar.set_length(all as u64);
         bar.set_position(done as u64);
     };
-    let guess =
-        first_guess(problem, settings, &candidates(problem), &GuessSettings::default(), stop, progress)?;
+    let leaves_detected = leaves == Leaves::Auto;
+    let how = GuessSettings { detect_leaves: leaves_detected, ..GuessSettings::default() };
+    let guess = library.first_guess(problem, settings, &candidates(problem), &how, stop, progress)?;
     bar.finish_and_clear();
     let mut names = guess.names;
     names.retain(|(_, confidence)| *confidence >= LEAST_CONFIDENCE);
     if !quiet {
         let said: Vec<String> =
             names.iter().take(3).map(|(name, c)| format!("{name} ({:.0} %)", 100.0 * c)).collect();
-        output::note(format!("looks like {}", said.join(", ")));
+        let bare = if leaves_detected && !guess.foliage {
+            ": a bare tree, so no leaves are grown (--leaves on grows them)"
+        } else {
+            ""
+        };
+        output::note(format!("looks like {}{bare}", said.join(", ")));
     }
+    problem.foliage = guess.foliage;
     problem.base = guess.nearest[0].values.clone();
     settings.start = Start::Lists(guess.nearest.into_iter().map(|guess| guess.values).collect());
-    Ok(names.into_iter().map(|(species, confidence)| LooksLike { species, confidence }).collect())
+    let looks_like =
+        names.into_iter().map(|(species, confidence)| LooksLike { species, confidence }).collect();
+    Ok(Begun { looks_like, references: Some(guess.references), leaves_detected })
 }
 
 /// The known species that the problem's generator grows.

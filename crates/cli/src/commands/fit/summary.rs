@@ -4,10 +4,10 @@ use super::aftermath::Aftermath;
 use super::drawing::{Drawing, Drawn};
 use super::request::Request;
 use super::run_folder::{Claim, SUMMARY};
-use super::start::LooksLike;
+use super::start::{Begun, LooksLike};
 use super::views::ViewScore;
 use crate::files;
-use pleach_fit::{COLUMNS, FitSettings, FreshSeeds, Outcome, Row, Scored, StopReason};
+use pleach_fit::{COLUMNS, FitSettings, FreshSeeds, Outcome, References, Row, Scored, StopReason, Verdict};
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::picture::Picture;
 use pleach_silhouette::score::ScoreCard;
@@ -34,73 +34,85 @@ pub(super) struct Results<'a> {
     pub(super) views: Vec<(ViewScore, Picture)>,
     pub(super) holdout_views: Vec<(ViewScore, Picture)>,
     pub(super) from: String,
-    pub(super) looks_like: Vec<LooksLike>,
+    pub(super) begun: &'a Begun,
     pub(super) request: Request,
 }
 
 /// `summary.json`.
 #[derive(Debug, Serialize)]
 pub(super) struct Summary {
-    species: String,
-    generator: String,
-    tree_seed: u64,
-    robust: u32,
+    pub(super) species: String,
+    pub(super) generator: String,
+    pub(super) tree_seed: u64,
+    pub(super) robust: u32,
     #[serde(flatten)]
-    scores: ScoreCard,
-    fresh_seeds: Option<FreshSeeds>,
-    determined: Option<Counts>,
-    evaluations: u64,
-    generations: u64,
-    seconds: f64,
-    evaluations_per_second: f64,
-    optimizer: &'static str,
-    optimizer_settings: Value,
-    objective: String,
-    cost: f64,
-    stopped_by: StopReason,
-    finished: bool,
-    seed: u64,
-    from: String,
-    looks_like: Vec<LooksLike>,
+    pub(super) scores: ScoreCard,
+    pub(super) fresh_seeds: Option<FreshSeeds>,
+    /// What likeness and IoU stand beside, at the search's size.
+    pub(super) references: Option<References>,
+    pub(super) verdict: Option<Verdict>,
+    pub(super) determined: Option<Counts>,
+    pub(super) evaluations: u64,
+    pub(super) generations: u64,
+    /// First guess and search together: what `--timeout` is of.
+    pub(super) seconds: f64,
+    pub(super) first_guess_seconds: f64,
+    pub(super) search_seconds: f64,
+    /// None if the fit was interrupted.
+    pub(super) judging_seconds: Option<f64>,
+    pub(super) evaluations_per_second: f64,
+    pub(super) optimizer: &'static str,
+    pub(super) optimizer_settings: Value,
+    pub(super) objective: String,
+    pub(super) cost: f64,
+    pub(super) stopped_by: StopReason,
+    pub(super) finished: bool,
+    pub(super) seed: u64,
+    pub(super) from: String,
+    pub(super) looks_like: Vec<LooksLike>,
+    /// Whether the trees have leaves.
+    pub(super) leaves: bool,
+    /// Whether that was seen in the goal, and not said.
+    pub(super) leaves_detected: bool,
     /// Further pictures that were fitted; the scores above are of the goal itself.
-    views: Vec<ViewScore>,
+    pub(super) views: Vec<ViewScore>,
     /// Pictures that were not.
-    holdout_views: Vec<ViewScore>,
-    free: Vec<String>,
-    fix: Vec<String>,
-    height_m: f64,
+    pub(super) holdout_views: Vec<ViewScore>,
+    pub(super) free: Vec<String>,
+    pub(super) fix: Vec<String>,
+    pub(super) height_m: f64,
     /// The fitted tree in metres.
-    tree_m: Dendrometry,
-    metres_per_pixel: f64,
-    goal_width: u32,
-    goal_height: u32,
-    search: SearchScores,
+    pub(super) tree_m: Dendrometry,
+    pub(super) metres_per_pixel: f64,
+    pub(super) goal_width: u32,
+    pub(super) goal_height: u32,
+    pub(super) search: SearchScores,
     /// What about the goal, or its mask, is not as a fit expects.
-    warnings: Vec<GoalWarning>,
+    pub(super) warnings: Vec<GoalWarning>,
     /// What was asked for: a later run compares it.
     #[serde(flatten)]
-    request: Request,
-    version: &'static str,
+    pub(super) request: Request,
+    pub(super) version: &'static str,
 }
 
 /// The result as the search and its history saw it: against the goal at its working size, the mean
 /// over views and over the seeds of a robust fit.
 #[derive(Debug, Serialize)]
-struct SearchScores {
-    goal_width: u32,
-    goal_height: u32,
+pub(super) struct SearchScores {
+    pub(super) goal_width: u32,
+    pub(super) goal_height: u32,
     /// Share of inked pixels. Fine twigs and leaves get thicker or thinner as a goal is reduced.
-    goal_ink: f64,
-    iou: f64,
-    pixel_accuracy: f64,
+    pub(super) goal_ink: f64,
+    pub(super) iou: f64,
+    pub(super) pixel_accuracy: f64,
 }
 
 /// How many of the free parameters the goal determines.
 #[derive(Debug, Serialize)]
-struct Counts {
-    determined: usize,
-    loosely: usize,
-    not_seen: usize,
+pub(super) struct Counts {
+    pub(super) determined: usize,
+    pub(super) loosely: usize,
+    pub(super) not_seen: usize,
 }
 
 impl Summary {
@@ -139,6 +151,15 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
     let holdout_views = write_overlays(claim, "overlay-holdout", results.holdout_views)?;
 
     let seconds = outcome.elapsed.as_secs_f64();
+    let first_guess_seconds = outcome.before_search.as_secs_f64();
+    let fresh_seeds = results.aftermath.and_then(|aftermath| aftermath.fresh);
+    // The aftermath's, where there is one.
+    let references =
+        results.aftermath.map(|aftermath| &aftermath.references).or(results.begun.references.as_ref());
+    let fresh = fresh_seeds.as_ref().map(|fresh| fresh.likeness.mean);
+    let verdict = references.and_then(|references| {
+        Verdict::of(scores.likeness, fresh, references, &scores.crown, &scores.goal_crown)
+    });
     let optimizer = serde_json::to_value(&settings.optimizer)?;
     let summary = Summary {
         species: species.name.clone(),
@@ -146,7 +167,9 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         tree_seed: best.genome.tree_seed,
         robust: settings.robust.get(),
         scores,
-        fresh_seeds: results.aftermath.and_then(|aftermath| aftermath.fresh),
+        fresh_seeds,
+        references: references.cloned(),
+        verdict,
         determined: results.aftermath.map(|aftermath| {
             let [determined, loosely, not_seen] = aftermath.counts();
             Counts { determined, loosely, not_seen }
@@ -154,6 +177,9 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         evaluations: outcome.evaluations,
         generations: outcome.generations,
         seconds,
+        first_guess_seconds,
+        search_seconds: seconds - first_guess_seconds,
+        judging_seconds: results.aftermath.map(|aftermath| aftermath.seconds),
         evaluations_per_second: outcome.evaluations as f64 / seconds.max(1e-9),
         optimizer: settings.optimizer.name(),
         optimizer_settings: optimizer.get(settings.optimizer.name()).cloned().unwrap_or_default(),
@@ -163,7 +189,9 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         finished: outcome.stop != StopReason::Interrupted,
         seed: settings.seed,
         from: results.from,
-        looks_like: results.looks_like,
+        looks_like: results.begun.looks_like.clone(),
+        leaves: drawing.problem.foliage,
+        leaves_detected: results.begun.leaves_detected,
         views,
         holdout_views,
         free: settings.freedom.free.clone(),
@@ -223,59 +251,4 @@ pub(super) fn write_table(path: &Path, rows: impl IntoIterator<Item = Vec<String
         }
         Ok(csv.flush()?)
     })
-}
-
-/// At what size the score card compares, and what the search saw at its own if that is another: the
-/// numbers of a sparse crown differ by as much as a tenth, though the tree is the same.
-fn sizes(summary: &Summary) -> String {
-    let Summary { goal_width, goal_height, search, .. } = summary;
-    if (*goal_width, *goal_height) == (search.goal_width, search.goal_height) {
-        return format!("compared at {goal_width} × {goal_height} pixels, as in the search\n");
-    }
-    format!(
-        "compared at {goal_width} × {goal_height} pixels, the goal {:.1} % ink; searched, and other seeds \
-         compared,\nat {} × {} (--size), the goal {:.1} % ink: there the IoU is {:.4}\n",
-        100.0 * summary.scores.goal_crown.ink,
-        search.goal_width,
-        search.goal_height,
-        100.0 * search.goal_ink,
-        search.iou,
-    )
-}
-
-/// The score card that ends a fit.
-pub(super) fn report(summary: &Summary, folder: &Path) -> String {
-    let mut judged = String::new();
-    judged.extend(summary.views.iter().map(|view| view.line("view")));
-    judged.extend(summary.holdout_views.iter().map(|view| view.line("held out")));
-    if let Some(fresh) = &summary.fresh_seeds {
-        judged += &format!(
-            "{} other seeds: likeness {:.3} ± {:.3}, IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels\n",
-            fresh.count,
-            fresh.likeness.mean,
-            fresh.likeness.sd,
-            fresh.iou.mean,
-            fresh.iou.sd,
-            100.0 * fresh.pixel_accuracy.mean,
-            100.0 * fresh.pixel_accuracy.sd,
-        );
-    }
-    if let Some(Counts { determined, loosely, not_seen }) = summary.determined {
-        judged += &format!(
-            "of the parameters the goal determines {determined}, loosely {loosely}; {not_seen} are not seen\n"
-        );
-    }
-    format!(
-        "{}\n\n{}{judged}{} trees in {:.1} s ({:.0} a second) by `{}`; {}\n\n\
-         overlay  {}\nspecies  {}",
-        crate::commands::score::card(&summary.scores),
-        sizes(summary),
-        summary.evaluations,
-        summary.seconds,
-        summary.evaluations_per_second,
-        summary.optimizer,
-        summary.stopped_by,
-        folder.join("overlay.png").display(),
-        folder.join("best.toml").display(),
-    )
 }

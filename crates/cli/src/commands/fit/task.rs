@@ -12,9 +12,10 @@ use super::run_folder::{Mode, RunFolder};
 use super::summary::{self, Results, Summary};
 use super::views;
 use crate::files;
-use anyhow::{anyhow, bail};
+use anyhow::bail;
 use pleach_fit::{
-    CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, StopReason, Unknown,
+    CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, GuessLibrary, StopReason,
+    Unknown, check_freedom,
 };
 use pleach_silhouette::goal::{Encoded, Goal};
 use serde_json::Value;
@@ -55,15 +56,13 @@ impl Task {
         fit: &Fit,
         asked_for: &FitSettings,
         mode: Mode,
+        library: &mut GuessLibrary,
         stop: &Arc<AtomicBool>,
     ) -> anyhow::Result<Ended> {
         // Whatever can be refused is refused before the folder is touched.
         let goals = Goals::load(&self.goal, &self.args, fit.verbose)?;
         let mut problem = self.problem(fit, &goals.working)?;
-        let space = problem.generator.space();
-        for pattern in asked_for.freedom.free.iter().chain(&asked_for.freedom.fix) {
-            space.select(pattern).map_err(|problem| anyhow!("`{pattern}`: {problem}"))?;
-        }
+        check_freedom(problem.generator.space(), &asked_for.freedom, asked_for.tree_seed)?;
         let mut settings = asked_for.clone();
         if mode == Mode::Continue {
             extend(&mut settings, self.folder.finished().as_ref());
@@ -72,8 +71,9 @@ impl Task {
         let mut claim = self.folder.clone().claim(mode, &request)?;
 
         let mut started = Instant::now();
-        let start = fit.search.from.begin(fit.is_batch(), &mut problem, &mut settings, stop);
-        let looks_like = match start {
+        let leaves = self.args.leaves();
+        let parts = (&mut problem, &mut settings);
+        let begun = match fit.search.from.begin(fit.is_batch(), leaves, parts, library, stop) {
             Err(error) if is_interruption(&error) => return Ok(Ended::Interrupted(None)),
             result => result?,
         };
@@ -92,7 +92,7 @@ impl Task {
             view,
             problem: &problem,
             limits: settings.limits,
-            appearance: fit.search.from.appearance(&looks_like)?,
+            appearance: fit.search.from.appearance(&begun.looks_like)?,
         };
         let clock = || started.elapsed();
         let (mut bar, mut live) = (Bar::new(&settings), Live::new(drawing, &claim));
@@ -118,7 +118,7 @@ impl Task {
         let aftermath = match outcome.stop {
             // Whoever waits for the prompt has it at once.
             StopReason::Interrupted => None,
-            _ => match Aftermath::of(&problem, &settings, &best, stop) {
+            _ => match Aftermath::of(&problem, &settings, &best, begun.references.clone(), library, stop) {
                 Err(FitError::Interrupted) => None,
                 result => Some(result?),
             },
@@ -150,7 +150,7 @@ impl Task {
                 views: views.collect::<anyhow::Result<_>>()?,
                 holdout_views: holdouts.collect::<anyhow::Result<_>>()?,
                 from: fit.search.from.to_string(),
-                looks_like,
+                begun: &begun,
                 request,
             },
         )?;
@@ -183,7 +183,7 @@ impl Task {
             generator: start.generator,
             base: start.params.values().to_vec(),
             goals,
-            foliage: !self.args.no_leaves,
+            foliage: self.args.leaves().are_expected(),
         })
     }
 }

@@ -27,7 +27,7 @@ pub use moves::Move;
 use super::first::first;
 use super::{Method, Start};
 use crate::genome::{Genome, Score, Scored};
-use crate::space::SearchSpace;
+use crate::space::{PRIOR, SearchSpace};
 use crate::stream::Stream;
 use lane::Lane;
 use serde::{Deserialize, Serialize};
@@ -53,6 +53,9 @@ pub struct EvolutionSettings {
     pub lanes: usize,
     /// Whether trees are resized to the goal's height before they are compared, if all sizes are free.
     pub match_height: bool,
+    /// How strongly numbers are drawn to where the search starts: the cost of having all of them a whole
+    /// search range away. 0 for not at all.
+    pub prior: f64,
 }
 
 impl Default for EvolutionSettings {
@@ -67,6 +70,7 @@ impl Default for EvolutionSettings {
             patience: 50,
             lanes: 3,
             match_height: true,
+            prior: PRIOR,
         }
     }
 }

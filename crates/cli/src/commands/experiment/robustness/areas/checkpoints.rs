@@ -18,7 +18,7 @@ const LANE: u32 = 4;
 /// Side of the goal in pixels: nobody looks at it.
 const SIDE: u32 = 16;
 /// Trees that a search may grow.
-const LIMITS: Limits = Limits { stems: 200, leaves: 1_000, knots: 2_000 };
+const LIMITS: Limits = Limits { stems: 200, leaves: 1_000, knots: 2_000, work: 200_000 };
 /// Evaluations before the checkpoint, and in all.
 const EVALUATIONS: [u64; 2] = [30, 45];
 

@@ -37,7 +37,7 @@ fn draws(lane: u32, case: u64) -> Stream {
 }
 
 /// Bounds of all trees: what is asked is whether they hold, not how large they may be.
-const LIMITS: Limits = Limits { stems: 1_000, leaves: 5_000, knots: 15_000 };
+const LIMITS: Limits = Limits { stems: 1_000, leaves: 5_000, knots: 15_000, work: 1_000_000 };
 
 /// Longest message that a person reads.
 const LONGEST_MESSAGE: usize = 2_000;

@@ -1,0 +1,174 @@
+//! What a fit says at its end.
+
+use super::summary::{Counts, Summary};
+use pleach_fit::{Kindred, References};
+use std::path::Path;
+
+/// The score card that ends a fit, the verdict, and what to do next. `goal` is the picture and `folder`
+/// the run folder, as they were given.
+pub(super) fn report(summary: &Summary, goal: &Path, folder: &Path) -> String {
+    let mut judged = String::new();
+    judged.extend(summary.views.iter().map(|view| view.line("view")));
+    judged.extend(summary.holdout_views.iter().map(|view| view.line("held out")));
+    if let Some(fresh) = &summary.fresh_seeds {
+        judged += &format!(
+            "{} other seeds: likeness {:.3} ± {:.3}, IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels (an empty \
+             picture {:.2} %)\n",
+            fresh.count,
+            fresh.likeness.mean,
+            fresh.likeness.sd,
+            fresh.iou.mean,
+            fresh.iou.sd,
+            100.0 * fresh.pixel_accuracy.mean,
+            100.0 * fresh.pixel_accuracy.sd,
+            100.0 * (1.0 - summary.search.goal_ink),
+        );
+    }
+    if let Some(references) = &summary.references {
+        judged += &beside(references);
+    }
+    if let Some(Counts { determined, loosely, not_seen }) = summary.determined {
+        judged += &format!(
+            "of the parameters the goal determines {determined}, loosely {loosely}; {not_seen} are not seen\n"
+        );
+    }
+    format!(
+        "{}\n\n{}{judged}{}{}\n{}species  {}\noverlay  {}",
+        crate::commands::score::card(&summary.scores),
+        sizes(summary),
+        work(summary),
+        times(summary),
+        verdict(summary, goal, folder),
+        folder.join("best.toml").display(),
+        folder.join("overlay.png").display(),
+    )
+}
+
+/// What other trees and no tree would have.
+fn beside(references: &References) -> String {
+    let mut others = Vec::new();
+    if let (Some(one), Some(species)) = (references.same_species, &references.species) {
+        others.push(("another tree of the species".to_owned(), one, format!(" ({species})")));
+    }
+    if let Some(other) = references.other_species {
+        others.push(("of another species".to_owned(), other, String::new()));
+    }
+    others.push(("an ellipse".to_owned(), references.best_ellipse, String::new()));
+    let said: Vec<String> = others
+        .into_iter()
+        .map(|(what, of, note)| format!("{what} {:.2}, IoU {:.2}{note}", of.likeness, of.iou))
+        .collect();
+    format!("for this goal, about: {}\n", said.join("; "))
+}
+
+/// The verdict and the next command, each on its line; nothing where there is nothing to compare with.
+fn verdict(summary: &Summary, goal: &Path, folder: &Path) -> String {
+    let Some(verdict) = &summary.verdict else { return String::new() };
+    let mut fit = format!("pleach fit {}", quoted(goal));
+    // Where it would be written anyway, nothing needs to be said.
+    let usual = Path::new(super::RUNS).join(goal.file_stem().unwrap_or_default());
+    if folder != usual {
+        fit += &format!(" --out {}", quoted(folder));
+    }
+    let best = quoted(&folder.join("best.toml"));
+    let next = match (verdict.kind, verdict.tree) {
+        (Kindred::OfItsKind, _) => {
+            format!("twenty more trees: pleach grow {best} --seeds 0..20 -o forest/")
+        }
+        // One lucky tree.
+        (_, Kindred::OfItsKind) if summary.robust == 1 => {
+            format!("have every seed look like the goal: {fit} --robust 4 --timeout 5m")
+        }
+        (Kindred::Roughly, _) => format!("more time: {fit} --continue --timeout 5m"),
+        _ => format!(
+            "look at {}, then more time: {fit} --continue --timeout 5m",
+            quoted(&folder.join("overlay.png"))
+        ),
+    };
+    format!("verdict  {verdict}\nnext     {next}\n\n")
+}
+
+/// As a shell takes it for one word.
+fn quoted(path: &Path) -> String {
+    let text = path.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "/._-+,:@%=".contains(c);
+    if !text.is_empty() && text.chars().all(is_plain) {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
+}
+
+/// At what size the score card compares, and what the search saw at its own if that is another: the
+/// numbers of a sparse crown differ by as much as a tenth, though the tree is the same.
+fn sizes(summary: &Summary) -> String {
+    let Summary { goal_width, goal_height, search, .. } = summary;
+    if (*goal_width, *goal_height) == (search.goal_width, search.goal_height) {
+        return format!("compared at {goal_width} × {goal_height} pixels, as in the search\n");
+    }
+    format!(
+        "compared at {goal_width} × {goal_height} pixels, the goal {:.1} % ink; searched, and other seeds \
+         compared,\nat {} × {} (--size), the goal {:.1} % ink: there the IoU is {:.4}\n",
+        100.0 * summary.scores.goal_crown.ink,
+        search.goal_width,
+        search.goal_height,
+        100.0 * search.goal_ink,
+        search.iou,
+    )
+}
+
+/// How many trees the search has tried, how fast, and why it ended.
+fn work(summary: &Summary) -> String {
+    let seconds = summary.search_seconds;
+    format!(
+        "{} in {seconds:.1} s ({}) by `{}`; {}\n",
+        trees(summary.evaluations),
+        rate(summary.evaluations as f64 / seconds.max(1e-9)),
+        summary.optimizer,
+        summary.stopped_by,
+    )
+}
+
+/// Where the time has gone.
+fn times(summary: &Summary) -> String {
+    let guess = (summary.from == "auto").then(|| format!("first guess {:.1} s", summary.first_guess_seconds));
+    let search = Some(format!("search {:.1} s", summary.search_seconds));
+    let judging = summary.judging_seconds.map(|seconds| format!("judging {seconds:.1} s"));
+    let parts: Vec<String> = [guess, search, judging].into_iter().flatten().collect();
+    parts.join(", ") + "\n"
+}
+
+/// `1 tree`, `2 trees`.
+pub(super) fn trees(count: u64) -> String {
+    format!("{count} {}", if count == 1 { "tree" } else { "trees" })
+}
+
+/// Trees per second, to two digits or whole numbers.
+pub(super) fn rate(per_second: f64) -> String {
+    let digits = match per_second {
+        r if r >= 9.95 => 0,
+        r if r >= 0.095 => 1,
+        _ => 2,
+    };
+    format!("{per_second:.digits$} trees/s")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_and_counts_read_well() {
+        assert_eq!((trees(1), trees(0), trees(4)), ("1 tree".into(), "0 trees".into(), "4 trees".into()));
+        let rates = [0.0123, 1.0 / 3.0, 9.94, 9.96, 257.4].map(rate);
+        assert_eq!(rates, ["0.01 trees/s", "0.3 trees/s", "9.9 trees/s", "10 trees/s", "257 trees/s"]);
+    }
+
+    #[test]
+    fn paths_are_quoted_where_a_shell_needs_it() {
+        let quoted = |path: &str| quoted(Path::new(path));
+        assert_eq!(quoted("runs/oak_2/best.toml"), "runs/oak_2/best.toml");
+        assert_eq!(quoted("my trees/a.png"), "'my trees/a.png'");
+        assert_eq!(quoted("it's; rm -r"), r"'it'\''s; rm -r'");
+    }
+}

@@ -1,0 +1,148 @@
+//! A tree's picture that is drawn once and looked at through many frames.
+
+use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_tree::Tree;
+
+/// A silhouette, at least twice as fine as the pictures that are made of it.
+#[derive(Clone, Debug)]
+pub(super) struct Plate {
+    picture: Bitmap,
+    frame: Frame,
+}
+
+/// Plate pixels for a pixel of the goal, at least.
+const FINENESS: u32 = 2;
+/// Sides of plates, in pixels.
+const SIDES: (u32, u32) = (128, 2048);
+/// Part of a plate's side that is kept for what hangs below the ground.
+const BELOW: u32 = 8;
+
+/// The side of the plates for goals of `width` × `height` pixels: goals of about one size share theirs.
+pub(super) fn side_for(width: u32, height: u32) -> u32 {
+    FINENESS.saturating_mul(width.max(height)).clamp(SIDES.0, SIDES.1).next_power_of_two()
+}
+
+impl Plate {
+    /// Draws `tree` as seen in `view`, whole, about `side` pixels high and wide.
+    pub(super) fn draw(
+        tree: &Tree,
+        view: &View,
+        foliage: bool,
+        side: u32,
+        rasteriser: &mut Rasteriser,
+    ) -> Self {
+        let frame = Frame::automatic(tree, view, foliage, side, side);
+        let frame = Frame { height: side + side / BELOW, ..frame };
+        let mut picture = Bitmap::default();
+        rasteriser.draw(tree, view, &frame, foliage, &mut picture);
+        Self { picture, frame }
+    }
+
+    /// The tree, `factor` times as large, as it stands in `frame`: black from half a pixel's area on.
+    pub(super) fn through(&self, frame: &Frame, factor: f64, into: &mut Bitmap) {
+        into.reset(frame.width, frame.height);
+        let ratio = frame.metres_per_pixel / (self.frame.metres_per_pixel * factor);
+        let (width, height) = (self.picture.width(), self.picture.height());
+        let columns = edges(frame.width, frame.axis_column, self.frame.axis_column, ratio, width);
+        let rows = edges(frame.height, frame.ground_row, self.frame.ground_row, ratio, height);
+        let mut inked = vec![0_u32; columns.len()];
+        for (y, &(top, bottom)) in rows.iter().enumerate() {
+            inked.fill(0);
+            for row in top..bottom {
+                let words = self.picture.row(row);
+                if words.iter().all(|&word| word == 0) {
+                    continue;
+                }
+                for (sum, &(left, right)) in inked.iter_mut().zip(&columns) {
+                    *sum += count(words, left, right);
+                }
+            }
+            for (x, (&sum, &(left, right))) in inked.iter().zip(&columns).enumerate() {
+                if sum > 0 && 2 * sum >= (right - left) * (bottom - top) {
+                    into.set(x as u32, y as u32, true);
+                }
+            }
+        }
+    }
+}
+
+/// The plate's pixels under each of `count` pixels, from and to; none of them beyond the plate.
+fn edges(count: u32, origin: f64, plate_origin: f64, ratio: f64, limit: u32) -> Vec<(u32, u32)> {
+    let edge = |i: u32| plate_origin + (f64::from(i) - origin) * ratio;
+    let within = |at: f64| at.clamp(0.0, f64::from(limit)) as u32;
+    (0..count)
+        .map(|i| {
+            let (from, to) = (edge(i).round(), edge(i + 1).round());
+            // Where the plate is the coarser one, the pixel under the middle.
+            let (from, to) = if from < to {
+                (from, to)
+            } else {
+                let middle = edge(i).midpoint(edge(i + 1)).floor();
+                (middle, middle + 1.0)
+            };
+            (within(from), within(to))
+        })
+        .collect()
+}
+
+/// Inked pixels of a row from `left` to before `right`.
+fn count(words: &[u64], left: u32, right: u32) -> u32 {
+    if left >= right {
+        return 0;
+    }
+    let (first, last) = (left as usize / 64, (right as usize - 1) / 64);
+    let from = u64::MAX << (left % 64);
+    let to = u64::MAX >> (63 - (right - 1) % 64);
+    if first == last {
+        return (words[first] & from & to).count_ones();
+    }
+    let inner: u32 = words[first + 1..last].iter().map(|word| word.count_ones()).sum();
+    (words[first] & from).count_ones() + inner + (words[last] & to).count_ones()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bits_are_counted_across_words() {
+        let row = Bitmap::from_fn(200, 1, |x, _| x % 3 == 0);
+        for (left, right) in [(0, 200), (5, 5), (63, 65), (64, 128), (10, 190), (127, 129), (199, 200)] {
+            let expected = (left..right).filter(|x| x % 3 == 0).count() as u32;
+            assert_eq!(count(row.row(0), left, right), expected, "{left}..{right}");
+        }
+    }
+
+    #[test]
+    fn a_plate_is_seen_as_the_world_is() {
+        // A square metre on the ground, one metre right of the axis, at a centimetre a pixel.
+        let plate = Plate {
+            picture: Bitmap::from_fn(400, 220, |x, y| (300..400).contains(&x) && (100..200).contains(&y)),
+            frame: Frame {
+                width: 400,
+                height: 220,
+                metres_per_pixel: 0.01,
+                axis_column: 200.0,
+                ground_row: 200.0,
+            },
+        };
+        let mut seen = Bitmap::default();
+        let frame =
+            Frame { width: 64, height: 64, metres_per_pixel: 0.1, axis_column: 20.0, ground_row: 60.0 };
+        plate.through(&frame, 1.0, &mut seen);
+        assert_eq!((seen.ink_box(), seen.ink()), (Some((30, 50, 39, 59)), 100));
+        plate.through(&frame, 2.0, &mut seen);
+        assert_eq!((seen.ink_box(), seen.ink()), (Some((40, 40, 59, 59)), 400));
+        // Finer than the plate: every pixel of it four by four times.
+        let near =
+            Frame { width: 64, height: 64, metres_per_pixel: 0.0025, axis_column: -400.0, ground_row: 64.0 };
+        plate.through(&near, 1.0, &mut seen);
+        assert_eq!(seen.ink(), 64 * 64);
+    }
+
+    #[test]
+    fn goals_of_about_one_size_share_plates() {
+        assert_eq!((side_for(256, 200), side_for(180, 256), side_for(64, 64)), (512, 512, 128));
+        assert_eq!((side_for(16, 16), side_for(2048, 9)), (128, 2048));
+    }
+}

@@ -1,0 +1,62 @@
+//! A mild pull of every number to where the search starts.
+
+use super::Gene;
+
+/// How strongly numbers are drawn to the start by default: the cost of having every free number a whole
+/// search range away from it.
+///
+/// Small beside what one seed's cost differs from the next one's, so that it decides where the goal says
+/// next to nothing. Chosen by experiment: see `ARCHITECTURE.md`.
+pub const PRIOR: f64 = 0.3;
+
+/// How far a choice that is another one counts, as a part of a search range.
+const OTHER_CHOICE: f64 = 0.3;
+
+/// The lists that numbers are drawn to, and how strongly.
+#[derive(Clone, Debug)]
+pub(super) struct Prior {
+    pub(super) lists: Vec<Vec<f64>>,
+    pub(super) weight: f64,
+}
+
+impl Prior {
+    /// The weight times the mean squared distance of `values` from the nearest list, over the slots of
+    /// `genes`, in search ranges.
+    pub(super) fn of(&self, genes: &[Gene], values: &[f64]) -> f64 {
+        let distance = |list: &Vec<f64>| {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for (gene, slot) in genes.iter().filter_map(|gene| Some((gene, gene.slot()?))) {
+                count += 1.0;
+                sum += if !gene.is_choice() {
+                    (gene.to_unit(values[slot]) - gene.to_unit(list[slot])).powi(2)
+                } else if values[slot] == list[slot] {
+                    0.0
+                } else {
+                    OTHER_CHOICE * OTHER_CHOICE
+                };
+            }
+            if count > 0.0 { sum / count } else { 0.0 }
+        };
+        self.weight * self.lists.iter().map(distance).reduce(f64::min).unwrap_or(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::{Freedom, SearchSpace, TreeSeed};
+    use crate::testing::{choice, params, real};
+
+    #[test]
+    fn the_nearest_start_counts() {
+        let space = params(vec![real("a", 0.0, 2.0), choice("c")]);
+        let space =
+            SearchSpace::of_params(space, &[0.0, 0.0], &Freedom::default(), TreeSeed::Fixed(1)).unwrap();
+        let prior = Prior { lists: vec![vec![0.0, 1.0], vec![2.0, 2.0]], weight: 4.0 };
+        let of = |values: [f64; 2]| prior.of(space.genes(), &values);
+        assert_eq!((of([0.0, 1.0]), of([2.0, 2.0])), (0.0, 0.0));
+        assert_eq!(of([1.0, 1.0]), 4.0 * 0.25 / 2.0);
+        assert!((of([2.0, 4.0]) - 4.0 * 0.09 / 2.0).abs() < 1e-12);
+        assert_eq!(Prior { lists: Vec::new(), weight: 1.0 }.of(space.genes(), &[0.5, 0.0]), 0.0);
+    }
+}

@@ -1,0 +1,253 @@
+//! Whether a fit is good, in words.
+//!
+//! A likeness says little by itself: how like each other two trees of one species are depends on the
+//! species. The rule is therefore where a fit stands between what a tree of another species has to the
+//! goal (0) and what two trees of the goal's own species have to each other (1), see
+//! [`crate::References`]:
+//!
+//! | where | verdict |
+//! | --- | --- |
+//! | from [`OF_ITS_KIND`] | of its kind |
+//! | from [`ROUGHLY`] | roughly of its kind |
+//! | from [`NOT_AT_ALL`] | not of its kind |
+//! | below | no more like the goal than another species |
+//!
+//! What counts is the likeness of fresh seeds: parameters are of a kind if all their trees are.
+
+use crate::guess::References;
+use pleach_silhouette::score::Crown;
+use serde::Serialize;
+use std::fmt;
+
+/// From here on a fit is of its kind: within what the mean over a few pairs of trees is known to.
+pub const OF_ITS_KIND: f64 = 0.85;
+/// From here on it is so roughly: nearer to the kind than to other species.
+pub const ROUGHLY: f64 = 0.5;
+/// Below it, it might as well be a tree of another species.
+pub const NOT_AT_ALL: f64 = 0.1;
+/// Likeness between 0 and 1 of the rule, at least: where two trees of a species are no more alike than
+/// two of any, the rule would divide by nothing.
+pub const LEAST_SPAN: f64 = 0.05;
+
+/// A crown is too wide, or its tree too tall, from this factor on, and too narrow from its inverse.
+pub const SIZE_OFF: f64 = 1.1;
+/// Ink in the box around the tree, as a factor of the goal's, from which a tree is too dense.
+pub const DENSITY_OFF: f64 = 1.15;
+/// By this part of the goal's height the crown begins too high or too low.
+pub const BARE_OFF: f64 = 0.08;
+
+/// How a fit stands to its goal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kindred {
+    /// As like the goal as two trees of one species are.
+    OfItsKind,
+    /// Nearer to that than to another species.
+    Roughly,
+    /// Nearer to another species.
+    NotOfItsKind,
+    /// No more like the goal than another species.
+    NoMoreThanAnother,
+}
+
+/// What of a fit's shape is farthest from the goal's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Off {
+    /// The tree is wider than the goal.
+    TooWide,
+    /// It is narrower.
+    TooNarrow,
+    /// It is taller.
+    TooTall,
+    /// It is lower.
+    TooLow,
+    /// It has more ink in its box.
+    TooDense,
+    /// It has less.
+    TooSparse,
+    /// Its trunk is bare to a greater height.
+    StartsTooHigh,
+    /// Its trunk is bare to a lesser height.
+    StartsTooLow,
+}
+
+/// What is to be said of a fit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// How the trees of its parameters stand to the goal.
+    pub kind: Kindred,
+    /// How the fitted tree itself does: with a lucky seed, better.
+    pub tree: Kindred,
+    /// Where between another species (0) and two trees of one species (1) the likeness is that `kind`
+    /// is of.
+    pub share: f64,
+    /// What of the fitted tree's shape is most off, if anything is.
+    pub off: Option<Off>,
+}
+
+impl Kindred {
+    /// The verdict on a likeness at `share`: see the rule above.
+    #[must_use]
+    pub fn of(share: f64) -> Self {
+        if share >= OF_ITS_KIND {
+            Self::OfItsKind
+        } else if share >= ROUGHLY {
+            Self::Roughly
+        } else if share >= NOT_AT_ALL {
+            Self::NotOfItsKind
+        } else {
+            Self::NoMoreThanAnother
+        }
+    }
+}
+
+impl fmt::Display for Kindred {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::OfItsKind => "of its kind: as like the goal as two trees of one species are",
+            Self::Roughly => "roughly of its kind: more like the goal than another species is",
+            Self::NotOfItsKind => "not of its kind: little more like the goal than another species",
+            Self::NoMoreThanAnother => "no more like the goal than another species",
+        })
+    }
+}
+
+impl Off {
+    /// What of `crown` is farthest from `goal`, in its own tolerance, if anything is beyond it.
+    #[must_use]
+    pub fn of(crown: &Crown, goal: &Crown) -> Option<Self> {
+        let factor =
+            |a: f64, b: f64, most: f64| if a > 0.0 && b > 0.0 { (a / b).ln() / most.ln() } else { 0.0 };
+        let density = |crown: &Crown| crown.ink / (crown.width * crown.height).max(1e-9);
+        let bare = |crown: &Crown| crown.bare_height / crown.height.max(1e-9);
+        let measured = [
+            (factor(crown.width, goal.width, SIZE_OFF), Self::TooWide, Self::TooNarrow),
+            (factor(crown.height, goal.height, SIZE_OFF), Self::TooTall, Self::TooLow),
+            (factor(density(crown), density(goal), DENSITY_OFF), Self::TooDense, Self::TooSparse),
+            ((bare(crown) - bare(goal)) / BARE_OFF, Self::StartsTooHigh, Self::StartsTooLow),
+        ];
+        let worst = measured.into_iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+        (worst.0.abs() >= 1.0).then(|| if worst.0 > 0.0 { worst.1 } else { worst.2 })
+    }
+}
+
+impl fmt::Display for Off {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::TooWide => "the crown is too wide",
+            Self::TooNarrow => "the crown is too narrow",
+            Self::TooTall => "the tree is too tall",
+            Self::TooLow => "the tree is too low",
+            Self::TooDense => "the crown is too dense",
+            Self::TooSparse => "the crown is too sparse",
+            Self::StartsTooHigh => "the crown starts too high",
+            Self::StartsTooLow => "the crown starts too low",
+        })
+    }
+}
+
+impl Verdict {
+    /// The verdict on a fit whose tree has a likeness of `tree` to the goal, and trees of other seeds
+    /// one of `fresh` in the mean, none if nobody has grown them. Without a species to compare with
+    /// there is no verdict.
+    #[must_use]
+    pub fn of(
+        tree: f64,
+        fresh: Option<f64>,
+        references: &References,
+        crown: &Crown,
+        goal: &Crown,
+    ) -> Option<Self> {
+        let one = references.same_species?.likeness;
+        let other = references.other_species.unwrap_or(references.best_ellipse).likeness;
+        let share = |likeness: f64| (likeness - other) / (one - other).max(LEAST_SPAN);
+        let of_kind = share(fresh.unwrap_or(tree));
+        Some(Self {
+            kind: Kindred::of(of_kind),
+            tree: Kindred::of(share(tree)),
+            share: of_kind,
+            off: Off::of(crown, goal),
+        })
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.kind)?;
+        self.off.map_or(Ok(()), |off| write!(f, "; {off}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::guess::Reference;
+
+    const CROWN: Crown = Crown { ink: 0.2, height: 0.9, width: 0.6, centroid_height: 0.5, bare_height: 0.2 };
+
+    fn references(same: f64, other: f64) -> References {
+        let reference = |likeness| Reference { likeness, iou: 0.5 };
+        References {
+            species: Some("acer".to_owned()),
+            same_species: Some(reference(same)),
+            other_species: Some(reference(other)),
+            best_ellipse: reference(0.3),
+        }
+    }
+
+    #[test]
+    fn every_verdict_begins_at_its_edge() {
+        let before = |edge: f64| edge.next_down();
+        let cases = [
+            (OF_ITS_KIND, Kindred::OfItsKind, Kindred::Roughly),
+            (ROUGHLY, Kindred::Roughly, Kindred::NotOfItsKind),
+            (NOT_AT_ALL, Kindred::NotOfItsKind, Kindred::NoMoreThanAnother),
+        ];
+        for (edge, at, below) in cases {
+            assert_eq!((Kindred::of(edge), Kindred::of(before(edge))), (at, below));
+        }
+        assert_eq!(Kindred::of(7.0), Kindred::OfItsKind);
+        assert_eq!(Kindred::of(-7.0), Kindred::NoMoreThanAnother);
+    }
+
+    #[test]
+    fn fresh_seeds_decide_and_references_say_where() {
+        let of = |tree, fresh, references: &References| Verdict::of(tree, fresh, references, &CROWN, &CROWN);
+        let verdict = of(0.8, Some(0.55), &references(0.8, 0.3)).unwrap();
+        assert_eq!((verdict.kind, verdict.tree, verdict.off), (Kindred::Roughly, Kindred::OfItsKind, None));
+        assert!((verdict.share - 0.5).abs() < 1e-12);
+        assert_eq!(of(0.8, None, &references(0.8, 0.3)).unwrap().kind, Kindred::OfItsKind);
+        // The same likeness is worth less where trees of one species are more alike.
+        assert_eq!(of(0.5, None, &references(0.9, 0.3)).unwrap().kind, Kindred::NotOfItsKind);
+        // Two trees of the species are no more alike than others are.
+        let odd = of(0.32, None, &references(0.2, 0.3)).unwrap();
+        assert_eq!(odd.kind, Kindred::NotOfItsKind);
+        let none = References { same_species: None, ..references(0.8, 0.3) };
+        assert_eq!(of(0.8, None, &none), None);
+    }
+
+    #[test]
+    fn what_is_most_off_is_said_from_its_edge_on() {
+        let off = |crown: Crown| Off::of(&crown, &CROWN);
+        assert_eq!(off(CROWN), None);
+        let wide = |by: f64| Crown { width: by * CROWN.width, ink: by * CROWN.ink, ..CROWN };
+        assert_eq!(off(wide(SIZE_OFF + 1e-9)), Some(Off::TooWide));
+        assert_eq!(off(wide(SIZE_OFF - 1e-9)), None);
+        assert_eq!(off(wide(1.0 / SIZE_OFF - 1e-9)), Some(Off::TooNarrow));
+        let inked = |by: f64| Crown { ink: by * CROWN.ink, ..CROWN };
+        assert_eq!(off(inked(DENSITY_OFF + 1e-9)), Some(Off::TooDense));
+        assert_eq!(off(inked(1.0 / DENSITY_OFF - 1e-9)), Some(Off::TooSparse));
+        assert_eq!(off(inked(DENSITY_OFF - 1e-9)), None);
+        let bare = |by: f64| Crown { bare_height: CROWN.bare_height + by * CROWN.height, ..CROWN };
+        assert_eq!(off(bare(BARE_OFF + 1e-9)), Some(Off::StartsTooHigh));
+        assert_eq!(off(bare(-BARE_OFF - 1e-9)), Some(Off::StartsTooLow));
+        // Twice the density weighs more than a width that is off by an eighth.
+        assert_eq!(
+            off(Crown { width: 1.125 * CROWN.width, ink: 0.5 * CROWN.ink, ..CROWN }),
+            Some(Off::TooSparse)
+        );
+        // Nothing drawn at all: no numbers, no nonsense.
+        assert_eq!(Off::of(&Crown::default(), &CROWN), Some(Off::StartsTooLow));
+    }
+}
