@@ -5,7 +5,7 @@
 //! left to chance, so the tree is then grown again on one thread, where the error is always the same.
 
 use pleach_tree::Limits;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// Steps after which a part adds what it has made to the pool: often enough that all parts together
 /// overshoot a limit by little, seldom enough that threads do not wait for each other.
@@ -69,6 +69,8 @@ pub(crate) struct Pool {
     leaves: AtomicUsize,
     knots: AtomicUsize,
     work: AtomicU64,
+    /// Set when a part has failed: the others need not go on.
+    stop: AtomicBool,
 }
 
 /// The counts of one thread.
@@ -99,6 +101,7 @@ impl Budget<'_> {
             leaves: AtomicUsize::new(leaves),
             knots: AtomicUsize::new(knots),
             work: AtomicU64::new(work),
+            stop: AtomicBool::new(false),
         }
     }
 
@@ -157,16 +160,19 @@ impl Budget<'_> {
         let stems = now.stems - then.stems + pool.stems.fetch_add(now.stems - then.stems, Relaxed);
         let leaves = now.leaves - then.leaves + pool.leaves.fetch_add(now.leaves - then.leaves, Relaxed);
         let knots = now.knots - then.knots + pool.knots.fetch_add(now.knots - then.knots, Relaxed);
-        let work = now.work - then.work + pool.work.fetch_add(now.work - then.work, Relaxed);
-        let over =
-            stems > limits.stems || leaves > limits.leaves || knots > limits.knots || work > limits.work;
+        let work = pool.work.fetch_add(now.work - then.work, Relaxed).saturating_add(now.work - then.work);
+        let over = pool.stop.load(Relaxed)
+            || stems > limits.stems
+            || leaves > limits.leaves
+            || knots > limits.knots
+            || work > limits.work;
         if over { Err(Exceeded::Work) } else { Ok(()) }
     }
 
     /// Makes every other part stop as soon as it tells.
     pub(crate) fn stop_all(&self) {
         if let Some(pool) = self.pool {
-            pool.work.fetch_add(self.limits.work.saturating_add(1).min(u64::MAX / 4), Relaxed);
+            pool.stop.store(true, Relaxed);
         }
     }
 
