@@ -54,7 +54,7 @@ pub(crate) struct LimitArgs {
     #[arg(long, value_name = "N", default_value_t = Limits::default().leaves, help_heading = "Limits")]
     max_leaves: usize,
     /// A tree that takes more steps to grow is an error; by default it may be as many times the
-    /// usual 80000000 as there may be stems or leaves
+    /// usual 40000000 as there may be stems or leaves
     #[arg(long, value_name = "N", help_heading = "Limits")]
     max_work: Option<u64>,
 }

