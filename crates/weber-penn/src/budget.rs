@@ -13,6 +13,11 @@ const TELL: u64 = 1024;
 /// Stems that wait in one part may be this fraction of the limit; beyond, one thread grows alone.
 const WAITING_SHARE: usize = 16;
 
+/// Stems that may wait to be pruned for each stem of the limit: most of them may vanish.
+const WAITING_PER_STEM: usize = 8;
+/// Where memory matters, though, no more wait than there may be stems: a quarter of a kilobyte each.
+const FREE_WAITING: usize = 500_000;
+
 /// Steps for one point of a path.
 pub(crate) const POINT_STEPS: u64 = 5;
 /// Steps for one point of a path that pruning tries, and tests.
@@ -149,7 +154,10 @@ impl Budget<'_> {
         if !self.prunes && self.spent.stems + waiting > self.limits.stems {
             return Err(Exceeded::Stems);
         }
-        if waiting > self.limits.stems { Err(Exceeded::Waiting) } else { Ok(()) }
+        let Limits { stems, .. } = self.limits;
+        let most = stems.saturating_mul(WAITING_PER_STEM);
+        let room = if stems > FREE_WAITING { stems } else { FREE_WAITING };
+        if waiting > most || waiting > room { Err(Exceeded::Waiting) } else { Ok(()) }
     }
 
     /// Adds what is new to the pool, if there is one, and fails if the sums are over.
