@@ -53,7 +53,8 @@ fn monsters_end_within_memory_and_time() {
 #[test]
 fn plain_monsters_are_refused_at_once() {
     let dir = Dir::new();
-    let monster = dir.file("m.toml", "levels = 4\nbranches = [1, 1000, 1000, 1000]");
+    let monster =
+        dir.file("m.toml", "levels = 4\nbranches = [1, 1000, 1000, 1000]\nlength = [1, 0.3, 0.6, 0.5]");
     let script = format!(
         "ulimit -v 200000 -t 1 && exec {} grow {} --stats-only",
         program().display(),

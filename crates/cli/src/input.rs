@@ -76,8 +76,8 @@ pub(crate) struct LimitArgs {
     /// A tree with more leaves and blossoms is an error
     #[arg(long, value_name = "N", default_value_t = Limits::default().leaves, help_heading = "Limits")]
     max_leaves: usize,
-    /// A tree that takes more steps to grow is an error; by default it may be as many times the
-    /// usual 80000000 as there may be stems or leaves
+    /// A tree that takes more steps to grow is an error; by default 40000000, and as many times more
+    /// as the other limits are raised
     #[arg(long, value_name = "N", help_heading = "Limits")]
     max_work: Option<u64>,
 }

@@ -24,10 +24,10 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// 500,000 stems, 5,000,000 leaves, 5,000,000 knots and 80,000,000 steps: ten times the largest
+    /// 500,000 stems, 5,000,000 leaves, 5,000,000 knots and 40,000,000 steps: ten times the largest
     /// of the known species and more. At most 1.5 GB and 10 s of processor time, the copies and the
     /// repetition of trees that grow in parallel included.
-    pub const DEFAULT: Self = Self { stems: 500_000, leaves: 5_000_000, knots: 5_000_000, work: 80_000_000 };
+    pub const DEFAULT: Self = Self { stems: 500_000, leaves: 5_000_000, knots: 5_000_000, work: 40_000_000 };
 }
 
 impl Default for Limits {

@@ -23,8 +23,7 @@ pub(crate) fn error(
         Exceeded::Work => GrowError::TooMuchWork { limit: limits.work, blame: work(model, budget) },
         Exceeded::Waiting => {
             let blame = stems(model, tree, waiting);
-            let message =
-                format!("more than {} stems wait to be pruned{blame}; fewer branches", limits.stems);
+            let message = format!("far too many stems wait to be pruned{blame}; fewer branches");
             GrowError::Conflict { message }
         }
     }

@@ -5,13 +5,18 @@
 //! left to chance, so the tree is then grown again on one thread, where the error is always the same.
 
 use pleach_tree::Limits;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// Steps after which a part adds what it has made to the pool: often enough that all parts together
 /// overshoot a limit by little, seldom enough that threads do not wait for each other.
 const TELL: u64 = 1024;
 /// Stems that wait in one part may be this fraction of the limit; beyond, one thread grows alone.
 const WAITING_SHARE: usize = 16;
+
+/// Stems that may wait to be pruned for each stem of the limit: most of them may vanish.
+const WAITING_PER_STEM: usize = 8;
+/// Where memory matters, though, no more wait than there may be stems: a quarter of a kilobyte each.
+const FREE_WAITING: usize = 500_000;
 
 /// Steps for one point of a path.
 pub(crate) const POINT_STEPS: u64 = 5;
@@ -69,6 +74,8 @@ pub(crate) struct Pool {
     leaves: AtomicUsize,
     knots: AtomicUsize,
     work: AtomicU64,
+    /// Set when a part has failed: the others need not go on.
+    stop: AtomicBool,
 }
 
 /// The counts of one thread.
@@ -99,6 +106,7 @@ impl Budget<'_> {
             leaves: AtomicUsize::new(leaves),
             knots: AtomicUsize::new(knots),
             work: AtomicU64::new(work),
+            stop: AtomicBool::new(false),
         }
     }
 
@@ -146,7 +154,10 @@ impl Budget<'_> {
         if !self.prunes && self.spent.stems + waiting > self.limits.stems {
             return Err(Exceeded::Stems);
         }
-        if waiting > self.limits.stems { Err(Exceeded::Waiting) } else { Ok(()) }
+        let Limits { stems, .. } = self.limits;
+        let most = stems.saturating_mul(WAITING_PER_STEM);
+        let room = if stems > FREE_WAITING { stems } else { FREE_WAITING };
+        if waiting > most || waiting > room { Err(Exceeded::Waiting) } else { Ok(()) }
     }
 
     /// Adds what is new to the pool, if there is one, and fails if the sums are over.
@@ -157,16 +168,19 @@ impl Budget<'_> {
         let stems = now.stems - then.stems + pool.stems.fetch_add(now.stems - then.stems, Relaxed);
         let leaves = now.leaves - then.leaves + pool.leaves.fetch_add(now.leaves - then.leaves, Relaxed);
         let knots = now.knots - then.knots + pool.knots.fetch_add(now.knots - then.knots, Relaxed);
-        let work = now.work - then.work + pool.work.fetch_add(now.work - then.work, Relaxed);
-        let over =
-            stems > limits.stems || leaves > limits.leaves || knots > limits.knots || work > limits.work;
+        let work = pool.work.fetch_add(now.work - then.work, Relaxed).saturating_add(now.work - then.work);
+        let over = pool.stop.load(Relaxed)
+            || stems > limits.stems
+            || leaves > limits.leaves
+            || knots > limits.knots
+            || work > limits.work;
         if over { Err(Exceeded::Work) } else { Ok(()) }
     }
 
     /// Makes every other part stop as soon as it tells.
     pub(crate) fn stop_all(&self) {
         if let Some(pool) = self.pool {
-            pool.work.fetch_add(self.limits.work.saturating_add(1).min(u64::MAX / 4), Relaxed);
+            pool.stop.store(true, Relaxed);
         }
     }
 
