@@ -126,7 +126,7 @@ fn a_colour_profile_that_unpacks_to_a_gigabyte_fits_in_less() {
     bits.truncate(11);
     // Fill to a whole byte with literals of eight bits each, then whole bytes of eight matches.
     let mut stream = vec![0x78, 0x9c];
-    let mut pack = |bits: &str, out: &mut Vec<u8>, left: &mut String| {
+    let pack = |bits: &str, out: &mut Vec<u8>, left: &mut String| {
         left.push_str(bits);
         let whole = left.len() / 8 * 8;
         for byte in left[..whole].as_bytes().chunks(8) {
