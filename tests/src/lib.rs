@@ -3,6 +3,7 @@
 //! | file in `tests/` | what belongs there |
 //! | --- | --- |
 //! | `grow.rs`, `silhouette.rs`, `score.rs`, `fit.rs`, … | one file a command, run as a user would |
+//! | `pictures.rs` | pictures from pipes, in odd formats, broken off, not of a tree |
 //! | `bad_input.rs` | everything that must end in a clear error |
 //! | `reference_stats.rs` | our trees against those of the reference generator |
 //! | `experiments.rs` | a slice of each experiment against its committed results |

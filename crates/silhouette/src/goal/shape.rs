@@ -257,8 +257,8 @@ impl<'a> Shape<'a> {
 fn push_convex(hull: &mut Vec<[f64; 2]>, point: [f64; 2], side: f64) {
     while let [.., a, b] = hull[..] {
         let turn = (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]);
-        // From top to bottom, the left side bulges to the left.
-        if side * turn >= 0.0 {
+        // From top to bottom, the left side bulges to the left. Points on a line would hide those before.
+        if side * turn > 0.0 {
             break;
         }
         hull.pop();

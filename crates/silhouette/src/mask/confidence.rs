@@ -140,6 +140,7 @@ mod tests {
                     let scene = scene(species, grain, background);
                     let Ok(mask) = Mask::of(&scene.photo, &MaskOptions::default()) else { continue };
                     let true_iou = iou(&mask.bitmap, &scene.truth);
+                    assert!((0.0..=1.0).contains(&mask.confidence), "{species}, {name}, {grain}");
                     seen.push((true_iou, mask.confidence));
                 }
             }
@@ -153,7 +154,7 @@ mod tests {
         let pairs = good.iter().flat_map(|g| bad.iter().map(move |b| g > b));
         let right = pairs.clone().filter(|right| *right).count() as f64 / pairs.count() as f64;
         let correlation = pearson(&ranks(seen.iter().map(|s| s.0)), &ranks(seen.iter().map(|s| s.1)));
-        assert!(right >= 0.97, "{right:.3} of the pairs are in order, rank correlation {correlation:.3}");
+        assert!(right >= 0.95, "{right:.3} of the pairs are in order, rank correlation {correlation:.3}");
         assert!(correlation >= 0.8, "rank correlation {correlation:.3}");
         // Those called doubtful are not the good ones.
         let doubtful = |of: &[f64]| of.iter().filter(|c| **c < DOUBTFUL).count() as f64 / of.len() as f64;
