@@ -13,9 +13,9 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
-  pleach map -o map                             the fifteen species
-  pleach map --grid 9x9 -o map                  and grid.png, trees across the plane
-  pleach map --traits bare_trunk,droop -o map   with lines of equal traits
+  pleach map -o map                       the fifteen species
+  pleach map --grid 9x9 -o map            and grid.png: trees across the plane
+  pleach map --traits droop,ink -o map    with lines of equal traits
   pleach map --species my-trees --layout looks -o map
 
 Every point inside the dashed line is a tree; `pleach blend --point X,Y` writes its species file.";
