@@ -136,9 +136,8 @@ impl Kind for RobustnessSpec {
         for (area, _) in self.areas()? {
             let of: Vec<&Vec<String>> = table.rows.iter().filter(|row| row[0] == area.name()).collect();
             let values = |column: usize| of.iter().filter_map(move |row| row[column].parse::<f64>().ok());
-            let sums =
-                (2..2 + COUNTS).map(|column| values(column).fold(0.0, |sum, value| sum + value).to_string());
-            let time = format!("{:.1}", values(2 + COUNTS).fold(0.0, |sum, value| sum + value));
+            let sums = (2..2 + COUNTS).map(|column| (values(column).sum::<f64>() + 0.0).to_string());
+            let time = format!("{:.1}", values(2 + COUNTS).sum::<f64>() + 0.0);
             let most = |column: usize| values(column).fold(0.0, f64::max).to_string();
             let line = std::iter::once(area.name().to_owned()).chain(sums).chain([
                 time,
