@@ -21,7 +21,7 @@ fn grow(name: &str) -> (Species, Tree) {
     (species, tree)
 }
 
-fn scene<'a>(species: &Species, tree: &Tree, levels: usize) -> Scene<'a> {
+fn scene<'a>(species: &Species, _: &Tree, levels: usize) -> Scene<'a> {
     Scene {
         name: species.name.clone(),
         palette: Palette::of(species, None),
