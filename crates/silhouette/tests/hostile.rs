@@ -1,6 +1,8 @@
 //! Pictures that mean no good: bombs, files that break off, and bytes changed at random. Reading them ends
 //! in a goal or an error, and takes no more memory than a large picture does.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, RgbaImage};
 use pleach_silhouette::goal::{Encoded, Goal, GoalError, GoalOptions, MOST_BYTES};
 use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
