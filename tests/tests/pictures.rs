@@ -129,7 +129,7 @@ fn a_colour_profile_that_unpacks_to_a_gigabyte_fits_in_less() {
     let pack = |bits: &str, out: &mut Vec<u8>, left: &mut String| {
         left.push_str(bits);
         let whole = left.len() / 8 * 8;
-        for byte in left[..whole].as_bytes().chunks(8) {
+        for byte in left.as_bytes()[..whole].chunks(8) {
             out.push((0..8).map(|i| u8::from(byte[i] == b'1') << i).sum());
         }
         *left = left[whole..].to_owned();
@@ -140,7 +140,7 @@ fn a_colour_profile_that_unpacks_to_a_gigabyte_fits_in_less() {
     pack(&eight, &mut stream, &mut left);
     let unit = stream[start..].to_vec();
     assert_eq!(unit.len(), 13);
-    for _ in 0..(2 << 30) / (8 * 258) {
+    for _ in 0..(2_u64 << 30) / (8 * 258) {
         stream.extend_from_slice(&unit);
     }
     pack("00000000000000", &mut stream, &mut left);

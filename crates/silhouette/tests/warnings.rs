@@ -1,5 +1,7 @@
 //! What is said about goals that are not as a fit expects, and that nothing is said about those that are.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage};
 use pleach_silhouette::goal::{Goal, GoalOptions, GoalWarning};
 use pleach_silhouette::mask::Touches;

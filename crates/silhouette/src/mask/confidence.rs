@@ -52,7 +52,7 @@ impl Evidence {
     /// All of it in one number, in 0..=1.
     pub(super) fn confidence(self) -> f64 {
         let against = 1.0 - (4.0 * self.edge).min(1.0);
-        let narrow = 1.0 - (1.5 * self.foot).min(1.0);
+        let narrow = 1.0 - (2.0 * self.foot).min(1.0);
         (self.firm * against * narrow * (1.0 - self.dropped)).clamp(0.0, 1.0)
     }
 }

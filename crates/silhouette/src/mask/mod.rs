@@ -104,7 +104,7 @@ pub struct Mask {
     pub filled: u64,
     /// Where the crown is cut off by the picture's edge.
     pub touches: Touches,
-    /// How likely the mask is a good one, in 0..=1, to sort masks by: those below 0.4 want a look.
+    /// How likely the mask is a good one, in 0..=1, to sort masks by: those below 0.45 want a look.
     ///
     /// It falls with what would be tree or not if the least distance from the background were a little
     /// other, with what else stood out, with how much of the picture's edge is tree, and with a foot that
@@ -221,7 +221,7 @@ fn check(ink: &Bitmap) -> Result<(), MaskError> {
 }
 
 /// Masks of less confidence are called doubtful.
-const DOUBTFUL: f64 = 0.4;
+const DOUBTFUL: f64 = 0.45;
 
 /// What is to be said of a mask.
 fn warnings(ink: &Bitmap, photo: &Photo, confidence: f64) -> Vec<GoalWarning> {

@@ -22,7 +22,7 @@ The tree is what differs from the background, and that is what the picture's edg
 without a ground below it, or a wall. Houses, hills, shadows and other trees are taken for tree. A picture \
 with an alpha channel is its own mask.
 
-Confidence says how likely a mask is a good one, from 0 to 1; sort by it, and look at those below 0.4.
+Confidence says how likely a mask is a good one, from 0 to 1; sort by it, and look at those below 0.45.
 
 With several photographs, --out is a folder. It gets STEM.png for each, and masks.csv, a row for each: \
 where the tree stands, its confidence, and what there is to be said about it. A photograph without a tree is \
