@@ -123,6 +123,8 @@ pub struct EvalWorkspace {
     tree: Tree,
     workspace: Workspace,
     rasteriser: Rasteriser,
+    /// For pictures at twice the goal's size: there half the samples are as many.
+    fine: Rasteriser,
     bitmap: Bitmap,
     comparisons: Comparisons,
 }
@@ -231,6 +233,7 @@ impl Evaluator {
             tree: Tree::default(),
             workspace: Workspace::default(),
             rasteriser: Rasteriser::with_detail(Detail::Half),
+            fine: Rasteriser::with_detail(Detail::Draft),
             bitmap: Bitmap::default(),
             comparisons: Comparisons::default(),
         }
@@ -263,7 +266,7 @@ impl Evaluator {
     }
 
     fn evaluate_within(&self, genome: &Genome, most: Size, memory: &mut EvalWorkspace, looks: bool) -> Score {
-        let EvalWorkspace { params, values, tree, workspace, rasteriser, bitmap, comparisons } = memory;
+        let EvalWorkspace { params, values, tree, workspace, rasteriser, bitmap, comparisons, .. } = memory;
         let mut growth = Growth {
             seed: genome.tree_seed,
             limits: Limits {
@@ -339,7 +342,7 @@ impl Evaluator {
         mut look: impl FnMut(&Tree, &mut Rasteriser),
     ) -> Option<()> {
         self.with_memory(|memory| {
-            let EvalWorkspace { params, tree, workspace, rasteriser, .. } = memory;
+            let EvalWorkspace { params, tree, workspace, fine, .. } = memory;
             params.set(self.generator.space(), &genome.values).ok()?;
             for number in 0..self.seeds {
                 let growth = Growth {
@@ -349,7 +352,7 @@ impl Evaluator {
                     parallel: false,
                 };
                 self.generator.grow(params, &growth, workspace, tree).ok()?;
-                look(tree, rasteriser);
+                look(tree, fine);
             }
             Some(())
         })

@@ -42,44 +42,52 @@ fn run_name(goal: &Path) -> Option<String> {
 const RUNS: &str = "runs";
 
 const EXAMPLES: &str = "Examples:
-  pleach fit targets/quaking_aspen.png                a minute of search, results in runs/quaking_aspen
-  pleach fit photo.jpg --mask auto -v                 a photograph of a tree before sky or a wall
-  pleach fit oak.jpg --height 18 --timeout 5m         a tree of 18 m, five minutes
-  pleach fit goal.png --from random --optimizer hewitt --evaluations 20000 --seed 3
-  pleach fit goal.png --robust 4                      parameters of which every seed looks like the goal
+  pleach fit targets/quaking_aspen.png  a minute; results in runs/quaking_aspen
+  pleach fit photo.jpg --mask auto -v  a photograph of a tree before a sky
+  pleach fit oak.jpg --height 18 --timeout 5m  a tree of 18 m, five minutes
+  pleach fit goal.png --from random --optimizer hewitt --evaluations 20000
+  pleach fit goal.png --robust 4  parameters of which every seed is like it
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit front.png --view 90=side.png --holdout-view 45=corner.png
-  pleach fit front.png --view auto=other.png --free-frame     another picture, from who knows where
-  pleach fit goal.png --out DIR --resume              go on after ctrl-C or a crash
-  pleach fit goal.png --out DIR --continue --timeout 5m       search on from a finished fit
-  pleach fit goals/*.png --out runs --timeout 2m      a batch: runs/STEM/, runs/summary.csv
-  pleach fit goals/*.png --out runs --shard 2/8       goals 2, 10, 18 … of it, for array jobs
-  pleach fit --list goals.csv --out runs              a height, view, mask and ground for each goal
+  pleach fit front.png --view auto=other.png --free-frame  from who knows where
+  pleach fit goal.png --out DIR --resume  go on after ctrl-C or a crash
+  pleach fit goal.png --out DIR --continue --timeout 5m  search on
+  pleach fit goals/*.png --out runs --timeout 2m  a batch: runs/summary.csv
+  pleach fit goals/*.png --out runs --shard 2/8  goals 2, 10, 18 ..., for arrays
+  pleach fit --list goals.csv --out runs  a height, view, mask ... for each goal
 
-The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png (grey
-is agreement, orange is missing, blue is too much), render.png, history.csv (a row per generation),
-parameters.csv (how well the goal determines each parameter) and summary.json; with --mask auto
-mask.png, with further views an overlay of each. They are written while the search runs, too. The file
+Likeness says how much two silhouettes look like trees of one kind: how much ink stands where, how \
+ragged the rim is, how thick the strokes and how large the gaps are. It is 1 for the same picture; a fit \
+ends with what other trees of the species, trees of another species and an ellipse would have for its \
+goal, a verdict, and what to do next.
+
+The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png (grey is \
+agreement, orange is missing, blue is too much), render.png, history.csv (a row per generation), \
+parameters.csv (how well the goal determines each parameter) and summary.json; with --mask auto mask.png, \
+with further views an overlay of each. Most of them are written while the search runs, too. The file \
 `checkpoint` is there while a fit is unfinished, `search-state` once it is finished, for --continue.
 
-A finished fit is replaced only by a fit of the same goal with the same options, or with --overwrite,
-and only once the new one is complete; until then that one is in the folder `unfinished` inside.
+A finished fit is replaced only by a fit of the same goal with the same options, or with --overwrite, and \
+only once the new one is complete; until then that one is in the folder `unfinished` inside.
 
-Asked to stop (ctrl-C), a fit writes what it has found and ends with code 130; --resume goes on with it
-and comes to what it would have come to. The first guess and the judging of the result, which need
-some seconds before and after the search, are then made again.
+Asked to stop (ctrl-C), a fit writes what it has found and ends with code 130; --resume goes on with it \
+and comes to what it would have come to. The first guess and the judging of the result, which need some \
+seconds before and after the search, are then made again.
 
-With several goals, the budget is for each. A goal that fails is named and the others go on. With
---resume a batch goes on where it stopped, and skips what was finished with the same options; with
-others it is refused. A --list is a CSV file with a header: the column `file`, and any of `height`,
-`view`, `mask`, `tree`, `ground_row`, `axis_column` and `no_leaves`; an empty cell means the option of
-the command line. Paths are relative to the list.";
+With several goals, the budget is for each. A goal that fails is named and the others go on. With --resume \
+a batch goes on where it stopped, and skips what was finished with the same options; with others it is \
+refused.
+
+A --list is a CSV file with a header: the column `file`, and any of `height`, `view`, `mask`, `tree`, \
+`ground_row`, `axis_column` and `leaves`; an empty cell means the option of the command line. Paths are \
+relative to the list.";
 
 /// Fit a generator's parameters to a goal image
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, args_override_self = true)]
 pub(crate) struct Fit {
-    /// The goal, or several: PNG, JPEG or WebP; black on white, white on black, or by transparency
+    /// The goal, or several: PNG, JPEG, WebP or TIFF; black on white, white on black, or by transparency;
+    /// `-` is standard input
     #[arg(value_name = "GOAL", required_unless_present = "list")]
     goals: Vec<PathBuf>,
     /// A CSV file of goals, each with options of its own; see below
