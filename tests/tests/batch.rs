@@ -25,8 +25,9 @@ fn fit<'a>(goals: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
 /// Rows of a summary as cells, the heading first; without the columns that depend on the clock.
 fn table(path: &Path) -> Vec<Vec<String>> {
     let text = std::fs::read_to_string(path).unwrap();
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
     let mut rows: Vec<Vec<String>> =
-        text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
+        reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect();
     let time = rows[0].iter().position(|name| name.starts_with("wall_")).unwrap();
     assert!(rows[0][time..].iter().all(|name| name.starts_with("wall_")), "time comes last: {text}");
     for row in &mut rows {

@@ -11,7 +11,7 @@ use std::process::{Command, Output};
 ///
 /// Two threads, since each reserves address space beside what it uses.
 fn bounded(dir: &Dir, args: &str) -> Output {
-    let script = format!("ulimit -v 1500000 -t 10 && exec {} {args}", program().display());
+    let script = format!("ulimit -v 1500000 && ulimit -t 10 && exec {} {args}", program().display());
     Command::new("sh")
         .args(["-c", &script])
         .current_dir(dir.path("."))
@@ -56,7 +56,7 @@ fn plain_monsters_are_refused_at_once() {
     let monster =
         dir.file("m.toml", "levels = 4\nbranches = [1, 1000, 1000, 1000]\nlength = [1, 0.3, 0.6, 0.5]");
     let script = format!(
-        "ulimit -v 200000 -t 1 && exec {} grow {} --stats-only",
+        "ulimit -v 200000 && ulimit -t 1 && exec {} grow {} --stats-only",
         program().display(),
         monster.display()
     );

@@ -28,7 +28,8 @@ fn the_command_line_has_no_faults_of_its_own() {
 fn every_example_is_understood() {
     let examples = examples(&Arguments::laid_out());
     assert!(examples.len() > 50, "{examples:#?}");
-    for example in examples {
+    // A pipe joins two commands.
+    for example in examples.iter().flat_map(|example| example.split(" | ")) {
         let words = example.split_whitespace().map(|word| word.trim_matches('\''));
         let matches = Arguments::laid_out().try_get_matches_from(words);
         let read = matches.and_then(|matches| Arguments::from_arg_matches(&matches));

@@ -202,7 +202,11 @@ impl Source {
     }
 
     fn parse<T: DeserializeOwned>(&self) -> anyhow::Result<T> {
-        toml::from_str(&self.text).map_err(|e| self.wrong(e.span().unwrap_or(0..0), e.message().trim()))
+        toml::from_str(&self.text).map_err(|e| {
+            // Names and values of any length are quoted in it.
+            let words: Vec<String> = e.message().trim().split(' ').map(pleach_tree::param::shown).collect();
+            self.wrong(e.span().unwrap_or(0..0), words.join(" "))
+        })
     }
 
     pub(super) fn head(&self) -> anyhow::Result<Head> {

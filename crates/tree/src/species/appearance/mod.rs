@@ -24,7 +24,7 @@ pub use words::{BarkPattern, Season};
 use super::doc::{Node, SpeciesDoc, Value};
 use super::error::Issue;
 use super::key::{Form, Key};
-use crate::param::{Problem, nearest};
+use crate::param::{Problem, nearest, shown};
 
 /// The table `[appearance]` of a species file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -186,7 +186,7 @@ impl Said<'_> {
     fn colour(&self) -> Result<Colour, Issue> {
         let text = self.doc.text_of(self.name, self.node)?;
         Colour::parse(text).ok_or_else(|| {
-            let message = format!("\"{text}\" is not a colour, expected \"#rrggbb\" such as \"#4f7a2e\"");
+            let message = format!("\"{}\" is not a colour, expected \"#rrggbb\" such as \"#4f7a2e\"", shown(text));
             self.wrong(Problem::Conflict { message })
         })
     }
