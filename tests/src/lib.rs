@@ -2,7 +2,8 @@
 //!
 //! | file in `tests/` | what belongs there |
 //! | --- | --- |
-//! | `grow.rs`, `silhouette.rs`, `score.rs`, `fit.rs`, … | one file a command, run as a user would |
+//! | `grow.rs`, `silhouette.rs`, `fit.rs`, … | one file per command, run as a user would |
+//! | `grow_formats.rs`, `help.rs`, `shell.rs` | options of every format, help texts, standard output and shells |
 //! | `bad_input.rs` | everything that must end in a clear error |
 //! | `reference_stats.rs` | our trees against those of the reference generator |
 //! | `experiments.rs` | a slice of each experiment against its committed results |
