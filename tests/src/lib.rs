@@ -2,8 +2,10 @@
 //!
 //! | file in `tests/` | what belongs there |
 //! | --- | --- |
-//! | `grow.rs`, `silhouette.rs`, `score.rs`, `fit.rs`, … | one file a command, run as a user would |
+//! | `grow.rs`, `silhouette.rs`, `fit.rs`, … | one file per command, run as a user would |
+//! | `run_folder.rs` | what a fit does to the files that are there |
 //! | `pictures.rs` | pictures from pipes, in odd formats, broken off, not of a tree |
+//! | `grow_formats.rs`, `help.rs`, `shell.rs` | options of every format, help texts, standard output and shells |
 //! | `bad_input.rs` | everything that must end in a clear error |
 //! | `reference_stats.rs` | our trees against those of the reference generator |
 //! | `experiments.rs` | a slice of each experiment against its committed results |

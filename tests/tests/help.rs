@@ -126,9 +126,10 @@ fn furnished() -> Dir {
     ] {
         std::fs::copy(&acer, dir.path(name)).unwrap();
     }
+    // As large as the pixel that an example points at wants.
     for (photo, background) in [("oak.jpg", "#a9c8ee"), ("photo.jpg", "#a9c8ee"), ("shed.jpg", "#c8b8a0")] {
         let args =
-            ["render", "quaking_aspen", "--size", "256", "--ground", "none", "--background", background];
+            ["render", "quaking_aspen", "--size", "1600", "--ground", "none", "--background", background];
         let _ = dir.run([&args[..], &["-o", "drawn.png"]].concat()).ok();
         std::fs::rename(dir.path("drawn.png"), dir.path(photo)).unwrap();
     }
