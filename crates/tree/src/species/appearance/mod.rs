@@ -186,7 +186,8 @@ impl Said<'_> {
     fn colour(&self) -> Result<Colour, Issue> {
         let text = self.doc.text_of(self.name, self.node)?;
         Colour::parse(text).ok_or_else(|| {
-            let message = format!("\"{}\" is not a colour, expected \"#rrggbb\" such as \"#4f7a2e\"", shown(text));
+            let message =
+                format!("\"{}\" is not a colour, expected \"#rrggbb\" such as \"#4f7a2e\"", shown(text));
             self.wrong(Problem::Conflict { message })
         })
     }
