@@ -152,7 +152,7 @@ fn cut_short(line: &str) -> String {
         Some("fit") => {
             set("--evaluations", "20");
             set("--from", "acer");
-            if !line.contains("--resume") {
+            if !line.contains("--resume") && !line.contains("--continue") {
                 words.insert(2, "--overwrite".to_owned());
             }
         }

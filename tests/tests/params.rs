@@ -114,7 +114,10 @@ fn groups_levels_and_numbers_are_told() {
 fn unknown_names_are_told_what_there_is() {
     let dir = Dir::new();
     let run = dir.run(["params", "foo"]);
-    run.fails(1, &["`foo`: unknown name", "Groups are crown, trunk, branches, stems, splits", "level:3"]);
+    run.fails(
+        1,
+        &["`foo` is not a known name", "Groups are crown, trunk, branches, stems, splits", "level:3"],
+    );
     assert!(!run.stderr().contains("did you mean"), "{run}");
     dir.run(["params", "lenght[1]"]).fails(1, &["did you mean `length[1]`?"]);
     dir.run(["params", "apearance"]).fails(1, &["did you mean `appearance`?"]);

@@ -106,13 +106,18 @@ fn a_batch_with_a_mistake_in_it_loses_nothing() {
     };
     let _ = batch(&[]).ok();
     let before = files(&dir.path("runs/tree"));
-    batch(&["--free", "brances"]).fails(1, &["--free was crown and is crown brances"]);
-    batch(&["--free", "brances", "--overwrite"]).fails(1, &["2 of 2 goals failed"]);
+    for more in [&["--free", "brances"][..], &["--free", "brances", "--overwrite"], &["--fix", "brances"]] {
+        batch(more).fails(1, &["did you mean `branches`?"]);
+    }
     assert!(files(&dir.path("runs/tree")) == before);
     batch(&["--seed", "2"]).fails(1, &["--seed was 1 and is 2"]);
     assert!(files(&dir.path("runs/tree")) == before);
-    let table = std::fs::read_to_string(dir.path("runs/summary.csv")).unwrap();
-    assert!(table.contains("failed,\"`brances`: ") || table.contains("failed,`brances`: "), "{table}");
+    // What cannot be known before is told in the row of its goal.
+    let _ = dir.file("broken.png", "no picture");
+    let broken = ["broken.png", "--evaluations", "20", "--out", "runs", "--shard", "1/1"];
+    dir.run([&FIT[..], &broken[..]].concat()).fails(1, &["1 of 1 goals failed"]);
+    let table = std::fs::read_to_string(dir.path("runs/summary-1-of-1.csv")).unwrap();
+    assert!(table.contains("broken.png,failed,") && table.contains("is not a picture"), "{table}");
 }
 
 #[test]

@@ -109,9 +109,9 @@ impl Params {
                 // A parameter is meant more often than a key, so a key is named where no parameter is near.
                 match (&problem, tables) {
                     (pleach_tree::param::Problem::UnknownPattern { nearest: None, .. }, Some(key)) => {
-                        bail!("`{name}`: unknown name, did you mean `{key}`?")
+                        bail!("`{name}` is not a known name, did you mean `{key}`?")
                     }
-                    _ => bail!("`{name}`: {problem}"),
+                    _ => bail!("`{name}` {problem}"),
                 }
             }
         }

@@ -198,15 +198,15 @@ impl Source {
         let before = self.text.get(..span.start).unwrap_or(&self.text);
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-        anyhow::anyhow!("{}:{line}:{column}: {message}", self.path.display())
+        // Names and values of any length and of any characters are quoted in it.
+        let message = message.to_string();
+        let short = |line: &str| line.split(' ').map(pleach_tree::param::shown).collect::<Vec<_>>().join(" ");
+        let message: Vec<String> = message.lines().map(short).collect();
+        anyhow::anyhow!("{}:{line}:{column}: {}", self.path.display(), message.join("\n"))
     }
 
     fn parse<T: DeserializeOwned>(&self) -> anyhow::Result<T> {
-        toml::from_str(&self.text).map_err(|e| {
-            // Names and values of any length are quoted in it.
-            let words: Vec<String> = e.message().trim().split(' ').map(pleach_tree::param::shown).collect();
-            self.wrong(e.span().unwrap_or(0..0), words.join(" "))
-        })
+        toml::from_str(&self.text).map_err(|e| self.wrong(e.span().unwrap_or(0..0), e.message().trim()))
     }
 
     pub(super) fn head(&self) -> anyhow::Result<Head> {

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
   pleach mask oak.jpg -o oak.png --overlay look.png   and look at what was found
-  pleach mask oak.jpg -o oak.png --seed-point 800,420 the tree at that pixel
+  pleach mask oak.jpg -o oak.png --seed-point 800,420  that tree
   pleach mask shed.jpg -o a.png --background plain    a tree before an even wall
   pleach mask photos/*.jpg -o masks/                  many, with masks/masks.csv
   pleach mask oak.jpg -o - | pleach fit - --out oak   from one to the other
