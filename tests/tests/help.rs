@@ -133,6 +133,11 @@ fn furnished() -> Dir {
         let _ = dir.run([&args[..], &["-o", "drawn.png"]].concat()).ok();
         std::fs::rename(dir.path("drawn.png"), dir.path(photo)).unwrap();
     }
+    // A mask by hand, of the photographs' size.
+    let _ = dir.run(["silhouette", "quaking_aspen", "--size", "1600", "-o", "mine.png"]).ok();
+    std::fs::create_dir(dir.path("photos")).unwrap();
+    std::fs::copy(dir.path("oak.jpg"), dir.path("photos/oak.jpg")).unwrap();
+    let _ = dir.file("goals.csv", "file,height\noak.png,12\n");
     let toml = dir.run(["species", "palm"]).ok();
     let toml = toml.replace("name = \"palm\"", "name = \"mine\"");
     for name in ["my_tree.toml", "mine.toml", "my-trees/one.toml"] {

@@ -126,7 +126,7 @@ fn unknown_names_are_told_what_there_is() {
     let goal = dir.path("goal.png");
     let _ = dir.run(["silhouette", "acer", "--size", "64", "-o", goal.to_str().unwrap()]).ok();
     let free = ["fit", "goal.png", "--out", "x", "--from", "acer", "--evaluations", "5", "--free", "foo"];
-    dir.run(free).fails(1, &["`foo`: unknown name. Groups are crown, trunk"]);
+    dir.run(free).fails(1, &["`foo` is not a known name. Groups are crown, trunk"]);
 }
 
 #[test]

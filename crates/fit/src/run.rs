@@ -218,7 +218,15 @@ impl<'a, 'e> Driver<'a, 'e> {
     ) -> Result<Self, FitError> {
         let resumed = match &control.checkpoint {
             Some(file) if file.resume && file.path.exists() => {
-                Some(Checkpoint::<AnyMethod>::read(&file.path, &fingerprint)?)
+                let checkpoint = Checkpoint::<AnyMethod>::read(&file.path, &fingerprint)?;
+                // What was scored has grown, so it is a list of this generator's.
+                if let Some(best) = &checkpoint.search.best
+                    && let Err(error) = space.params().check(best.genome.values.clone())
+                {
+                    let message = format!("its best list: {error}");
+                    return Err(CheckpointError::WrongBody { path: file.path.clone(), message }.into());
+                }
+                Some(checkpoint)
             }
             _ => None,
         };

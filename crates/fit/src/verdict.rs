@@ -128,7 +128,7 @@ impl Off {
             ((bare(crown) - bare(goal)) / BARE_OFF, Self::StartsTooHigh, Self::StartsTooLow),
         ];
         let worst = measured.into_iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-        (worst.0.abs() >= 1.0).then(|| if worst.0 > 0.0 { worst.1 } else { worst.2 })
+        (worst.0.abs() >= 1.0).then_some(if worst.0 > 0.0 { worst.1 } else { worst.2 })
     }
 }
 

@@ -57,10 +57,10 @@ impl Certain {
         certain.stems[0] = f64::from(model.trunks);
         // Length of a stem over the greatest of its siblings', at least.
         let mut relative = 1.0;
-        for depth in 0..model.level_count - 1 {
+        for (depth, &counted) in COUNTED_PART.iter().enumerate().take(model.level_count - 1) {
             let (level, next) = (&model.levels[depth], model.child_level(depth));
             let forks = level.seg_splits > 0.0 && !level.is_helix();
-            radius *= 1.0 - level.taper * COUNTED_PART[depth];
+            radius *= 1.0 - level.taper * counted;
             if forks || level.taper > 1.0 || radius < SAFE_SIZE {
                 return certain;
             }
@@ -72,7 +72,7 @@ impl Certain {
             let children = if next.branches < 0.0 {
                 next.branches
             } else {
-                children / (1.0 - level.base_size) * (COUNTED_PART[depth] - level.base_size)
+                children / (1.0 - level.base_size) * (counted - level.base_size)
             };
             relative = if depth == 0 { least_shape_ratio(model.shape) } else { 0.3 };
             length *= (next.length - next.length_v).max(0.0) * relative;

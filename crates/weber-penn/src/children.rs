@@ -279,7 +279,8 @@ pub(crate) fn collect(
         }
         let length = length(model, stem, child_length, place.offset);
         // What waits is counted as a stem, so it has to become one; pruning has the last word on it.
-        if !prunes && !(length.is_finite() && length >= LEAST_LENGTH) {
+        let is_a_stem = length.is_finite() && length >= LEAST_LENGTH;
+        if !prunes && !is_a_stem {
             return Ok(());
         }
         budget.work(Cause::Children, stem.depth, CHILD_STEPS)?;

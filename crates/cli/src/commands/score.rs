@@ -9,7 +9,7 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "Examples:
   pleach score best.png goal.png           the score card as a table
   pleach score best.png goal.png --json    for scripts
-  pleach mask oak.jpg -o - | pleach score - goal.png
+  pleach mask oak.jpg -o - | pleach score - mine.png
 
 Each score stands beside what says nothing would have: pixel accuracy beside that of an empty picture, \
 IoU beside that of the best single ellipse.

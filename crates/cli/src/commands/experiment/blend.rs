@@ -117,7 +117,10 @@ impl Experiment for BlendSpec {
             };
             journal.job(|row| row[0] == question, rows)
         };
-        job("explained variance", &|rows| Ok(explained(&maps, rows)))?;
+        job("explained variance", &|rows| {
+            explained(&maps, rows);
+            Ok(())
+        })?;
         job("landmark", &|rows| landmarks(&maps, rows))?;
         job("palm", &|rows| palm(&maps, rows))?;
         job("leave one out", &|rows| leave_one_out(&maps, most, rows))?;

@@ -44,7 +44,6 @@ impl Colour {
 
     /// Lightness, green to red, blue to yellow: Björn Ottosson, "A perceptual color space for image
     /// processing" (2020).
-    #[expect(clippy::excessive_precision, reason = "as they were published")]
     fn oklab(self) -> [f64; 3] {
         let [r, g, b] = self.0.map(|channel| {
             let v = f64::from(channel) / 255.0;
@@ -61,7 +60,6 @@ impl Colour {
     }
 
     /// The way back, to the nearest colour that a screen has.
-    #[expect(clippy::excessive_precision, reason = "as they were published")]
     fn from_oklab([lightness, a, b]: [f64; 3]) -> Self {
         let l = (lightness + 0.3963377774 * a + 0.2158037573 * b).powi(3);
         let m = (lightness - 0.1055613458 * a - 0.0638541728 * b).powi(3);
