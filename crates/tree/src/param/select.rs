@@ -102,8 +102,8 @@ mod tests {
     fn what_names_nothing_is_told_what_would() {
         let error = |pattern: &str| space().select(pattern).unwrap_err().to_string();
         let groups = "Groups are crown, stems; levels are level:0, level:1, level:2, level:3";
-        assert_eq!(error("foo"), format!("unknown name. {groups}"));
-        assert_eq!(error("crwn"), format!("unknown name, did you mean `crown`? {groups}"));
+        assert_eq!(error("foo"), format!("is not a known name. {groups}"));
+        assert_eq!(error("crwn"), format!("is not a known name, did you mean `crown`? {groups}"));
         assert!(error("lenght[1]").contains("did you mean `length[1]`?"), "{}", error("lenght[1]"));
         assert!(error("level:9").contains("did you mean `level:"), "{}", error("level:9"));
     }
