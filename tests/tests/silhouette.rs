@@ -17,10 +17,10 @@ fn the_picture_is_black_on_white_with_the_tree_where_it_should_be() {
     let dir = Dir::new();
     let picture = png(&dir, &["quaking_aspen", "--seed", "1", "--size", "200"]);
     assert_eq!(picture.dimensions(), (200, 200));
-    let grey = picture.to_luma8();
-    assert!(grey.pixels().all(|p| p[0] == 0 || p[0] == 255));
+    let gray = picture.to_luma8();
+    assert!(gray.pixels().all(|p| p[0] == 0 || p[0] == 255));
     let ink: Vec<(u32, u32)> =
-        grey.enumerate_pixels().filter(|(_, _, p)| p[0] == 0).map(|(x, y, _)| (x, y)).collect();
+        gray.enumerate_pixels().filter(|(_, _, p)| p[0] == 0).map(|(x, y, _)| (x, y)).collect();
     let top = ink.iter().map(|p| p.1).min().unwrap();
     assert!((8..=11).contains(&top), "95 % of the height is filled, not from row {top}");
     let foot: Vec<u32> = ink.iter().filter(|p| p.1 == 199).map(|p| p.0).collect();

@@ -1,6 +1,6 @@
 //! Species as silhouettes: grown and drawn side by side on all threads, results in order.
 
-use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::{GrowError, Growth, Species, Tree, Workspace};
 use rayon::prelude::*;
 
@@ -9,7 +9,7 @@ use rayon::prelude::*;
 struct Bench {
     workspace: Workspace,
     tree: Tree,
-    rasteriser: Rasteriser,
+    rasterizer: Rasterizer,
 }
 
 /// Why the tree of one species was not drawn.
@@ -39,15 +39,15 @@ pub struct Drawing {
 /// # Errors
 /// The first species, in the order given, that does not grow.
 pub fn silhouettes(species: &[Species], seed: u64, drawing: Drawing) -> Result<Vec<Bitmap>, DrawError> {
-    each_tree(species, seed, |tree, rasteriser| picture(tree, rasteriser, drawing))
+    each_tree(species, seed, |tree, rasterizer| picture(tree, rasterizer, drawing))
 }
 
 /// The silhouette of one tree, as [`silhouettes`] draws it.
-pub fn picture(tree: &Tree, rasteriser: &mut Rasteriser, drawing: Drawing) -> Bitmap {
+pub fn picture(tree: &Tree, rasterizer: &mut Rasterizer, drawing: Drawing) -> Bitmap {
     let frame = Frame::automatic(tree, &View::FRONT, true, drawing.pixels, drawing.pixels);
     let mut bitmap = Bitmap::default();
-    rasteriser.detail = drawing.detail;
-    rasteriser.draw(tree, &View::FRONT, &frame, true, &mut bitmap);
+    rasterizer.detail = drawing.detail;
+    rasterizer.draw(tree, &View::FRONT, &frame, true, &mut bitmap);
     bitmap
 }
 
@@ -58,18 +58,18 @@ pub fn picture(tree: &Tree, rasteriser: &mut Rasteriser, drawing: Drawing) -> Bi
 pub fn each_tree<T: Send>(
     species: &[Species],
     seed: u64,
-    look: impl Fn(&Tree, &mut Rasteriser) -> T + Sync,
+    look: impl Fn(&Tree, &mut Rasterizer) -> T + Sync,
 ) -> Result<Vec<T>, DrawError> {
     let grown: Vec<Result<T, DrawError>> = species
         .par_iter()
         .with_max_len(1)
         .map_init(Bench::default, |bench, species| {
-            let Bench { workspace, tree, rasteriser } = bench;
+            let Bench { workspace, tree, rasterizer } = bench;
             species
                 .generator
                 .grow(&species.params, &Growth::seed(seed), workspace, tree)
                 .map_err(|source| DrawError { species: species.name.clone(), seed, source })?;
-            Ok(look(tree, rasteriser))
+            Ok(look(tree, rasterizer))
         })
         .collect();
     grown.into_iter().collect()

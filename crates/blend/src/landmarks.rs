@@ -360,7 +360,7 @@ mod tests {
         };
         assert_eq!(at(0.0), two.species()[0].appearance);
         assert_eq!(at(1.0), two.species()[1].appearance);
-        let light = |part: f64| at(part).bark.map(|colour| colour.0[1]).unwrap();
+        let light = |part: f64| at(part).bark.map(|color| color.0[1]).unwrap();
         assert!(light(0.0) > light(0.25) && light(0.25) > light(0.75) && light(0.75) > light(1.0));
         assert_eq!(at(0.4).bark_pattern, two.species()[0].appearance.bark_pattern);
         assert_eq!(at(0.6).bark_pattern, two.species()[1].appearance.bark_pattern);

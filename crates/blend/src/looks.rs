@@ -52,9 +52,9 @@ pub fn scale(distances: &[Vec<f64>]) -> Vec<Point> {
     let mut dots = classical(distances);
     let mut last = stress(distances, &dots);
     for _ in 0..STEPS {
-        dots = majorised(distances, &dots);
+        dots = majorized(distances, &dots);
         let now = stress(distances, &dots);
-        if last - now <= LEAST_GAIN * last {
+        if last - now <= MIN_GAIN * last {
             break;
         }
         last = now;
@@ -76,7 +76,7 @@ pub fn stress(distances: &[Vec<f64>], dots: &[Point]) -> f64 {
 }
 
 const STEPS: usize = 500;
-const LEAST_GAIN: f64 = 1e-7;
+const MIN_GAIN: f64 = 1e-7;
 
 /// Classical scaling: the two main axes of the doubly centred squared distances, by power iteration.
 fn classical(distances: &[Vec<f64>]) -> Vec<Point> {
@@ -112,7 +112,7 @@ fn classical(distances: &[Vec<f64>]) -> Vec<Point> {
 }
 
 /// One step of stress majorisation (the Guttman transform).
-fn majorised(distances: &[Vec<f64>], dots: &[Point]) -> Vec<Point> {
+fn majorized(distances: &[Vec<f64>], dots: &[Point]) -> Vec<Point> {
     let n = dots.len();
     (0..n)
         .map(|i| {
@@ -167,7 +167,7 @@ mod tests {
         let mut dots: Vec<Point> = (0..4).map(|i| Point { x: f64::from(i), y: f64::from(i * i) }).collect();
         let mut last = stress(&matrix, &dots);
         for _ in 0..20 {
-            dots = majorised(&matrix, &dots);
+            dots = majorized(&matrix, &dots);
             let now = stress(&matrix, &dots);
             assert!(now <= last + 1e-12);
             last = now;

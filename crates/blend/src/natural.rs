@@ -125,12 +125,12 @@ impl Natural {
         }
         // A neighbour shares an edge of the cell; one too many only has no area.
         let reaches = |site: Point| cell.0.iter().any(|v| v.distance(site) <= v.length() * (1.0 + 1e-6));
-        let neighbours: Vec<usize> = (0..sites.len()).filter(|&i| reaches(sites[i])).collect();
-        neighbours
+        let neighbors: Vec<usize> = (0..sites.len()).filter(|&i| reaches(sites[i])).collect();
+        neighbors
             .iter()
             .map(|&i| {
                 let mut part = cell.clone();
-                for &j in neighbours.iter().filter(|&&j| j != i) {
+                for &j in neighbors.iter().filter(|&&j| j != i) {
                     part.keep_nearer(sites[i], sites[j]);
                 }
                 (i, part.area())

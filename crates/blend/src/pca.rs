@@ -24,13 +24,13 @@ pub struct Pca {
 }
 
 /// Most axes that are looked for.
-const MOST_AXES: usize = 32;
+const MAX_AXES: usize = 32;
 
 /// The library's decomposition is right where a matrix has this many rows and columns an axis.
 const ROOM: usize = 6;
 
 /// An axis whose variance is below this part of the first one's is rounding error.
-const LEAST_VARIANCE: f64 = 1e-10;
+const MIN_VARIANCE: f64 = 1e-10;
 
 impl Pca {
     /// Fits all axes, at most one fewer than there are rows, and at most 32. A missing value (`None`) stands at its
@@ -58,11 +58,11 @@ impl Pca {
             return Err(failed("a feature is not finite"));
         }
         let cells = (0..count).flat_map(|r| (0..width).map(move |c| (r, c)));
-        let centred: f64 = cells.map(|(r, c)| (value(r, c) - mean[c]).powi(2)).sum();
-        if centred == 0.0 {
+        let centered: f64 = cells.map(|(r, c)| (value(r, c) - mean[c]).powi(2)).sum();
+        if centered == 0.0 {
             return Err(failed("all rows are alike"));
         }
-        let wanted = (count - 1).min(width).min(MOST_AXES);
+        let wanted = (count - 1).min(width).min(MAX_AXES);
         let room = ROOM * wanted;
         let roomy = Array2::from_shape_fn((count.max(room), width.max(room)), |(r, c)| {
             match (r < count, c < width) {
@@ -79,7 +79,7 @@ impl Pca {
         let mut axes = Vec::new();
         let mut variances = Vec::new();
         for (axis, &sigma) in fitted.components().rows().into_iter().zip(fitted.singular_values()) {
-            if sigma * sigma <= LEAST_VARIANCE * first * first {
+            if sigma * sigma <= MIN_VARIANCE * first * first {
                 break;
             }
             let largest = axis.iter().fold(0.0_f64, |most, &l| if l.abs() > most.abs() { l } else { most });
@@ -87,7 +87,7 @@ impl Pca {
             axes.push(axis.iter().take(width).map(|l| sign * l).collect());
             variances.push(sigma * sigma / freedom);
         }
-        Ok(Self { mean, axes, variances, total: centred / freedom })
+        Ok(Self { mean, axes, variances, total: centered / freedom })
     }
 
     /// The mean of the rows: one number a column.

@@ -1,6 +1,6 @@
 //! What people see of a tree, as numbers: how traits change across the map.
 
-use pleach_silhouette::{Bitmap, Detail, Rasteriser};
+use pleach_silhouette::{Bitmap, Detail, Rasterizer};
 use pleach_tree::{StemKind, Tree, TreeStats};
 
 use crate::draw::{Drawing, picture};
@@ -55,7 +55,7 @@ impl Trait {
             }
             Self::Ink => {
                 let drawing = Drawing { pixels: 128, detail: Detail::Half };
-                share_of_ink(&picture(tree, &mut Rasteriser::new(), drawing))
+                share_of_ink(&picture(tree, &mut Rasterizer::new(), drawing))
             }
             Self::BareTrunk => {
                 let stats = TreeStats::of(tree);
@@ -75,11 +75,11 @@ impl Trait {
 #[must_use]
 pub fn correlation(along: &[f64], values: &[f64]) -> f64 {
     assert_eq!(along.len(), values.len(), "one value a place");
-    let centred = |list: &[f64]| {
+    let centered = |list: &[f64]| {
         let middle = mean(list.iter().copied());
         list.iter().map(|v| v - middle).collect::<Vec<f64>>()
     };
-    let (a, b) = (centred(along), centred(values));
+    let (a, b) = (centered(along), centered(values));
     let product = |p: &[f64], q: &[f64]| p.iter().zip(q).map(|(x, y)| x * y).sum::<f64>();
     let size = (product(&a, &a) * product(&b, &b)).sqrt();
     if size > 0.0 { product(&a, &b) / size } else { 0.0 }

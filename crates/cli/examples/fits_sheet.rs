@@ -9,7 +9,7 @@
 #![allow(clippy::print_stdout, reason = "an example says what it has done")]
 
 use anyhow::Context;
-use pleach::blend::picture::{Anchor, Colour, Scene, Shape};
+use pleach::blend::picture::{Anchor, Color, Scene, Shape};
 use pleach::mesh::preview::Background;
 use pleach::mesh::{Palette, Picture, Preview, PreviewSettings, png_file};
 use pleach::silhouette::goal::{Goal, GoalOptions};
@@ -32,8 +32,8 @@ const GAP: u32 = 20;
 /// What is left free around a goal.
 const MARGIN: u32 = 9;
 const LABEL: u32 = 46;
-const INK: Colour = Colour::opaque([40, 44, 40]);
-const GREY: Colour = Colour::opaque([110, 114, 110]);
+const INK: Color = Color::opaque([40, 44, 40]);
+const GRAY: Color = Color::opaque([110, 114, 110]);
 
 fn main() -> anyhow::Result<()> {
     let out = std::env::args().nth(1).context("expected the PNG file to write")?;
@@ -43,11 +43,11 @@ fn main() -> anyhow::Result<()> {
     let mut pictures = Vec::new();
     for (i, (goal, name, like)) in (0..).zip(GOALS) {
         let (x, y) = (GAP + i % 2 * block, GAP / 2 + i / 2 * row);
-        let texts = [(name, INK), ("fitted to it", GREY), ("the same with another seed", GREY)];
-        for (k, (text, colour)) in (0..).zip(texts) {
+        let texts = [(name, INK), ("fitted to it", GRAY), ("the same with another seed", GRAY)];
+        for (k, (text, color)) in (0..).zip(texts) {
             let at = (f64::from(x + k * SIZE + SIZE / 2), f64::from(y + SIZE + 20));
             let text = text.to_owned();
-            page.add(Shape::Text { text, at, size: 15.0, anchor: Anchor::Middle, colour });
+            page.add(Shape::Text { text, at, size: 15.0, anchor: Anchor::Middle, color });
         }
         pictures.push((x, y, silhouette(&format!("targets/{goal}.png"))?));
         for (k, further) in [(1, 0), (2, 1)] {
@@ -80,9 +80,9 @@ fn silhouette(path: &str) -> anyhow::Result<Picture> {
         for x in 0..SIZE {
             let inside = (margin..SIZE - margin).contains(&x) && (margin..SIZE - margin).contains(&y);
             // Black at a quarter is kinder to the eye beside shaded pictures.
-            let grey = if inside { small.get_pixel(x - margin, y - margin).0[0] } else { 255 };
-            let grey = 40 + (u32::from(grey) * 215 / 255) as u8;
-            rgba.extend([grey, grey, grey, 255]);
+            let gray = if inside { small.get_pixel(x - margin, y - margin).0[0] } else { 255 };
+            let gray = 40 + (u32::from(gray) * 215 / 255) as u8;
+            rgba.extend([gray, gray, gray, 255]);
         }
     }
     Ok(Picture { width: SIZE, height: SIZE, rgba })
@@ -96,7 +96,7 @@ fn fitted(path: &str, like: &str, further: u64) -> anyhow::Result<Picture> {
     like.clone_into(&mut species.name);
     let palette = Palette::of(&species, None);
     palette.dress(&mut tree);
-    let white = Background::Plain(species::Colour([255; 3]));
+    let white = Background::Plain(species::Color([255; 3]));
     let settings =
         PreviewSettings { width: SIZE, height: SIZE, background: white, ..PreviewSettings::default() };
     Ok(Preview::new(&tree, &palette, SIZE).picture(&settings))

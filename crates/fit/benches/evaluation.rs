@@ -3,7 +3,7 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pleach_fit::settings::LIMITS;
 use pleach_fit::{Evaluate, Evaluator, FitProblem, Genome, GoalView, Objective, Size, Unknown};
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ fn problem(name: &str) -> FitProblem {
     let tree = species.grow(1).expect("a species grows");
     let frame = Frame::automatic(&tree, &View::FRONT, true, 256, 256);
     let mut goal = Bitmap::default();
-    Rasteriser::new().draw(&tree, &View::FRONT, &frame, true, &mut goal);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut goal);
     FitProblem {
         generator: Arc::clone(&species.generator),
         base: species.params.values().to_vec(),

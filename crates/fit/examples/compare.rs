@@ -20,7 +20,7 @@ use pleach_fit::{
     Start, TreeSeed, Unknown, first_guess, fit,
 };
 use pleach_silhouette::score::best_ellipse_iou;
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::Species;
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -56,7 +56,7 @@ fn problem(species: &Species, seed: u64) -> Result<FitProblem, Box<dyn Error>> {
     let tree = species.grow(seed)?;
     let frame = Frame::automatic(&tree, &View::FRONT, true, SIZE, SIZE);
     let mut goal = Bitmap::default();
-    Rasteriser::new().draw(&tree, &View::FRONT, &frame, true, &mut goal);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut goal);
     Ok(FitProblem {
         generator: Arc::clone(&species.generator),
         base: species.generator.space().defaults(),

@@ -161,14 +161,14 @@ impl<M: DeserializeOwned> Checkpoint<M> {
 }
 
 /// Most seconds that a run can have used: three hundred years.
-const MOST_SECONDS: f64 = 1e10;
+const MAX_SECONDS: f64 = 1e10;
 
 impl<M> Checkpoint<M> {
     /// What no run writes though the file's form allows it.
     fn check(&self) -> Result<(), String> {
         for (name, seconds) in [("elapsed_s", self.elapsed_s), ("before_search_s", self.before_search_s)] {
-            if !(0.0..=MOST_SECONDS).contains(&seconds) {
-                return Err(format!("`{name}` is {seconds}, expected 0 to {MOST_SECONDS:e}"));
+            if !(0.0..=MAX_SECONDS).contains(&seconds) {
+                return Err(format!("`{name}` is {seconds}, expected 0 to {MAX_SECONDS:e}"));
             }
         }
         if self.before_search_s > self.elapsed_s {

@@ -6,7 +6,7 @@ use crate::objective::Objective;
 use crate::search::Evaluate;
 use pleach_silhouette::score::fast::{Overlaps, PreparedGoal, Scratch};
 use pleach_silhouette::score::likeness::{self, Descriptor};
-use pleach_silhouette::{Bitmap, Detail, Frame, Projection, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Detail, Frame, Projection, Rasterizer, View};
 use pleach_tree::{CheckedParams, Foliage, Generator, Growth, Leaf, Limits, Tree, Workspace};
 use rayon::prelude::*;
 use std::num::NonZeroU32;
@@ -61,12 +61,12 @@ pub enum ProblemError {
         index: usize,
     },
     /// A frame that shows no part of the world.
-    #[error("goal {index} is at {metres_per_pixel} metres a pixel, expected a positive number")]
+    #[error("goal {index} is at {meters_per_pixel} metres a pixel, expected a positive number")]
     Scale {
         /// Which goal, from 0.
         index: usize,
         /// What was given.
-        metres_per_pixel: String,
+        meters_per_pixel: String,
     },
 }
 
@@ -113,7 +113,7 @@ struct PreparedView {
 /// is thinner than a pixel and leaves no ink.
 const HEIGHT_TOLERANCE: f64 = 2.0;
 /// Trees that would have to be resized by more than this factor are left to their bad score.
-const MOST_RESIZING: f64 = 100.0;
+const MAX_RESIZING: f64 = 100.0;
 
 /// Memory that one thread reuses from one evaluation to the next: about the largest tree so far.
 #[derive(Debug)]
@@ -122,9 +122,9 @@ pub struct EvalWorkspace {
     values: Vec<f64>,
     tree: Tree,
     workspace: Workspace,
-    rasteriser: Rasteriser,
+    rasterizer: Rasterizer,
     /// For pictures at twice the goal's size: there half the samples are as many.
-    fine: Rasteriser,
+    fine: Rasterizer,
     bitmap: Bitmap,
     comparisons: Comparisons,
 }
@@ -170,9 +170,9 @@ impl Evaluator {
             if goal.ink() == 0 {
                 return Err(ProblemError::EmptyGoal { index });
             }
-            let scale = frame.metres_per_pixel;
+            let scale = frame.meters_per_pixel;
             if !(scale > 0.0 && scale.is_finite()) {
-                return Err(ProblemError::Scale { index, metres_per_pixel: scale.to_string() });
+                return Err(ProblemError::Scale { index, meters_per_pixel: scale.to_string() });
             }
             views.push(PreparedView {
                 prepared: PreparedGoal::new(goal),
@@ -214,8 +214,8 @@ impl Evaluator {
         let PreparedView { goal, view, frame, .. } = &self.views[0];
         let is_level = view.elevation == 0.0 && view.projection == Projection::Orthographic;
         let top = goal.ink_box().map_or(0, |(_, top, _, _)| top);
-        let goal = (frame.ground_row - f64::from(top)) * frame.metres_per_pixel;
-        let tolerance = HEIGHT_TOLERANCE * frame.metres_per_pixel;
+        let goal = (frame.ground_row - f64::from(top)) * frame.meters_per_pixel;
+        let tolerance = HEIGHT_TOLERANCE * frame.meters_per_pixel;
         self.height = (is_level && top > 0 && goal > tolerance).then_some(Height { goal, tolerance });
         self
     }
@@ -232,8 +232,8 @@ impl Evaluator {
             values: Vec::new(),
             tree: Tree::default(),
             workspace: Workspace::default(),
-            rasteriser: Rasteriser::with_detail(Detail::Half),
-            fine: Rasteriser::with_detail(Detail::Draft),
+            rasterizer: Rasterizer::with_detail(Detail::Half),
+            fine: Rasterizer::with_detail(Detail::Draft),
             bitmap: Bitmap::default(),
             comparisons: Comparisons::default(),
         }
@@ -266,7 +266,7 @@ impl Evaluator {
     }
 
     fn evaluate_within(&self, genome: &Genome, most: Size, memory: &mut EvalWorkspace, looks: bool) -> Score {
-        let EvalWorkspace { params, values, tree, workspace, rasteriser, bitmap, comparisons, .. } = memory;
+        let EvalWorkspace { params, values, tree, workspace, rasterizer, bitmap, comparisons, .. } = memory;
         let mut growth = Growth {
             seed: genome.tree_seed,
             limits: Limits {
@@ -310,7 +310,7 @@ impl Evaluator {
             }
             for view in &self.views {
                 let (from, frame) = view.placed(&genome.nuisances);
-                rasteriser.draw(tree, &from, &frame, self.foliage, bitmap);
+                rasterizer.draw(tree, &from, &frame, self.foliage, bitmap);
                 let agreement = view.compare(bitmap, self.objective, looks, comparisons);
                 likeness = likeness.zip(agreement.likeness).map(|(sum, here)| sum + here);
                 sum.cost += 1.0 - agreement.value;
@@ -339,7 +339,7 @@ impl Evaluator {
         &self,
         genome: &Genome,
         foliage: bool,
-        mut look: impl FnMut(&Tree, &mut Rasteriser),
+        mut look: impl FnMut(&Tree, &mut Rasterizer),
     ) -> Option<()> {
         self.with_memory(|memory| {
             let EvalWorkspace { params, tree, workspace, fine, .. } = memory;
@@ -378,7 +378,7 @@ impl Evaluator {
         let Height { goal, tolerance } = self.height?;
         let factor = goal / height;
         let is_off = (height - goal).abs() > tolerance;
-        (is_off && (1.0 / MOST_RESIZING..MOST_RESIZING).contains(&factor)).then_some(factor)
+        (is_off && (1.0 / MAX_RESIZING..MAX_RESIZING).contains(&factor)).then_some(factor)
     }
 
     /// Share of equal pixels that an empty picture has, in 0..=1; the mean over views.
@@ -399,7 +399,7 @@ impl Evaluator {
             pictures.extend(goal.words().iter().flat_map(|word| word.to_le_bytes()));
             // What is asked for is the tree's height; the scale follows from it and the picture.
             let top = goal.ink_box().map_or(0, |(_, top, _, _)| top);
-            let height = (frame.ground_row - f64::from(top)) * frame.metres_per_pixel;
+            let height = (frame.ground_row - f64::from(top)) * frame.meters_per_pixel;
             scales += &format!("{height:.6}\n");
             views += &format!("{view:?} {unknown:?} {:?} {:?}\n", frame.axis_column, frame.ground_row);
         }

@@ -17,8 +17,8 @@ use serde::Serialize;
 pub struct Unknown {
     /// The direction around the trunk.
     pub azimuth: Azimuth,
-    /// Whether scale and place of the frame are only about right: see [`MOST_SCALE`] and
-    /// [`MOST_OFFSET`].
+    /// Whether scale and place of the frame are only about right: see [`MAX_SCALE`] and
+    /// [`MAX_OFFSET`].
     pub frame: bool,
 }
 
@@ -37,9 +37,9 @@ pub enum Azimuth {
 /// Degrees by which an azimuth that is known roughly may be off.
 pub const ROUGHLY: f64 = 15.0;
 /// Metres a pixel may be this part more or less than the frame says.
-pub const MOST_SCALE: f64 = 0.2;
+pub const MAX_SCALE: f64 = 0.2;
 /// The trunk's foot may be off by this part of the picture's width, and of its height.
-pub const MOST_OFFSET: f64 = 0.1;
+pub const MAX_OFFSET: f64 = 0.1;
 
 /// What a nuisance number is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,7 +81,7 @@ impl Placement {
     pub fn frame(&self, frame: &Frame) -> Frame {
         let [right, down] = self.offset;
         Frame {
-            metres_per_pixel: frame.metres_per_pixel * self.scale,
+            meters_per_pixel: frame.meters_per_pixel * self.scale,
             axis_column: frame.axis_column + right * f64::from(frame.width),
             ground_row: frame.ground_row + down * f64::from(frame.height),
             ..*frame
@@ -106,9 +106,9 @@ impl Unknown {
             Azimuth::Any => Some((Nuisance::Azimuth, 0.0, 360.0, 0.0)),
         };
         let frame = self.frame.then_some([
-            (Nuisance::Scale, 1.0 - MOST_SCALE, 1.0 + MOST_SCALE, 1.0),
-            (Nuisance::Right, -MOST_OFFSET, MOST_OFFSET, 0.0),
-            (Nuisance::Down, -MOST_OFFSET, MOST_OFFSET, 0.0),
+            (Nuisance::Scale, 1.0 - MAX_SCALE, 1.0 + MAX_SCALE, 1.0),
+            (Nuisance::Right, -MAX_OFFSET, MAX_OFFSET, 0.0),
+            (Nuisance::Down, -MAX_OFFSET, MAX_OFFSET, 0.0),
         ]);
         azimuth.into_iter().chain(frame.into_iter().flatten())
     }
@@ -161,7 +161,7 @@ mod tests {
     fn nothing_unknown_changes_nothing() {
         let view = View::degrees(33.3, 5.0);
         let frame =
-            Frame { width: 30, height: 20, metres_per_pixel: 0.1, axis_column: 14.7, ground_row: 19.3 };
+            Frame { width: 30, height: 20, meters_per_pixel: 0.1, axis_column: 14.7, ground_row: 19.3 };
         let placement = Unknown::default().placement(&view, &[]);
         assert_eq!(placement, Placement::KNOWN);
         assert_eq!((placement.view(&view), placement.frame(&frame)), (view, frame));
@@ -171,7 +171,7 @@ mod tests {
         let placement = unknown.placement(&view, &[40.0, 1.1, 0.1, -0.1]);
         assert!((placement.view(&view).azimuth.to_degrees() - 40.0).abs() < 1e-12);
         let moved = placement.frame(&frame);
-        assert!((moved.metres_per_pixel - 0.11).abs() < 1e-12);
+        assert!((moved.meters_per_pixel - 0.11).abs() < 1e-12);
         assert!((moved.axis_column - 17.7).abs() < 1e-12 && (moved.ground_row - 17.3).abs() < 1e-12);
     }
 }

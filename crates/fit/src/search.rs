@@ -59,7 +59,7 @@ pub struct SearchState<M> {
 /// Times differ a thousandfold between parameter lists, and a crown of ten times the leaves covers
 /// the goal no worse: without a bound that stays, a search drifts to trees that take ten times as
 /// long and makes a tenth of the trials.
-const MOST_GROWTH: usize = 2;
+const MAX_GROWTH: usize = 2;
 
 /// Trees up to this size are never given up: some three milliseconds.
 const ALWAYS: Size = Size { stems: 2_000, leaves: 12_000, knots: 12_000 };
@@ -67,9 +67,9 @@ const ALWAYS: Size = Size { stems: 2_000, leaves: 12_000, knots: 12_000 };
 /// The largest trees of a search, once the first generation has shown how large its start is.
 fn largest_after(first: Size) -> Size {
     Size {
-        stems: ALWAYS.stems.max(MOST_GROWTH.saturating_mul(first.stems)),
-        leaves: ALWAYS.leaves.max(MOST_GROWTH.saturating_mul(first.leaves)),
-        knots: ALWAYS.knots.max(MOST_GROWTH.saturating_mul(first.knots)),
+        stems: ALWAYS.stems.max(MAX_GROWTH.saturating_mul(first.stems)),
+        leaves: ALWAYS.leaves.max(MAX_GROWTH.saturating_mul(first.leaves)),
+        knots: ALWAYS.knots.max(MAX_GROWTH.saturating_mul(first.knots)),
     }
 }
 

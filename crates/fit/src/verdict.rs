@@ -27,7 +27,7 @@ pub const ROUGHLY: f64 = 0.5;
 pub const NOT_AT_ALL: f64 = 0.1;
 /// Likeness between 0 and 1 of the rule, at least: where two trees of a species are no more alike than
 /// two of any, the rule would divide by nothing.
-pub const LEAST_SPAN: f64 = 0.05;
+pub const MIN_SPAN: f64 = 0.05;
 
 /// A crown is too wide, or its tree too tall, from this factor on, and too narrow from its inverse.
 pub const SIZE_OFF: f64 = 1.1;
@@ -161,7 +161,7 @@ impl Verdict {
     ) -> Option<Self> {
         let one = references.same_species?.likeness;
         let other = references.other_species.unwrap_or(references.best_ellipse).likeness;
-        let share = |likeness: f64| (likeness - other) / (one - other).max(LEAST_SPAN);
+        let share = |likeness: f64| (likeness - other) / (one - other).max(MIN_SPAN);
         let of_kind = share(fresh.unwrap_or(tree));
         Some(Self {
             kind: Kindred::of(of_kind),

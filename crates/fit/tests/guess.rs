@@ -9,7 +9,7 @@ use pleach_fit::{
     Candidate, FirstGuess, FitError, FitProblem, FitSettings, GuessLibrary, GuessSettings, TreeSeed,
     first_guess,
 };
-use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering;
 
@@ -33,7 +33,7 @@ fn trees_of_other_seeds_and_sizes_are_named() {
     for name in ["bamboo", "lombardy_poplar", "small_pine"] {
         let mut problem = goal_of(name, 31, 128);
         // Half as high as the species is: the size of a tree cannot be seen.
-        problem.goals[0].frame.metres_per_pixel *= 0.5;
+        problem.goals[0].frame.meters_per_pixel *= 0.5;
         let found = guess(&problem, &FitSettings::default());
         assert_eq!(found.names[0].0, name, "{:?}", found.names);
         assert!((found.names.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-9);
@@ -42,7 +42,7 @@ fn trees_of_other_seeds_and_sizes_are_named() {
         // What is returned is of the goal's height as it stands.
         let frame = problem.goals[0].frame;
         let top = f64::from(problem.goals[0].goal.ink_box().unwrap().1);
-        let goal_height = (frame.ground_row - top) * frame.metres_per_pixel;
+        let goal_height = (frame.ground_row - top) * frame.meters_per_pixel;
         let species = pleach_generators::preset(name).unwrap();
         let params = species.generator.space().check(found.nearest[0].values.clone()).unwrap();
         let tree = pleach_tree::Species { params, ..species }.grow(1).unwrap();
@@ -104,7 +104,7 @@ fn bare(name: &str, seed: u64) -> FitProblem {
     let goal = &mut problem.goals[0];
     goal.frame = Frame::automatic(&tree, &View::FRONT, false, 96, 96);
     let mut picture = Bitmap::default();
-    Rasteriser::with_detail(Detail::Half).draw(&tree, &View::FRONT, &goal.frame, false, &mut picture);
+    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &goal.frame, false, &mut picture);
     goal.goal = picture;
     problem
 }
@@ -113,7 +113,7 @@ fn bare(name: &str, seed: u64) -> FitProblem {
 #[test]
 fn a_library_serves_many_goals_and_gives_the_bits_of_a_fresh_one() {
     let mut taller = goal_of("acer", 8, 96);
-    taller.goals[0].frame.metres_per_pixel *= 1.7;
+    taller.goals[0].frame.meters_per_pixel *= 1.7;
     let goals = [goal_of("palm", 3, 96), taller, bare("acer", 9), goal_of("small_pine", 5, 64)];
     let settings = FitSettings::default();
     let how = GuessSettings { variants: 2, seeds: 2, detect_leaves: true, ..GuessSettings::default() };

@@ -9,7 +9,7 @@ use pleach_fit::{
     Azimuth, Budget, Control, FitProblem, FitSettings, Freedom, GoalView, Optimizer, Outcome, Placement,
     Start, Unknown, fit, placements,
 };
-use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -24,7 +24,7 @@ fn two_views(azimuth: f64, off: Placement, unknown: Unknown) -> FitProblem {
     let view = View::degrees(azimuth, 0.0);
     let frame = Frame::automatic(&tree, &view, true, SIZE, SIZE);
     let mut goal = Bitmap::default();
-    Rasteriser::with_detail(Detail::Half).draw(&tree, &view, &off.frame(&frame), true, &mut goal);
+    Rasterizer::with_detail(Detail::Half).draw(&tree, &view, &off.frame(&frame), true, &mut goal);
     // What is told of the direction is 10 degrees off.
     let view = View::degrees(azimuth - 10.0, 0.0);
     problem.goals.push(GoalView { goal, view, frame, unknown });

@@ -32,7 +32,7 @@ fn goals_that_cannot_be_compared_with_are_named() {
     let mut other_size = good.clone();
     other_size.goals[0].goal = Bitmap::new(31, 32);
     let mut no_scale = good.clone();
-    no_scale.goals[0].frame.metres_per_pixel = f64::NAN;
+    no_scale.goals[0].frame.meters_per_pixel = f64::NAN;
     let error = |problem| Evaluator::new(problem, Objective::Blend, LIMITS).unwrap_err();
     assert_eq!(error(&none), ProblemError::NoGoal);
     assert_eq!(error(&empty), ProblemError::EmptyGoal { index: 0 });

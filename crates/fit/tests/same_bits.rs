@@ -101,7 +101,7 @@ fn another_goal_is_another_run() {
     // The same picture of a larger tree, and of one without leaves.
     let control = || Control { checkpoint: Some(file.clone()), ..Control::new(&clock, &stop) };
     let mut taller = goal_of("palm", 1, 64);
-    taller.goals[0].frame.metres_per_pixel *= 1.2;
+    taller.goals[0].frame.meters_per_pixel *= 1.2;
     let error = fit(&taller, &settings, control()).unwrap_err().to_string();
     assert!(error.ends_with("it differs in the tree's height (--height)"), "{error}");
     let bare = FitProblem { foliage: false, ..goal_of("palm", 1, 64) };

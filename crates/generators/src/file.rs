@@ -9,7 +9,7 @@ use std::io::Read;
 use std::path::Path;
 
 /// Largest species file that is read, in bytes: a thousand times the usual.
-pub(crate) const LARGEST: u64 = 4 << 20;
+pub(crate) const MAX_BYTES: u64 = 4 << 20;
 
 /// Reads a species file; a file without a name is called by its own.
 ///
@@ -36,13 +36,13 @@ fn from(reader: impl Read, path: &Path, name: &str) -> Result<Species, RegistryE
     // size is not to be trusted, so nothing is asked.
     let mut bytes = Vec::new();
     reader
-        .take(LARGEST + 1)
+        .take(MAX_BYTES + 1)
         .read_to_end(&mut bytes)
         .map_err(|source| RegistryError::Unreadable { path: path.to_owned(), source })?;
     if let Some(kind) = picture(&bytes) {
         return Err(RegistryError::Picture { path: path.to_owned(), kind });
     }
-    if bytes.len() as u64 > LARGEST {
+    if bytes.len() as u64 > MAX_BYTES {
         return Err(RegistryError::TooLarge { path: path.to_owned() });
     }
     let origin = path.display().to_string();
@@ -106,7 +106,7 @@ mod tests {
     fn a_stream_without_an_end_is_read_to_the_limit() {
         let told = read(std::io::repeat(b'#'), "it").unwrap_err();
         assert!(matches!(told, RegistryError::TooLarge { .. }), "{told}");
-        let all = vec![b'#'; LARGEST as usize];
+        let all = vec![b'#'; MAX_BYTES as usize];
         assert_eq!(read(all.as_slice(), "a/b").unwrap().name, "a_b");
     }
 

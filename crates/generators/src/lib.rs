@@ -49,7 +49,7 @@ pub enum RegistryError {
         source: std::io::Error,
     },
     /// The file is far larger than a species.
-    #[error("{} is too large: a species file has at most {} bytes", path.display(), file::LARGEST)]
+    #[error("{} is too large: a species file has at most {} bytes", path.display(), file::MAX_BYTES)]
     TooLarge {
         /// The file.
         path: PathBuf,

@@ -8,7 +8,7 @@
 mod support;
 
 use pleach_mesh::{Mesh, MeshSettings, lod};
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 
 fn main() {
     let only: Vec<String> = std::env::args().skip(1).collect();
@@ -20,12 +20,12 @@ fn main() {
             let tree = if foliage { species.grow(1) } else { species.grow_bare(1) }.unwrap();
             let frame = Frame::automatic(&tree, &View::FRONT, foliage, 512, 512);
             let mut direct = Bitmap::new(512, 512);
-            Rasteriser::new().draw(&tree, &View::FRONT, &frame, foliage, &mut direct);
+            Rasterizer::new().draw(&tree, &View::FRONT, &frame, foliage, &mut direct);
             let mesh = Mesh::of(&tree, MeshSettings::default());
             let iou = support::iou(&direct, &support::silhouette(&mesh, &View::FRONT, &frame));
             let small = frame.scaled(256, 256);
             let finest = support::silhouette(&mesh, &View::FRONT, &small);
-            for n in 0..lod::MOST_LEVELS {
+            for n in 0..lod::MAX_LEVELS {
                 let level = lod::level(&tree, MeshSettings::default(), n);
                 let mesh = Mesh::of(&level.tree, level.settings);
                 let like = support::iou(&finest, &support::silhouette(&mesh, &View::FRONT, &small));

@@ -14,7 +14,7 @@ use pleach_tree::trig::sin_cos;
 use std::f64::consts::PI;
 
 /// Most cards of a tree.
-pub const MOST_SIDES: u32 = 8;
+pub const MAX_SIDES: u32 = 8;
 /// Height of a card's picture in pixels.
 const HEIGHT: u32 = 256;
 /// Part of a card around the tree that stays empty, so that neighbours in the picture do not bleed.
@@ -39,11 +39,11 @@ pub struct Billboards {
 }
 
 impl Billboards {
-    /// Paints `trees`, each from `sides` (1 to [`MOST_SIDES`]) directions spread over half a turn, the
+    /// Paints `trees`, each from `sides` (1 to [`MAX_SIDES`]) directions spread over half a turn, the
     /// first looking along +y.
     #[must_use]
     pub fn paint(trees: &[&Tree], palette: &Palette, sides: u32) -> Self {
-        let sides = sides.clamp(1, MOST_SIDES);
+        let sides = sides.clamp(1, MAX_SIDES);
         let painted: Vec<Vec<(Card, Picture)>> =
             trees.iter().map(|tree| paint(tree, palette, sides)).collect();
         let widest = painted.iter().flatten().map(|(_, p)| p.width).max().unwrap_or(1);

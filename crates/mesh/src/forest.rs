@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 /// Throws around a point before it is given up (Bridson's k).
 const THROWS: u32 = 30;
 /// No forest has more trees.
-const MOST_TREES: usize = 1_000_000;
+const MAX_TREES: usize = 1_000_000;
 
 /// What a draw is for.
 mod purpose {
@@ -54,7 +54,7 @@ pub enum ForestError {
     },
     /// More trees than any file should hold.
     #[error(
-        "{width} × {depth} m with a tree every {spacing} m are more than {MOST_TREES} trees; a wider spacing"
+        "{width} × {depth} m with a tree every {spacing} m are more than {MAX_TREES} trees; a wider spacing"
     )]
     TooMany {
         /// Metres along x.
@@ -84,7 +84,7 @@ pub fn plant(
         return Err(ForestError::NotPositive { width, depth, spacing });
     }
     // Each disc of half the spacing takes at least its own area.
-    if (width / spacing + 1.0) * (depth / spacing + 1.0) * 1.3 > MOST_TREES as f64 {
+    if (width / spacing + 1.0) * (depth / spacing + 1.0) * 1.3 > MAX_TREES as f64 {
         return Err(ForestError::TooMany { width, depth, spacing });
     }
     let key = Key::root(seed);

@@ -10,7 +10,7 @@ use crate::preview::Picture;
 use crate::sink::Material;
 use pleach_tree::Tree;
 use pleach_tree::leaf_shape::{BlossomShape, LeafShape};
-use pleach_tree::species::Colour;
+use pleach_tree::species::Color;
 
 /// Height and width in pixels.
 const SIDE: u32 = 128;
@@ -30,18 +30,18 @@ pub fn of(tree: &Tree, palette: &Palette) -> Vec<(Material, Picture)> {
 
 /// A leaf of this shape and colour, with its midrib and veins.
 #[must_use]
-pub fn leaf(shape: LeafShape, colour: Colour) -> Picture {
+pub fn leaf(shape: LeafShape, color: Color) -> Picture {
     let outline = shape.outline();
     let widest = outline.iter().map(|p| p[0].abs()).fold(f32::MIN_POSITIVE, f32::max);
     let blade: Vec<Point> = outline.iter().map(|p| [0.5 + 0.5 * p[0] / widest, 1.0 - p[1]]).collect();
     // Needles have no side veins to be seen.
     let veins = if widest > 0.1 { 7.0 } else { 0.0 };
-    draw(&[blade], |u, v| leaf_shade(u, v, veins), colour)
+    draw(&[blade], |u, v| leaf_shade(u, v, veins), color)
 }
 
 /// A blossom of this shape and colour from above, darker towards its heart.
 #[must_use]
-pub fn blossom(shape: BlossomShape, colour: Colour) -> Picture {
+pub fn blossom(shape: BlossomShape, color: Color) -> Picture {
     let faces = shape.faces();
     let reach = spread(shape).0;
     let at = |i: &u8| {
@@ -50,7 +50,7 @@ pub fn blossom(shape: BlossomShape, colour: Colour) -> Picture {
     };
     let petals: Vec<Vec<Point>> = faces.polygons.iter().map(|p| p.iter().map(at).collect()).collect();
     let shade = |u: f32, v: f32| 0.78 + 0.3 * ((u - 0.5).hypot(v - 0.5) * 2.0).min(1.0);
-    draw(&petals, shade, colour)
+    draw(&petals, shade, color)
 }
 
 /// Lighter ribs, each with a darker side, that leave the middle at an acute angle.
@@ -67,7 +67,7 @@ fn leaf_shade(u: f32, v: f32, veins: f32) -> f32 {
     shade
 }
 
-fn draw(polygons: &[Vec<Point>], shade: impl Fn(f32, f32) -> f32, Colour(colour): Colour) -> Picture {
+fn draw(polygons: &[Vec<Point>], shade: impl Fn(f32, f32) -> f32, Color(color): Color) -> Picture {
     let mut rgba = Vec::with_capacity((SIDE * SIDE * 4) as usize);
     for (y, x) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (y, x))) {
         let sample = |i: u32| (i as f32 + 0.5) / (SIDE * SAMPLES) as f32;
@@ -79,7 +79,7 @@ fn draw(polygons: &[Vec<Point>], shade: impl Fn(f32, f32) -> f32, Colour(colour)
             .count();
         let middle = |i: u32| (i as f32 + 0.5) / SIDE as f32;
         let light = if covered > 0 { shade(middle(x), middle(y)) } else { 1.0 };
-        rgba.extend(colour.map(|c| (f32::from(c) * light).round().clamp(0.0, 255.0) as u8));
+        rgba.extend(color.map(|c| (f32::from(c) * light).round().clamp(0.0, 255.0) as u8));
         rgba.push((covered as u32 * 255 / (SAMPLES * SAMPLES)) as u8);
     }
     Picture { width: SIDE, height: SIDE, rgba }
@@ -101,7 +101,7 @@ fn inside(polygon: &[Point], p: Point) -> bool {
 mod tests {
     use super::*;
 
-    const GREEN: Colour = Colour([90, 140, 50]);
+    const GREEN: Color = Color([90, 140, 50]);
 
     fn covered(picture: &Picture) -> f32 {
         let alpha: u64 = picture.rgba.chunks_exact(4).map(|p| u64::from(p[3])).sum();
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn blossoms_have_petals_and_gaps_and_no_dark_edges() {
         for shape in BlossomShape::ALL {
-            let picture = blossom(shape, Colour([240, 200, 210]));
+            let picture = blossom(shape, Color([240, 200, 210]));
             assert!((0.15..0.9).contains(&covered(&picture)), "{shape:?}: {}", covered(&picture));
             assert!(picture.rgba.chunks_exact(4).all(|p| p[0] > 170), "{shape:?}");
         }

@@ -24,7 +24,7 @@
 
 pub mod billboard;
 pub mod block;
-mod few_colours;
+mod few_colors;
 mod foliage;
 pub mod forest;
 pub mod leaf_picture;

@@ -11,7 +11,7 @@ use pleach_tree::{Leaf, Stem, Tree};
 use std::borrow::Cow;
 
 /// Most levels that [`levels`] makes, the finest included.
-pub const MOST_LEVELS: u32 = 6;
+pub const MAX_LEVELS: u32 = 6;
 
 /// A tree made ready for one level of detail.
 #[derive(Clone, Debug)]
@@ -35,7 +35,7 @@ struct Recipe {
     twigs: f64,
 }
 
-const RECIPES: [Recipe; MOST_LEVELS as usize] = [
+const RECIPES: [Recipe; MAX_LEVELS as usize] = [
     Recipe { tolerance: 1.0, sides: (4, 96), leaves: LeafStyle::Outline, merged: 1, twigs: 0.0 },
     Recipe { tolerance: 2.0, sides: (4, 16), leaves: LeafStyle::Reduced, merged: 1, twigs: 0.0 },
     Recipe { tolerance: 4.0, sides: (3, 10), leaves: LeafStyle::Simple, merged: 1, twigs: 0.0 },
@@ -45,14 +45,14 @@ const RECIPES: [Recipe; MOST_LEVELS as usize] = [
 ];
 
 /// `count` levels of `tree`, the finest first, which is `tree` itself after `settings`. At most
-/// [`MOST_LEVELS`].
+/// [`MAX_LEVELS`].
 #[must_use]
 pub fn levels(tree: &Tree, settings: MeshSettings, count: u32) -> Vec<Level<'_>> {
-    (0..count.min(MOST_LEVELS)).map(|level| self::level(tree, settings, level)).collect()
+    (0..count.min(MAX_LEVELS)).map(|level| self::level(tree, settings, level)).collect()
 }
 
 /// Level number `level` of `tree`: 0 is `tree` itself after `settings`, the coarsest is
-/// [`MOST_LEVELS`] − 1.
+/// [`MAX_LEVELS`] − 1.
 #[must_use]
 pub fn level(tree: &Tree, settings: MeshSettings, level: u32) -> Level<'_> {
     let Some(recipe) = RECIPES.get(level as usize).filter(|_| level > 0) else {
@@ -87,13 +87,13 @@ fn merge(leaves: &mut Vec<Leaf>, run: usize) {
     for on_stem in leaves.chunk_by(|a, b| a.stem == b.stem) {
         for group in on_stem.chunks(run) {
             let area: f32 = group.iter().map(Leaf::unit_area).sum();
-            let middle = group.iter().map(centre).sum::<glam::Vec3>() / group.len() as f32;
-            let distance = |leaf: &&Leaf| centre(leaf).distance_squared(middle);
+            let middle = group.iter().map(center).sum::<glam::Vec3>() / group.len() as f32;
+            let distance = |leaf: &&Leaf| center(leaf).distance_squared(middle);
             let nearest = group.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
             let Some(&leaf) = nearest else { continue };
             let growth = (area / leaf.unit_area().max(f32::MIN_POSITIVE)).sqrt();
             merged.push(Leaf {
-                position: centre(&leaf) - leaf.along * (0.5 * growth),
+                position: center(&leaf) - leaf.along * (0.5 * growth),
                 along: leaf.along * growth,
                 across: leaf.across * growth,
                 ..leaf
@@ -103,7 +103,7 @@ fn merge(leaves: &mut Vec<Leaf>, run: usize) {
     *leaves = merged;
 }
 
-fn centre(leaf: &Leaf) -> glam::Vec3 {
+fn center(leaf: &Leaf) -> glam::Vec3 {
     leaf.position + leaf.along * 0.5
 }
 

@@ -2,20 +2,20 @@
 
 use crate::sink::Material;
 pub use pleach_tree::species::BarkPattern;
-use pleach_tree::species::{Colour, Look, Season};
+use pleach_tree::species::{Color, Look, Season};
 use pleach_tree::{Species, Tree};
 
 /// The colours that a tree is drawn in, and what it wears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Palette {
     /// Bark of trunks; twigs are a little darker in pictures.
-    pub bark: Colour,
+    pub bark: Color,
     /// How bark is marked.
     pub pattern: BarkPattern,
     /// Leaves, in the season's colour.
-    pub leaf: Colour,
+    pub leaf: Color,
     /// Blossoms.
-    pub blossom: Colour,
+    pub blossom: Color,
     /// Whether leaves are on the tree.
     pub leaves: bool,
     /// Whether blossoms are on the tree.
@@ -63,19 +63,19 @@ impl Palette {
 
     /// The colour of a material.
     #[must_use]
-    pub const fn colour(&self, material: Material) -> Colour {
+    pub const fn color(&self, material: Material) -> Color {
         match material {
             Material::Bark => self.bark,
             Material::Leaf => self.leaf,
             Material::Blossom => self.blossom,
-            Material::Card => Colour([255; 3]),
+            Material::Card => Color([255; 3]),
         }
     }
 }
 
 /// A colour as intensities of light, 0 to 1 (IEC 61966-2-1).
 #[must_use]
-pub fn linear(Colour(channels): Colour) -> [f32; 3] {
+pub fn linear(Color(channels): Color) -> [f32; 3] {
     channels.map(|c| {
         let c = f32::from(c) / 255.0;
         if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
@@ -83,14 +83,14 @@ pub fn linear(Colour(channels): Colour) -> [f32; 3] {
 }
 
 /// What spring's leaves are mixed with.
-const YOUNG_LEAF: Colour = Colour::from_hex(0xa8_c6_4e);
+const YOUNG_LEAF: Color = Color::from_hex(0xa8_c6_4e);
 /// What evergreens are mixed with in winter.
-const WINTER_SHADE: Colour = Colour::from_hex(0x3d_45_38);
+const WINTER_SHADE: Color = Color::from_hex(0x3d_45_38);
 
 /// `a` with the part `t` of `b`, channel by channel.
-fn mix(Colour(a): Colour, Colour(b): Colour, t: f32) -> Colour {
+fn mix(Color(a): Color, Color(b): Color, t: f32) -> Color {
     let channel = |i: usize| (f32::from(a[i]) * (1.0 - t) + f32::from(b[i]) * t).round() as u8;
-    Colour([channel(0), channel(1), channel(2)])
+    Color([channel(0), channel(1), channel(2)])
 }
 
 #[cfg(test)]
@@ -113,7 +113,7 @@ mod tests {
         let [summer, autumn] = [None, Some(Season::Autumn)].map(|s| palette("acer", s).leaf);
         assert_ne!(summer, autumn);
         let mut species = pleach_generators::preset("acer").unwrap();
-        let red = Colour([255, 0, 0]);
+        let red = Color([255, 0, 0]);
         species.appearance.autumn = Some(red);
         species.appearance.season = Some(Season::Autumn);
         assert_eq!(Palette::of(&species, None).leaf, red);
@@ -135,12 +135,12 @@ mod tests {
             assert!(species.appearance.leaf.is_some(), "{name}");
         }
         let birch = palette("silver_birch", None);
-        assert_eq!((birch.bark, birch.pattern), (Colour::from_hex(0xd9_d6_cc), BarkPattern::Banded));
+        assert_eq!((birch.bark, birch.pattern), (Color::from_hex(0xd9_d6_cc), BarkPattern::Banded));
     }
 
     #[test]
     fn middle_grey_is_a_fifth_of_the_light() {
-        assert!((linear(Colour([0x80; 3]))[0] - 0.216).abs() < 1e-3);
-        assert_eq!(linear(Colour([0xff; 3])), [1.0; 3]);
+        assert!((linear(Color([0x80; 3]))[0] - 0.216).abs() < 1e-3);
+        assert_eq!(linear(Color([0xff; 3])), [1.0; 3]);
     }
 }

@@ -1,6 +1,6 @@
 //! Pictures as PNG files, one or many in a row.
 
-use crate::few_colours::FewColours;
+use crate::few_colors::FewColors;
 use crate::preview::Picture;
 use std::io::{self, Write};
 
@@ -52,11 +52,11 @@ pub fn bytes(picture: &Picture) -> io::Result<Vec<u8>> {
 /// # Errors
 /// What the system says.
 pub fn write_indexed(out: &mut impl Write, picture: &Picture) -> io::Result<()> {
-    let few = FewColours::of(picture);
+    let few = FewColors::of(picture);
     let mut encoder = png::Encoder::new(out, picture.width, picture.height);
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_palette(few.colours.concat());
+    encoder.set_palette(few.colors.concat());
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     encoder.set_compression(png::Compression::High);
     // Differences of palette numbers mean nothing, so rows are packed as they are.

@@ -9,7 +9,7 @@ const ALONG_TRUNKS: u32 = 4;
 /// Joints along each branch of level 1.
 const ALONG_BRANCHES: u32 = 2;
 /// No more joints than this; further branches move with their parents.
-const MOST_JOINTS: usize = 1000;
+const MAX_JOINTS: usize = 1000;
 
 /// One joint: what hangs on it turns about its pivot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ impl Rig {
             };
             let length: f64 = tree.pieces_of(stem).map(|(piece, ..)| piece.length(8)).sum();
             let bones = match parent {
-                Some(joint) if wanted == 0 || rig.joints.len() + wanted as usize > MOST_JOINTS => {
+                Some(joint) if wanted == 0 || rig.joints.len() + wanted as usize > MAX_JOINTS => {
                     Bones { first: joint, count: 1, length }
                 }
                 _ => rig.add(tree, i, parent, wanted.max(1), length),
@@ -104,7 +104,7 @@ mod tests {
         for name in ["quaking_aspen", "black_tupelo", "palm"] {
             let tree = pleach_generators::preset(name).unwrap().grow_bare(3).unwrap();
             let rig = Rig::of(&tree);
-            assert!(rig.joints.len() <= MOST_JOINTS && rig.joints.len() >= 4, "{name}");
+            assert!(rig.joints.len() <= MAX_JOINTS && rig.joints.len() >= 4, "{name}");
             for (i, joint) in rig.joints.iter().enumerate() {
                 assert!(joint.parent.is_none_or(|p| usize::from(p) < i));
                 assert!(joint.pivot.is_finite());

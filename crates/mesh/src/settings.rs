@@ -25,7 +25,7 @@ pub struct MeshSettings {
     pub tolerance: f64,
     /// Fewest sides of a stem, at least 3.
     pub min_sides: u32,
-    /// Most sides of a stem, at least `min_sides`, at most [`MeshSettings::MOST_SIDES`].
+    /// Most sides of a stem, at least `min_sides`, at most [`MeshSettings::MAX_SIDES`].
     pub max_sides: u32,
     /// How leaves and blossoms are drawn.
     pub leaves: LeafStyle,
@@ -35,7 +35,7 @@ pub struct MeshSettings {
 
 impl MeshSettings {
     /// No stem gets more sides than this.
-    pub const MOST_SIDES: u32 = 96;
+    pub const MAX_SIDES: u32 = 96;
 
     /// Settings for a tolerance in metres, everything else as by default.
     #[must_use]
@@ -46,8 +46,8 @@ impl MeshSettings {
     /// The settings with every number moved into its range.
     pub(crate) fn clamped(mut self) -> Self {
         self.tolerance = if self.tolerance.is_finite() { self.tolerance.clamp(1e-5, 1e3) } else { 1e3 };
-        self.min_sides = self.min_sides.clamp(3, Self::MOST_SIDES);
-        self.max_sides = self.max_sides.clamp(self.min_sides, Self::MOST_SIDES);
+        self.min_sides = self.min_sides.clamp(3, Self::MAX_SIDES);
+        self.max_sides = self.max_sides.clamp(self.min_sides, Self::MAX_SIDES);
         self
     }
 }

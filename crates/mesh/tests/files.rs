@@ -279,7 +279,7 @@ fn the_khronos_validator_finds_no_error_and_no_warning() {
     let dir = tempfile::tempdir().unwrap();
     let cards = MeshSettings { leaves: LeafStyle::CrossedCards, wind: true, ..MeshSettings::default() };
     let mut files: Vec<(String, Vec<u8>)> = vec![
-        ("levels".into(), levels_glb("acer", lod::MOST_LEVELS)),
+        ("levels".into(), levels_glb("acer", lod::MAX_LEVELS)),
         ("instances".into(), instanced("hill_cherry")),
         ("sway".into(), rigged("acer")),
         ("forest".into(), forest()),

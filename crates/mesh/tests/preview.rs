@@ -5,7 +5,7 @@
 use pleach_mesh::preview::{Background, Ground};
 use pleach_mesh::{Palette, Picture, Preview, PreviewSettings, png_file};
 use pleach_tree::Tree;
-use pleach_tree::species::{Colour, Season};
+use pleach_tree::species::{Color, Season};
 
 fn preview(name: &str, season: Option<Season>) -> Preview {
     let species = pleach_generators::preset(name).unwrap();
@@ -75,7 +75,7 @@ fn the_sun_stands_at_the_upper_left_and_the_ground_takes_the_shadow() {
 
 #[test]
 fn a_plain_background_is_exactly_its_colour() {
-    let background = Background::Plain(Colour([10, 200, 30]));
+    let background = Background::Plain(Color([10, 200, 30]));
     let picture = preview("palm", None).picture(&PreviewSettings { background, ..small() });
     assert_eq!(picture.rgba[..4], [10, 200, 30, 255]);
     assert!(picture.rgba.chunks_exact(4).all(|p| p[3] == 255));

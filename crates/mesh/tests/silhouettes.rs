@@ -6,7 +6,7 @@
 mod support;
 
 use pleach_mesh::{Billboards, Mesh, MeshSettings, Palette, lod};
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use support::{iou, silhouette};
 
 /// Species whose meshes take a moment; `experiments/export` has all of them.
@@ -19,7 +19,7 @@ fn meshes_have_the_silhouette_of_their_tree() {
             let tree = pleach_generators::preset(name).unwrap().grow(1).unwrap();
             let frame = Frame::automatic(&tree, &view, foliage, 512, 512);
             let mut direct = Bitmap::new(512, 512);
-            Rasteriser::new().draw(&tree, &view, &frame, foliage, &mut direct);
+            Rasterizer::new().draw(&tree, &view, &frame, foliage, &mut direct);
             let mesh = Mesh::of(&tree, MeshSettings::default());
             let found = iou(&direct, &silhouette(&mesh, &view, &frame));
             assert!(found >= least, "{name} {view:?}: {found}");
@@ -35,7 +35,7 @@ fn bare_meshes_have_the_ink_of_their_tree() {
         let tree = pleach_generators::preset(name).unwrap().grow_bare(1).unwrap();
         let frame = Frame::automatic(&tree, &View::FRONT, false, 512, 512);
         let mut direct = Bitmap::new(512, 512);
-        Rasteriser::new().draw(&tree, &View::FRONT, &frame, false, &mut direct);
+        Rasterizer::new().draw(&tree, &View::FRONT, &frame, false, &mut direct);
         let mesh = silhouette(&Mesh::of(&tree, MeshSettings::default()), &View::FRONT, &frame);
         let ink = mesh.ink() as f64 / direct.ink() as f64;
         assert!((0.92..=1.09).contains(&ink), "{name}: {ink} times the ink");
@@ -100,13 +100,13 @@ fn billboards_show_the_silhouette_of_their_tree() {
         for (card, view) in cards[0].iter().zip([View::FRONT, View::degrees(90.0, 0.0)]) {
             let frame = Frame::automatic(&tree, &view, true, 128, 128);
             let mut direct = Bitmap::new(128, 128);
-            Rasteriser::new().draw(&tree, &view, &frame, true, &mut direct);
+            Rasterizer::new().draw(&tree, &view, &frame, true, &mut direct);
             let half = card.corners[1].distance(card.corners[0]) / 2.0;
             let (bottom, top) = (card.corners[0].z, card.corners[3].z);
             let seen = Bitmap::from_fn(128, 128, |x, y| {
-                let metres = frame.metres_per_pixel as f32;
-                let across = (x as f32 + 0.5 - frame.axis_column as f32) * metres;
-                let up = (frame.ground_row as f32 - y as f32 - 0.5) * metres;
+                let meters = frame.meters_per_pixel as f32;
+                let across = (x as f32 + 0.5 - frame.axis_column as f32) * meters;
+                let up = (frame.ground_row as f32 - y as f32 - 0.5) * meters;
                 let (s, t) = (0.5 + 0.5 * across / half, (top - up) / (top - bottom));
                 if !(0.0..1.0).contains(&s) || !(0.0..1.0).contains(&t) {
                     return false;
@@ -127,7 +127,7 @@ fn levels_of_detail_keep_the_silhouette_and_lose_triangles() {
     for name in SPECIES.into_iter().chain(["hill_cherry", "bamboo"]) {
         let tree = pleach_generators::preset(name).unwrap().grow(1).unwrap();
         let frame = Frame::automatic(&tree, &View::FRONT, true, 256, 256);
-        let levels = lod::levels(&tree, MeshSettings::default(), lod::MOST_LEVELS);
+        let levels = lod::levels(&tree, MeshSettings::default(), lod::MAX_LEVELS);
         let mut last = usize::MAX;
         let mut finest = None;
         for (n, level) in levels.iter().enumerate() {

@@ -4,7 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
 use pleach_silhouette::score::likeness::{self, Descriptor};
-use pleach_silhouette::{Bitmap, Detail, Frame, Part, Rasteriser, View, referee};
+use pleach_silhouette::{Bitmap, Detail, Frame, Part, Rasterizer, View, referee};
 use std::hint::black_box;
 use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
 
@@ -17,9 +17,9 @@ fn raster(c: &mut Criterion) {
         let frame = Frame::automatic(&tree, &View::FRONT, true, size, size);
         let mut out = Bitmap::default();
         for (name, detail) in [("full", Detail::Full), ("half", Detail::Half), ("draft", Detail::Draft)] {
-            let mut rasteriser = Rasteriser::with_detail(detail);
+            let mut rasterizer = Rasterizer::with_detail(detail);
             c.bench_function(&format!("aspen/{size}/{name}"), |b| {
-                b.iter(|| rasteriser.draw(&tree, &View::FRONT, &frame, true, &mut out));
+                b.iter(|| rasterizer.draw(&tree, &View::FRONT, &frame, true, &mut out));
             });
         }
         // The same polygons, once a pixel and without anti-aliasing, as tiny-skia fills them.
@@ -48,7 +48,7 @@ fn score(c: &mut Criterion) {
         let tree = pleach_generators::species(name).expect("built in").grow(1).expect("it grows");
         let frame = Frame::automatic(&tree, &View::FRONT, true, 256, 256);
         let mut out = Bitmap::default();
-        Rasteriser::new().draw(&tree, &View::FRONT, &frame, true, &mut out);
+        Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut out);
         out
     };
     let (goal, picture) = (draw("quaking_aspen"), draw("black_oak"));

@@ -5,7 +5,7 @@
 //! ```
 
 use pleach_silhouette::goal::{Goal, GoalOptions};
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View, picture};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View, picture};
 use std::error::Error;
 use std::path::Path;
 
@@ -36,7 +36,7 @@ fn drawn(name: &str, foliage: bool) -> Result<Bitmap, Box<dyn Error>> {
     let tree = pleach_generators::species(name)?.grow(1)?;
     let frame = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
     let mut bitmap = Bitmap::default();
-    Rasteriser::new().draw(&tree, &View::FRONT, &frame, foliage, &mut bitmap);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, foliage, &mut bitmap);
     Ok(bitmap)
 }
 

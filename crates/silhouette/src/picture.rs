@@ -1,7 +1,7 @@
 //! Pictures for people: overlays of fit and goal, and sheets of silhouettes side by side.
 
 use crate::bitmap::Bitmap;
-use crate::raster::{Part, Rasteriser};
+use crate::raster::{Part, Rasterizer};
 use crate::view::{Frame, View};
 use font8x8::UnicodeFonts;
 use pleach_tree::Tree;
@@ -53,17 +53,17 @@ impl Picture {
     }
 
     /// Sets the colour at (x, y); nothing happens outside.
-    pub fn set(&mut self, x: u32, y: u32, colour: Rgb) {
+    pub fn set(&mut self, x: u32, y: u32, color: Rgb) {
         if x < self.width && y < self.height {
-            self.pixels[(y * self.width + x) as usize] = colour;
+            self.pixels[(y * self.width + x) as usize] = color;
         }
     }
 
-    /// Draws the ink of `bitmap` in `colour` with its upper left corner at (x, y).
-    pub fn stamp(&mut self, bitmap: &Bitmap, x: u32, y: u32, colour: Rgb) {
+    /// Draws the ink of `bitmap` in `color` with its upper left corner at (x, y).
+    pub fn stamp(&mut self, bitmap: &Bitmap, x: u32, y: u32, color: Rgb) {
         for row in 0..bitmap.height() {
             for column in bitmap.ink_in_row(row) {
-                self.set(x + column, y + row, colour);
+                self.set(x + column, y + row, color);
             }
         }
     }
@@ -129,15 +129,15 @@ pub fn overlay(fit: &Bitmap, goal: &Bitmap) -> Picture {
 ///
 /// Depth is not shown: foliage covers bark wherever both are.
 #[must_use]
-pub fn two_colours(tree: &Tree, view: &View, frame: &Frame, foliage: bool) -> Picture {
+pub fn two_colors(tree: &Tree, view: &View, frame: &Frame, foliage: bool) -> Picture {
     const BARK: Rgb = [92, 70, 52];
     const LEAVES: Rgb = [86, 125, 62];
     const BLOSSOM: Rgb = [222, 160, 178];
     let mut picture = Picture::new(frame.width, frame.height);
-    let mut rasteriser = Rasteriser::new();
+    let mut rasterizer = Rasterizer::new();
     let (mut bitmap, mut coverage) = (Bitmap::default(), Vec::new());
     for part in [Part::Stems, Part::Leaves, Part::Blossoms] {
-        let colour = match part {
+        let color = match part {
             Part::Stems => BARK,
             Part::Leaves => LEAVES,
             Part::Blossoms => BLOSSOM,
@@ -145,11 +145,11 @@ pub fn two_colours(tree: &Tree, view: &View, frame: &Frame, foliage: bool) -> Pi
         if part != Part::Stems && !foliage {
             continue;
         }
-        rasteriser.draw_parts(tree, view, frame, &[part], &mut bitmap);
-        rasteriser.coverage(&mut coverage);
+        rasterizer.draw_parts(tree, view, frame, &[part], &mut bitmap);
+        rasterizer.coverage(&mut coverage);
         for (pixel, &samples) in picture.pixels.iter_mut().zip(&coverage) {
-            let share = f32::from(samples) / f32::from(rasteriser.samples());
-            for (under, over) in pixel.iter_mut().zip(colour) {
+            let share = f32::from(samples) / f32::from(rasterizer.samples());
+            for (under, over) in pixel.iter_mut().zip(color) {
                 *under = (f32::from(*under) * (1.0 - share) + f32::from(over) * share).round() as u8;
             }
         }

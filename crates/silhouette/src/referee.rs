@@ -24,7 +24,7 @@ pub struct Verdict {
 
 /// A frame was too large to be drawn so finely.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{width} × {height} pixels, {fineness} times as fine, are more than the referee's {MOST_SIDE}")]
+#[error("{width} × {height} pixels, {fineness} times as fine, are more than the referee's {MAX_SIDE}")]
 pub struct TooFine {
     /// Width of the frame in pixels.
     pub width: u32,
@@ -35,7 +35,7 @@ pub struct TooFine {
 }
 
 /// Longest side, in samples: 256 megabytes.
-pub const MOST_SIDE: u32 = 16_384;
+pub const MAX_SIDE: u32 = 16_384;
 
 /// Farthest that a chord strays from its curve, in pixels.
 const TOLERANCE: f64 = 0.02;
@@ -43,7 +43,7 @@ const TOLERANCE: f64 = 0.02;
 /// Draws `tree` with `fineness` × `fineness` samples a pixel and without anti-aliasing.
 ///
 /// # Errors
-/// If a side of the picture has more than [`MOST_SIDE`] samples.
+/// If a side of the picture has more than [`MAX_SIDE`] samples.
 pub fn draw(
     tree: &Tree,
     view: &View,
@@ -54,7 +54,7 @@ pub fn draw(
     let Frame { width, height, .. } = *frame;
     let too_fine = TooFine { width, height, fineness };
     let (wide, high) = (width.saturating_mul(fineness), height.saturating_mul(fineness));
-    if wide.max(high) > MOST_SIDE {
+    if wide.max(high) > MAX_SIDE {
         return Err(too_fine);
     }
     let mut mask = Mask::new(wide, high).ok_or(too_fine)?;
@@ -148,15 +148,15 @@ fn seen(camera: &Camera, point: DVec3) -> Option<DVec2> {
 /// Centre and left rim of the stem at `t`, in pixels.
 fn rib(camera: &Camera, piece: &Cubic, t: f64, radius: f64, straight: DVec3) -> Option<(DVec2, DVec2)> {
     let point = piece.at(t);
-    let centre = seen(camera, point)?;
+    let center = seen(camera, point)?;
     let ahead = |v: DVec3| DVec2::new(v.dot(camera.right), v.dot(camera.down)).try_normalize();
     let along = ahead(piece.derivative(t)).or_else(|| ahead(straight)).unwrap_or(DVec2::Y);
-    let wide = radius * camera.pixels_per_metre() * camera.magnification(point)?;
-    Some((centre, along.perp() * wide))
+    let wide = radius * camera.pixels_per_meter() * camera.magnification(point)?;
+    Some((center, along.perp() * wide))
 }
 
 fn strip(camera: &Camera, piece: &Cubic, r0: f64, r1: f64, straight: DVec3, fill: &mut impl FnMut(&[DVec2])) {
-    let chords = piece.chords(TOLERANCE / camera.pixels_per_metre());
+    let chords = piece.chords(TOLERANCE / camera.pixels_per_meter());
     let at = |i: u32| {
         let t = f64::from(i) / f64::from(chords);
         rib(camera, piece, t, r0 + (r1 - r0) * t, straight)
@@ -172,11 +172,11 @@ fn strip(camera: &Camera, piece: &Cubic, r0: f64, r1: f64, straight: DVec3, fill
 /// The round end of a stem, seen at an angle.
 fn disc(camera: &Camera, piece: &Cubic, t: f64, radius: f64, fill: &mut impl FnMut(&[DVec2])) {
     let Some(tangent) = piece.derivative(t).try_normalize() else { return };
-    let Some((centre, side)) = rib(camera, piece, t, radius, tangent) else { return };
+    let Some((center, side)) = rib(camera, piece, t, radius, tangent) else { return };
     let short = side.perp() * tangent.dot(camera.away).abs();
     let corners: [DVec2; 64] = std::array::from_fn(|i| {
         let (sin, cos) = (i as f64 * std::f64::consts::TAU / 64.0).sin_cos();
-        centre + side * cos + short * sin
+        center + side * cos + short * sin
     });
     fill(&corners);
 }

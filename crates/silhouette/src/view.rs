@@ -59,7 +59,7 @@ pub struct Frame {
     /// Height in pixels.
     pub height: u32,
     /// Metres that a pixel is wide and high.
-    pub metres_per_pixel: f64,
+    pub meters_per_pixel: f64,
     /// Where the trunk's foot is, in pixels from the left edge; pixel 0 reaches from 0 to 1.
     pub axis_column: f64,
     /// Where the trunk's foot is, in pixels from the top edge.
@@ -80,7 +80,7 @@ impl Frame {
             return Self {
                 width,
                 height,
-                metres_per_pixel: 1.0,
+                meters_per_pixel: 1.0,
                 axis_column: f64::from(width) / 2.0,
                 ground_row: f64::from(height),
             };
@@ -101,13 +101,13 @@ impl Frame {
         // A level view puts the ground at the edge and cuts off what hangs below it.
         let below = if view.elevation == 0.0 { 0.0 } else { -bottom };
         let (w, h) = (f64::from(width) * Self::FILL, f64::from(height) * Self::FILL);
-        let metres_per_pixel = (2.0 * reach / w).max((top + below) / h).max(1e-9);
+        let meters_per_pixel = (2.0 * reach / w).max((top + below) / h).max(1e-9);
         Self {
             width,
             height,
-            metres_per_pixel,
+            meters_per_pixel,
             axis_column: f64::from(width) / 2.0,
-            ground_row: f64::from(height) - below / metres_per_pixel,
+            ground_row: f64::from(height) - below / meters_per_pixel,
         }
     }
 
@@ -118,7 +118,7 @@ impl Frame {
         Self {
             width,
             height,
-            metres_per_pixel: self.metres_per_pixel / factor,
+            meters_per_pixel: self.meters_per_pixel / factor,
             axis_column: self.axis_column * factor,
             ground_row: self.ground_row * factor,
         }
@@ -135,7 +135,7 @@ pub struct Camera {
     pub(crate) away: DVec3,
     origin: (f64, f64),
     distance: f64,
-    pixels_per_metre: f64,
+    pixels_per_meter: f64,
 }
 
 impl Camera {
@@ -143,17 +143,17 @@ impl Camera {
     #[must_use]
     pub fn new(view: &View, frame: &Frame) -> Self {
         let [right, up, away] = view.axes();
-        let pixels_per_metre = 1.0 / frame.metres_per_pixel;
+        let pixels_per_meter = 1.0 / frame.meters_per_pixel;
         Self {
-            right: right * pixels_per_metre,
-            down: -up * pixels_per_metre,
+            right: right * pixels_per_meter,
+            down: -up * pixels_per_meter,
             away,
             origin: (frame.axis_column, frame.ground_row),
             distance: match view.projection {
                 Projection::Orthographic => f64::INFINITY,
                 Projection::Perspective { distance } => distance.max(1e-3),
             },
-            pixels_per_metre,
+            pixels_per_meter,
         }
     }
 
@@ -182,8 +182,8 @@ impl Camera {
 
     /// Pixels that a metre at the axis measures.
     #[must_use]
-    pub const fn pixels_per_metre(&self) -> f64 {
-        self.pixels_per_metre
+    pub const fn pixels_per_meter(&self) -> f64 {
+        self.pixels_per_meter
     }
 }
 
@@ -204,7 +204,7 @@ mod tests {
     #[test]
     fn perspective_is_true_at_the_axis() {
         let frame =
-            Frame { width: 100, height: 100, metres_per_pixel: 0.1, axis_column: 50.0, ground_row: 90.0 };
+            Frame { width: 100, height: 100, meters_per_pixel: 0.1, axis_column: 50.0, ground_row: 90.0 };
         let view = View { projection: Projection::Perspective { distance: 10.0 }, ..View::FRONT };
         let camera = Camera::new(&view, &frame);
         let seen = |p: DVec3| camera.magnification(p).map(|m| camera.project(p, m));

@@ -44,7 +44,7 @@ fn foreign_goals_load_whole_and_reduced() {
         // Thin twigs lose some of themselves, foliage gains some: not more than a third.
         assert!((ratio(&small) / ratio(&whole) - 1.0).abs() < 0.34, "{name}");
         assert!(
-            (small.frame(10.0).metres_per_pixel * 256.0 / 512.0 - whole.frame(10.0).metres_per_pixel).abs()
+            (small.frame(10.0).meters_per_pixel * 256.0 / 512.0 - whole.frame(10.0).meters_per_pixel).abs()
                 < 1e-9
         );
     }

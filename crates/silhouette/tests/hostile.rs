@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, RgbaImage};
-use pleach_silhouette::goal::{Encoded, Goal, GoalError, GoalOptions, MOST_BYTES};
+use pleach_silhouette::goal::{Encoded, Goal, GoalError, GoalOptions, MAX_BYTES};
 use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
 use proptest::prelude::*;
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
@@ -251,7 +251,7 @@ fn of_an_animation_and_of_pages_the_first_is_taken_and_that_is_said() {
 fn tiff_is_read_in_its_common_kinds() {
     let expected = goal(&encoded(ImageFormat::Png)).unwrap().bitmap;
     let rgb = DynamicImage::from(picture().to_rgb8());
-    let grey =
+    let gray =
         DynamicImage::from(GrayImage::from_fn(60, 52, |x, y| Luma([if is_tree(x, y) { 0 } else { 255 }])));
     let clear =
         RgbaImage::from_fn(60, 52, |x, y| image::Rgba([9, 9, 9, if is_tree(x, y) { 255 } else { 0 }]));
@@ -259,8 +259,8 @@ fn tiff_is_read_in_its_common_kinds() {
         rgb.clone(),
         rgb.to_rgba8().into(),
         rgb.to_rgb16().into(),
-        grey.clone(),
-        grey.to_luma16().into(),
+        gray.clone(),
+        gray.to_luma16().into(),
         clear.into(),
     ] {
         let mut bytes = Cursor::new(Vec::new());
@@ -297,7 +297,7 @@ fn readers_are_read_to_their_end_and_no_further_than_may_be() {
     let mut endless = Pipe(&png, 0);
     let error = Encoded::read("endless", &mut endless).unwrap_err();
     assert!(matches!(error, GoalError::TooManyBytes { .. }), "{error}");
-    assert!(endless.1 as u64 <= MOST_BYTES + 64, "{}", endless.1);
+    assert!(endless.1 as u64 <= MAX_BYTES + 64, "{}", endless.1);
 }
 
 /// Bytes of a picture with some of them changed: single ones, runs, lengths that are huge, a cut, a copy of
@@ -353,7 +353,7 @@ proptest! {
             result
         });
         // A picture of the most pixels takes this much, once as a goal and once as a photograph.
-        prop_assert!(memory as u64 <= 12 * MOST_BYTES, "{} MB", memory >> 20);
+        prop_assert!(memory as u64 <= 12 * MAX_BYTES, "{} MB", memory >> 20);
         if let Err(error) = result {
             prop_assert!(error.to_string().contains("picture"), "{error}");
         }

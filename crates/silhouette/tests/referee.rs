@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_silhouette::{Bitmap, Frame, Part, Rasteriser, View, referee};
+use pleach_silhouette::{Bitmap, Frame, Part, Rasterizer, View, referee};
 use pleach_tree::Tree;
 
 const LEAFY: &[Part] = &[Part::Stems, Part::Leaves, Part::Blossoms];
@@ -23,11 +23,11 @@ struct Case {
 
 fn compare(name: &str, tree: &Tree, parts: &[Part], size: u32, fineness: u32) -> Case {
     let frame = Frame::automatic(tree, &View::FRONT, true, size, size);
-    let mut rasteriser = Rasteriser::new();
+    let mut rasterizer = Rasterizer::new();
     let (mut ours, mut samples) = (Bitmap::default(), Vec::new());
-    rasteriser.draw_parts(tree, &View::FRONT, &frame, parts, &mut ours);
-    rasteriser.coverage(&mut samples);
-    let covered = samples.iter().map(|&s| f64::from(s)).sum::<f64>() / f64::from(rasteriser.samples());
+    rasterizer.draw_parts(tree, &View::FRONT, &frame, parts, &mut ours);
+    rasterizer.coverage(&mut samples);
+    let covered = samples.iter().map(|&s| f64::from(s)).sum::<f64>() / f64::from(rasterizer.samples());
     let verdict = referee::draw(tree, &View::FRONT, &frame, parts, fineness).unwrap();
     let both = ours.intersection(&verdict.bitmap) as f64;
     let union = (ours.ink() + verdict.bitmap.ink()) as f64 - both;

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use glam::{DVec3, Vec3, dvec3, vec3};
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::leaf_shape::LeafShape;
 use pleach_tree::{Knot, Leaf, Stem, StemKind, Tree};
 use proptest::prelude::*;
@@ -37,7 +37,7 @@ fn frame(width: u32, height: u32) -> Frame {
     Frame {
         width,
         height,
-        metres_per_pixel: 1.0,
+        meters_per_pixel: 1.0,
         axis_column: f64::from(width) / 2.0,
         ground_row: f64::from(height),
     }
@@ -45,7 +45,7 @@ fn frame(width: u32, height: u32) -> Frame {
 
 fn drawn(tree: &Tree, view: &View, frame: &Frame) -> Bitmap {
     let mut bitmap = Bitmap::default();
-    Rasteriser::new().draw(tree, view, frame, true, &mut bitmap);
+    Rasterizer::new().draw(tree, view, frame, true, &mut bitmap);
     bitmap
 }
 
@@ -154,7 +154,7 @@ proptest! {
     #[test]
     fn any_tree_can_be_drawn(tree in any_tree(1e4), azimuth in -10.0..10.0_f64, elevation in -90.0..90.0_f64, scale in -6.0..6.0_f64, distance in 1.0..1e5_f64) {
         let view = View { projection: pleach_silhouette::Projection::Perspective { distance }, ..View::degrees(azimuth * 50.0, elevation) };
-        let frame = Frame { metres_per_pixel: 10.0_f64.powf(scale), ..frame(70, 50) };
+        let frame = Frame { meters_per_pixel: 10.0_f64.powf(scale), ..frame(70, 50) };
         for view in [view, View::FRONT] {
             prop_assert!(drawn(&tree, &view, &frame) == drawn(&tree, &view, &frame));
         }

@@ -5,7 +5,7 @@
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage};
 use pleach_silhouette::goal::{Goal, GoalOptions, GoalWarning};
 use pleach_silhouette::mask::Touches;
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use std::io::Cursor;
 use std::path::PathBuf;
 
@@ -21,12 +21,12 @@ fn drawn(species: &str, share: f64) -> Bitmap {
     let tree = pleach_generators::species(species).unwrap().grow(1).unwrap();
     let upright = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
     let frame = Frame {
-        metres_per_pixel: upright.metres_per_pixel / share,
+        meters_per_pixel: upright.meters_per_pixel / share,
         ground_row: 0.95 * f64::from(SIDE),
         ..upright
     };
     let mut bitmap = Bitmap::default();
-    Rasteriser::new().draw(&tree, &View::FRONT, &frame, true, &mut bitmap);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut bitmap);
     bitmap
 }
 
@@ -176,11 +176,11 @@ fn photograph() -> RgbImage {
 
 #[test]
 fn a_photograph_is_told_from_a_silhouette_in_colours() {
-    let colour: DynamicImage = photograph().into();
+    let color: DynamicImage = photograph().into();
     for (picture, format) in [
-        (colour.clone(), ImageFormat::Png),
-        (colour.clone(), ImageFormat::Jpeg),
-        (colour.to_luma8().into(), ImageFormat::Png),
+        (color.clone(), ImageFormat::Png),
+        (color.clone(), ImageFormat::Jpeg),
+        (color.to_luma8().into(), ImageFormat::Png),
     ] {
         assert!(kinds(&read(&picture, format).warnings).contains(&"photograph"), "{format:?}");
     }
@@ -198,7 +198,7 @@ fn a_photograph_is_told_from_a_silhouette_in_colours() {
     let mask = GrayImage::from_fn(SIDE, SIDE, |x, y| Luma([if ink.get(x, y) { 255 } else { 0 }]));
     mask.save(dir.path().join("mask.png")).unwrap();
     let options = GoalOptions { mask: Some(dir.path().join("mask.png")), ..GoalOptions::default() };
-    let goal = Goal::from_bytes("photo", encoded(&colour, ImageFormat::Png), &options).unwrap();
+    let goal = Goal::from_bytes("photo", encoded(&color, ImageFormat::Png), &options).unwrap();
     assert_eq!((goal.bitmap, goal.warnings), (ink, vec![]));
 }
 

@@ -232,7 +232,7 @@ pub trait Generator: Send + Sync + fmt::Debug {
     /// sizes of their own: Weber and Penn's stems are never thinner than a centimetre.
     fn resize(&self, values: &mut [f64], factor: f64) -> bool {
         let space = self.space();
-        let sizes = || (0..space.len()).filter(|&slot| space.param_of(slot).unit == Unit::Metres);
+        let sizes = || (0..space.len()).filter(|&slot| space.param_of(slot).unit == Unit::Meters);
         let fits = sizes().all(|slot| space.check_slot(slot, values[slot] * factor).is_ok());
         if fits {
             sizes().for_each(|slot| values[slot] *= factor);

@@ -4,7 +4,7 @@
 //! turned like children, so this module serves both.
 
 use crate::budget::{Budget, CHILD_STEPS, Cause, Exceeded};
-use crate::grow::{Bench, Job, LEAST_LENGTH};
+use crate::grow::{Bench, Job, MIN_LENGTH};
 use crate::model::{Level, Model, shape_ratio};
 use crate::path::PathPoint;
 use crate::purpose;
@@ -274,12 +274,12 @@ pub(crate) fn collect(
         let radius_here = profile.at(place.offset / stem.length);
         // The tip of a cone has no radius to bear a fan; its base has.
         let radius_limit = if place.fan.is_some() { stem.radius } else { radius_here };
-        if radius_limit < LEAST_PARENT_RADIUS {
+        if radius_limit < MIN_PARENT_RADIUS {
             return Ok(());
         }
         let length = length(model, stem, child_length, place.offset);
         // What waits is counted as a stem, so it has to become one; pruning has the last word on it.
-        let is_a_stem = length.is_finite() && length >= LEAST_LENGTH;
+        let is_a_stem = length.is_finite() && length >= MIN_LENGTH;
         if !prunes && !is_a_stem {
             return Ok(());
         }
@@ -310,7 +310,7 @@ pub(crate) fn collect(
 }
 
 /// A parent thinner than this, in metres, bears nothing.
-const LEAST_PARENT_RADIUS: f64 = 1e-4;
+const MIN_PARENT_RADIUS: f64 = 1e-4;
 
 /// Nominal length of a child at `offset` metres along `stem`.
 fn length(model: &Model, stem: &Seedling, child_length: f64, offset: f64) -> f64 {

@@ -202,7 +202,7 @@ impl Job<'_> {
                 stem.radius = stem.branch_radius(model);
             }
         }
-        if !stem.length.is_finite() || stem.length < LEAST_LENGTH {
+        if !stem.length.is_finite() || stem.length < MIN_LENGTH {
             return Ok(());
         }
 
@@ -319,7 +319,7 @@ impl Job<'_> {
 }
 
 /// Stems shorter than this, in metres, are not made.
-pub(crate) const LEAST_LENGTH: f64 = 1e-4;
+pub(crate) const MIN_LENGTH: f64 = 1e-4;
 
 /// Collects the clones of a stem.
 struct Collect<'a> {

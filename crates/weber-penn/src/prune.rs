@@ -5,7 +5,7 @@ use crate::solid::Surroundings;
 use glam::DVec3;
 
 /// Below this part of its first length a stem is given up.
-const LEAST_PART: f64 = 0.15;
+const MIN_PART: f64 = 0.15;
 /// Each trial is this part of the one before.
 const SHRINK: f64 = 0.9;
 
@@ -37,7 +37,7 @@ pub(crate) fn pruned_length<E>(
     while !fits_at(trial)? {
         trial *= SHRINK;
         // Also for a length of zero, which no shrinking ends, and for one that is not a number.
-        if trial <= LEAST_PART * length || trial.is_nan() {
+        if trial <= MIN_PART * length || trial.is_nan() {
             if ratio >= 1.0 {
                 return Ok(None);
             }

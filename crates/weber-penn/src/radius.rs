@@ -41,15 +41,15 @@ impl Profile {
         }
         let to_tip = (1.0 - z) * self.length;
         let depth = if taper < 2.0 || to_tip < cone { 1.0 } else { taper - 2.0 };
-        let from_centre = if taper < 2.0 {
+        let from_center = if taper < 2.0 {
             to_tip
         } else {
             (to_tip - 2.0 * cone * (to_tip / (2.0 * cone) + 0.5).trunc()).abs()
         };
-        if taper < 2.0 && from_centre >= cone {
+        if taper < 2.0 && from_center >= cone {
             return cone;
         }
-        let round = (cone * cone - (from_centre - cone).powi(2)).max(0.0).sqrt();
+        let round = (cone * cone - (from_center - cone).powi(2)).max(0.0).sqrt();
         (1.0 - depth) * cone + depth * round
     }
 }

@@ -78,12 +78,12 @@ impl Seedling {
     pub(crate) fn branch_radius(&self, model: &Model) -> f64 {
         let part = self.length / self.parent_length;
         let radius = model.levels[self.depth].radius_mod * self.parent_radius * part.powf(model.ratio_power);
-        radius.max(LEAST_RADIUS).min(self.radius_limit)
+        radius.max(MIN_RADIUS).min(self.radius_limit)
     }
 }
 
 /// Branches are at least this thick, in metres, unless their parent is thinner.
-const LEAST_RADIUS: f64 = 0.005;
+const MIN_RADIUS: f64 = 0.005;
 
 #[cfg(test)]
 impl Seedling {

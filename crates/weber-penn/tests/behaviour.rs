@@ -352,7 +352,7 @@ fn mistakes_in_a_file_are_told_with_place_range_and_nearest_name() {
         ("name = \"a\\u001b[31m\"", "`name` contains the character \\u{1b}"),
         ("description = \"a\\u202eb\"", "`description` contains the character \\u{202e}"),
         ("seed = 3", "test.toml:1:1: `seed` is not a known name here: the seed of the tree is `tree_seed`"),
-        ("season = \"autumn\"", "`season` is not a known name here: it belongs to the table `[appearance]`"),
+        ("season = \"autumn\"", "`season` is not a known name, did you mean `appearance.season`?"),
     ];
     for (text, expected) in cases {
         let message = message(text);

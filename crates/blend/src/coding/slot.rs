@@ -9,7 +9,7 @@ use std::ops::Range;
 const RATIO_RANGE: std::ops::RangeInclusive<f64> = 3.0..=100.0;
 
 /// Whole numbers that reach beyond this are counts.
-const LARGEST_FEW: f64 = 9.0;
+const MAX_FEW: f64 = 9.0;
 
 /// One feature.
 #[derive(Clone, Debug, PartialEq)]
@@ -231,7 +231,7 @@ impl SlotCode {
 }
 
 fn count_stretch(largest: f64) -> Stretch {
-    if largest > LARGEST_FEW { Stretch::LogCount } else { Stretch::Linear }
+    if largest > MAX_FEW { Stretch::LogCount } else { Stretch::Linear }
 }
 
 /// The ends of the regimes: the breaks, the smallest allowed value, and the largest in use.

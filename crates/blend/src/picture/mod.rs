@@ -6,7 +6,7 @@ mod font;
 mod place;
 mod scene;
 
-pub use scene::{Anchor, Colour, Scene, Shape};
+pub use scene::{Anchor, Color, Scene, Shape};
 
 use crate::error::BlendError;
 use crate::map::BlendMap;
@@ -51,11 +51,11 @@ const TRAIT_COLUMNS: usize = 21;
 /// Each piece between two samples of a trait becomes so many, on a smooth curve, for its iso-lines.
 const REFINED: usize = 6;
 
-const INK: Colour = Colour::opaque([40, 40, 40]);
-const GREY: Colour = Colour::opaque([110, 110, 110]);
-const ACCENT: Colour = Colour::opaque([178, 34, 34]);
+const INK: Color = Color::opaque([40, 40, 40]);
+const GRAY: Color = Color::opaque([110, 110, 110]);
+const ACCENT: Color = Color::opaque([178, 34, 34]);
 /// Line colours of traits: blue, vermilion, green, purple and orange of Okabe and Ito 2008.
-const TRAIT_COLOURS: [[u8; 3]; 5] =
+const TRAIT_COLORS: [[u8; 3]; 5] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [160, 80, 140], [200, 130, 0]];
 
 /// The plane's rectangle and the pixels that show it.
@@ -140,7 +140,7 @@ pub fn scene(map: &BlendMap, extras: &Extras) -> Result<Scene, BlendError> {
     switches(map, &sheet, &mut scene)?;
     hull(map, &sheet, &mut scene);
     for (number, field) in extras.traits.iter().enumerate() {
-        isolines(map, &sheet, field, TRAIT_COLOURS[number % TRAIT_COLOURS.len()], &mut scene);
+        isolines(map, &sheet, field, TRAIT_COLORS[number % TRAIT_COLORS.len()], &mut scene);
     }
     species(map, &sheet, &extras.thumbnails, &mut scene);
     for (point, label) in &extras.marks {
@@ -152,19 +152,19 @@ pub fn scene(map: &BlendMap, extras: &Extras) -> Result<Scene, BlendError> {
     Ok(scene)
 }
 
-fn text(text: &str, at: (f64, f64), size: f64, anchor: Anchor, colour: Colour) -> Shape {
-    Shape::Text { text: text.to_owned(), at, size, anchor, colour }
+fn text(text: &str, at: (f64, f64), size: f64, anchor: Anchor, color: Color) -> Shape {
+    Shape::Text { text: text.to_owned(), at, size, anchor, color }
 }
 
 /// Light colours that differ between neighbouring numbers: hues by the golden angle.
-fn pastel(number: usize) -> Colour {
+fn pastel(number: usize) -> Color {
     let hue = (number as f64 * 137.508) % 360.0;
     let channel = |shift: f64| {
         let distance = ((hue + shift) % 360.0 - 180.0).abs() / 60.0;
         let full = (distance - 1.0).clamp(0.0, 1.0);
         (214.0 + 34.0 * full).round() as u8
     };
-    Colour::opaque([channel(0.0), channel(240.0), channel(120.0)])
+    Color::opaque([channel(0.0), channel(240.0), channel(120.0)])
 }
 
 fn regions(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) {
@@ -184,7 +184,7 @@ fn regions(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) {
             Point { x: sheet.low.x, y: sheet.high.y },
         ];
         let ring = map.hull().corners();
-        let pale = Colour { rgb: [255; 3], opacity: 0.62 };
+        let pale = Color { rgb: [255; 3], opacity: 0.62 };
         // The page less the hull, cut into one piece for each edge: the strip between it and the page.
         for i in 0..ring.len() {
             let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
@@ -260,8 +260,8 @@ fn switches(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) -> Result<(), Blen
     let step = (sheet.high.x - sheet.low.x) / (SWITCH_COLUMNS - 1) as f64;
     let place = |p: (f64, f64)| sheet.at(Point { x: sheet.low.x + p.0 * step, y: sheet.high.y - p.1 * step });
     for ([a, b], weight) in contour::boundaries(&grid, differing) {
-        let colour = Colour { rgb: [90, 90, 110], opacity: (0.2 + 0.12 * weight).min(0.75) as f32 };
-        scene.add(Shape::Line { points: vec![place(a), place(b)], colour, width: 1.3, dash: None });
+        let color = Color { rgb: [90, 90, 110], opacity: (0.2 + 0.12 * weight).min(0.75) as f32 };
+        scene.add(Shape::Line { points: vec![place(a), place(b)], color, width: 1.3, dash: None });
     }
     Ok(())
 }
@@ -271,11 +271,11 @@ fn hull(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) {
     if !map.hull().is_flat() {
         points.push(points[0]);
     }
-    scene.add(Shape::Line { points, colour: GREY, width: 1.6, dash: Some((7.0, 6.0)) });
+    scene.add(Shape::Line { points, color: GRAY, width: 1.6, dash: Some((7.0, 6.0)) });
 }
 
 fn isolines(map: &BlendMap, sheet: &Sheet, field: &TraitField, rgb: [u8; 3], scene: &mut Scene) {
-    let colour = Colour::opaque(rgb);
+    let color = Color::opaque(rgb);
     let known = field.values.iter().flatten();
     let (low, high) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
     let grid = contour::refined(&Grid { columns: TRAIT_COLUMNS, cells: field.values.clone() }, REFINED);
@@ -290,11 +290,11 @@ fn isolines(map: &BlendMap, sheet: &Sheet, field: &TraitField, rgb: [u8; 3], sce
         for line in contour::joined(&pieces) {
             let points: Vec<(f64, f64)> = line.into_iter().map(|p| sheet.at(back(p))).collect();
             labelled = labelled.or(points.first().copied());
-            scene.add(Shape::Line { points, colour, width: 2.0, dash: None });
+            scene.add(Shape::Line { points, color, width: 2.0, dash: None });
         }
         if let Some(at) = labelled {
             let number = format!("{}", (level * 1e6).round() / 1e6);
-            scene.add(text(&number, (at.0, at.1 + 4.0), 13.0, Anchor::Middle, colour));
+            scene.add(text(&number, (at.0, at.1 + 4.0), 13.0, Anchor::Middle, color));
         }
         level += step;
     }
@@ -332,7 +332,7 @@ fn species(map: &BlendMap, sheet: &Sheet, thumbnails: &[Bitmap], scene: &mut Sce
         if (near.0 - dot.0).hypot(near.1 - dot.1) > 6.0 {
             // To the middle of the box, where the silhouette covers it.
             let end = if side > 0.0 { (corner.0 + size.0 / 2.0, corner.1 + 0.6 * side) } else { near };
-            scene.add(Shape::Line { points: vec![*dot, end], colour: GREY, width: 1.0, dash: None });
+            scene.add(Shape::Line { points: vec![*dot, end], color: GRAY, width: 1.0, dash: None });
         }
     }
     for (i, (corner, size)) in boxes.iter().zip(&sizes).enumerate() {
@@ -344,7 +344,7 @@ fn species(map: &BlendMap, sheet: &Sheet, thumbnails: &[Bitmap], scene: &mut Sce
         scene.add(text(&names[i], at, LETTERS, Anchor::Middle, INK));
     }
     for dot in dots {
-        scene.add(Shape::Dot { at: dot, radius: 5.0, fill: Colour::opaque([255; 3]) });
+        scene.add(Shape::Dot { at: dot, radius: 5.0, fill: Color::opaque([255; 3]) });
         scene.add(Shape::Dot { at: dot, radius: 3.8, fill: INK });
     }
 }
@@ -364,10 +364,10 @@ fn title(map: &BlendMap) -> String {
 fn frame(map: &BlendMap, sheet: &Sheet, extras: &Extras, scene: &mut Scene) {
     let (left, right, bottom) = (MARGIN, f64::from(WIDTH) - MARGIN, f64::from(HEIGHT) - MARGIN);
     let outline = vec![(left, HEAD), (right, HEAD), (right, bottom), (left, bottom), (left, HEAD)];
-    scene.add(Shape::Line { points: outline, colour: GREY, width: 1.0, dash: None });
+    scene.add(Shape::Line { points: outline, color: GRAY, width: 1.0, dash: None });
     scene.add(text(&title(map), (left, 32.0), 22.0, Anchor::Start, INK));
     let legend = "colours: nearest species   dashed: hull, pale beyond it   grey lines: choices, signs or levels switch";
-    scene.add(text(legend, (left, 58.0), 14.0, Anchor::Start, GREY));
+    scene.add(text(legend, (left, 58.0), 14.0, Anchor::Start, GRAY));
     let mut x = right;
     for (number, field) in extras.traits.iter().enumerate().rev() {
         let name = field.of.name().replace('_', " ");
@@ -376,7 +376,7 @@ fn frame(map: &BlendMap, sheet: &Sheet, extras: &Extras, scene: &mut Scene) {
             (x, 32.0),
             15.0,
             Anchor::End,
-            Colour::opaque(TRAIT_COLOURS[number % TRAIT_COLOURS.len()]),
+            Color::opaque(TRAIT_COLORS[number % TRAIT_COLORS.len()]),
         ));
         x -= scene.text_width(&name, 15.0) + 18.0;
     }
@@ -412,21 +412,21 @@ fn frame(map: &BlendMap, sheet: &Sheet, extras: &Extras, scene: &mut Scene) {
             let (x, _) = sheet.at(Point { x: t, y: 0.0 });
             scene.add(Shape::Line {
                 points: vec![(x, bottom), (x, bottom - 6.0)],
-                colour: GREY,
+                color: GRAY,
                 width: 1.0,
                 dash: None,
             });
-            scene.add(text(&format!("{t}"), (x + 4.0, bottom - 4.0), 11.0, Anchor::Start, GREY));
+            scene.add(text(&format!("{t}"), (x + 4.0, bottom - 4.0), 11.0, Anchor::Start, GRAY));
         }
         for t in ticks(sheet.low.y, sheet.high.y) {
             let (_, y) = sheet.at(Point { x: 0.0, y: t });
             scene.add(Shape::Line {
                 points: vec![(left, y), (left + 6.0, y)],
-                colour: GREY,
+                color: GRAY,
                 width: 1.0,
                 dash: None,
             });
-            scene.add(text(&format!("{t}"), (left + 9.0, y + 4.0), 11.0, Anchor::Start, GREY));
+            scene.add(text(&format!("{t}"), (left + 9.0, y + 4.0), 11.0, Anchor::Start, GRAY));
         }
     }
 }

@@ -7,14 +7,14 @@ use tiny_skia::{FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke,
 
 /// Red, green, blue and opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Colour {
+pub struct Color {
     /// Red, green, blue.
     pub rgb: [u8; 3],
     /// 0 for nothing, 1 for opaque.
     pub opacity: f32,
 }
 
-impl Colour {
+impl Color {
     /// Opaque.
     #[must_use]
     pub const fn opaque(rgb: [u8; 3]) -> Self {
@@ -54,14 +54,14 @@ pub enum Shape {
         /// Its corners.
         corners: Vec<(f64, f64)>,
         /// Its colour.
-        fill: Colour,
+        fill: Color,
     },
     /// A line through points.
     Line {
         /// The points.
         points: Vec<(f64, f64)>,
         /// Its colour.
-        colour: Colour,
+        color: Color,
         /// Its width.
         width: f64,
         /// Lengths of dash and gap, for a dashed line.
@@ -74,7 +74,7 @@ pub enum Shape {
         /// Its radius.
         radius: f64,
         /// Its colour.
-        fill: Colour,
+        fill: Color,
     },
     /// A line of text on a halo of white.
     Text {
@@ -87,7 +87,7 @@ pub enum Shape {
         /// Where the point is in the text.
         anchor: Anchor,
         /// Its colour.
-        colour: Colour,
+        color: Color,
     },
     /// A silhouette in black, one pixel a pixel; where there is no ink, what lies below is seen.
     Silhouette {
@@ -156,7 +156,7 @@ impl Scene {
                     page.fill_path(&path, &fill.paint(), FillRule::Winding, still, None);
                 }
             }
-            Shape::Line { points, colour, width, dash } => {
+            Shape::Line { points, color, width, dash } => {
                 let dash = dash.and_then(|(on, off)| StrokeDash::new(vec![on as f32, off as f32], 0.0));
                 let width = *width as f32;
                 let stroke = Stroke {
@@ -167,7 +167,7 @@ impl Scene {
                     ..Stroke::default()
                 };
                 if let Some(path) = path(points, false) {
-                    page.stroke_path(&path, &colour.paint(), &stroke, still, None);
+                    page.stroke_path(&path, &color.paint(), &stroke, still, None);
                 }
             }
             Shape::Dot { at, radius, fill } => {
@@ -175,13 +175,13 @@ impl Scene {
                     page.fill_path(&path, &fill.paint(), FillRule::Winding, still, None);
                 }
             }
-            Shape::Text { text, at, size, anchor, colour } => {
+            Shape::Text { text, at, size, anchor, color } => {
                 let left = at.0 - self.shift(text, *size, *anchor);
                 if let Some(path) = self.font.outline(text, *size, left, at.1) {
                     let halo = Stroke { width: HALO, line_join: LineJoin::Round, ..Stroke::default() };
-                    let white = Colour { rgb: [255; 3], opacity: HALO_OPACITY };
+                    let white = Color { rgb: [255; 3], opacity: HALO_OPACITY };
                     page.stroke_path(&path, &white.paint(), &halo, still, None);
-                    page.fill_path(&path, &colour.paint(), FillRule::Winding, still, None);
+                    page.fill_path(&path, &color.paint(), FillRule::Winding, still, None);
                 }
             }
             Shape::Silhouette { bitmap, at } => {
@@ -248,12 +248,12 @@ fn element(shape: &Shape) -> String {
     };
     match shape {
         Shape::Polygon { corners, fill } => {
-            let (points, colour, opacity) = (list(corners), fill.svg(), fill.opacity);
-            format!("<polygon points=\"{points}\" fill=\"{colour}\" fill-opacity=\"{opacity}\"/>")
+            let (points, color, opacity) = (list(corners), fill.svg(), fill.opacity);
+            format!("<polygon points=\"{points}\" fill=\"{color}\" fill-opacity=\"{opacity}\"/>")
         }
-        Shape::Line { points, colour, width, dash } => {
+        Shape::Line { points, color, width, dash } => {
             let dash = dash.map_or_else(String::new, |(on, off)| format!(" stroke-dasharray=\"{on} {off}\""));
-            let (points, stroke, opacity) = (list(points), colour.svg(), colour.opacity);
+            let (points, stroke, opacity) = (list(points), color.svg(), color.opacity);
             format!(
                 "<polyline points=\"{points}\" fill=\"none\" stroke=\"{stroke}\" stroke-opacity=\"{opacity}\" \
                  stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"{dash}/>"
@@ -262,7 +262,7 @@ fn element(shape: &Shape) -> String {
         Shape::Dot { at, radius, fill } => {
             format!("<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"{radius}\" fill=\"{}\"/>", at.0, at.1, fill.svg())
         }
-        Shape::Text { text, at, size, anchor, colour } => {
+        Shape::Text { text, at, size, anchor, color } => {
             let anchor = match anchor {
                 Anchor::Start => "start",
                 Anchor::Middle => "middle",
@@ -274,7 +274,7 @@ fn element(shape: &Shape) -> String {
                  stroke-linejoin=\"round\" paint-order=\"stroke\">{}</text>",
                 at.0,
                 at.1,
-                colour.svg(),
+                color.svg(),
                 escaped(text)
             )
         }
@@ -324,11 +324,11 @@ mod tests {
         let mut scene = Scene::new(60, 40);
         scene.add(Shape::Polygon {
             corners: vec![(0.0, 0.0), (30.0, 0.0), (30.0, 40.0), (0.0, 40.0)],
-            fill: Colour::opaque([255, 0, 0]),
+            fill: Color::opaque([255, 0, 0]),
         });
         scene.add(Shape::Silhouette { bitmap: Bitmap::from_ascii("##.\n..#"), at: (40.0, 10.0) });
-        let (text, colour) = ("a < b".to_owned(), Colour::opaque([0; 3]));
-        scene.add(Shape::Text { text, at: (58.0, 38.0), size: 10.0, anchor: Anchor::End, colour });
+        let (text, color) = ("a < b".to_owned(), Color::opaque([0; 3]));
+        scene.add(Shape::Text { text, at: (58.0, 38.0), size: 10.0, anchor: Anchor::End, color });
         scene
     }
 
@@ -346,8 +346,8 @@ mod tests {
     fn whatever_a_text_holds_the_svg_is_well_formed() {
         let mut scene = scene();
         let mut add = |text: String| {
-            let colour = Colour::opaque([0; 3]);
-            scene.add(Shape::Text { text, at: (5.0, 5.0), size: 10.0, anchor: Anchor::Start, colour });
+            let color = Color::opaque([0; 3]);
+            scene.add(Shape::Text { text, at: (5.0, 5.0), size: 10.0, anchor: Anchor::Start, color });
         };
         (0..0x300).chain(0xd7f0..0xe010).chain(0xfff0..0x1_0010).filter_map(char::from_u32).for_each(|c| {
             add(format!("a{c}b"));

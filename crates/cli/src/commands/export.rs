@@ -61,14 +61,14 @@ impl From<SeasonArg> for Season {
 #[command(next_help_heading = "Meshes (.glb, .obj, .ply, .stl, .usda)")]
 pub(crate) struct MeshArgs {
     /// Levels of detail in a .glb, the finest included [default: 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(lod::MOST_LEVELS)))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(lod::MAX_LEVELS)))]
     pub(super) lod: Option<u32>,
     /// Weld all stems into one watertight surface, on a grid with cells of this many millimetres; what
     /// is thinner becomes as thick as a cell
     #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "wind", "forest", "tolerance"])]
     pub(super) weld: Option<f64>,
     /// A last level of detail: N crossing cards that show the tree, 1 to 8, in a .glb
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(billboard::MOST_SIDES)))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(billboard::MAX_SIDES)))]
     pub(super) billboard: Option<u32>,
     /// How far bark may stray from its true surface, in millimetres [default: 2]
     #[arg(long, value_name = "MM", value_parser = tolerance)]
@@ -279,9 +279,9 @@ impl MeshArgs {
         let mut palette = None;
         for &variant in &used {
             let mut tree = grow(seed + u64::from(variant))?;
-            let colours = Palette::of(species, season);
-            colours.dress(&mut tree);
-            palette = palette.or(Some(colours));
+            let colors = Palette::of(species, season);
+            colors.dress(&mut tree);
+            palette = palette.or(Some(colors));
             trees.push(tree);
         }
         let levels: Vec<Vec<Level<'_>>> =

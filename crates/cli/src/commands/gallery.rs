@@ -1,7 +1,7 @@
 //! The gallery: one sheet with every species of the dissertation, leafy beside winter.
 
 use anyhow::Context;
-use pleach_blend::picture::{Anchor, Colour, Scene, Shape};
+use pleach_blend::picture::{Anchor, Color, Scene, Shape};
 use pleach_mesh::preview::Background;
 use pleach_mesh::{Palette, Picture, Preview, PreviewSettings};
 use pleach_tree::species::{self, Season};
@@ -11,8 +11,8 @@ use pleach_tree::{Species, Tree, TreeStats};
 const ACROSS: u32 = 3;
 /// How many of the built-in species are the dissertation's, in front.
 const FIFTEEN: usize = 15;
-const INK: Colour = Colour::opaque([40, 44, 40]);
-const GREY: Colour = Colour::opaque([120, 124, 120]);
+const INK: Color = Color::opaque([40, 44, 40]);
+const GRAY: Color = Color::opaque([120, 124, 120]);
 
 /// Draws the sheet, `size` pixels per tree.
 pub(super) fn sheet(
@@ -28,7 +28,7 @@ pub(super) fn sheet(
     let settings = PreviewSettings {
         width: size,
         height: size,
-        background: Background::Plain(species::Colour([255; 3])),
+        background: Background::Plain(species::Color([255; 3])),
         ..*settings
     };
     let mut pictures = Vec::new();
@@ -57,12 +57,12 @@ pub(super) fn sheet(
 /// Name and height below the two pictures that meet above `at`.
 fn caption(page: &mut Scene, name: &str, height: f64, at: (f64, f64), size: f64) {
     let (em, height) = (size / 13.0, format!("{height:.1} m"));
-    let mut line = |text: String, down: f64, em: f64, colour: Colour| {
+    let mut line = |text: String, down: f64, em: f64, color: Color| {
         let at = (at.0, at.1 + down * size);
-        page.add(Shape::Text { text, at, size: em, anchor: Anchor::Middle, colour });
+        page.add(Shape::Text { text, at, size: em, anchor: Anchor::Middle, color });
     };
     let mut title = name.replace('_', " ");
     title[..1].make_ascii_uppercase();
     line(title, 0.075, em, INK);
-    line(height, 0.145, em * 0.8, GREY);
+    line(height, 0.145, em * 0.8, GRAY);
 }

@@ -9,7 +9,7 @@ use clap::ValueEnum;
 use pleach_mesh::preview::{Background, Ground};
 use pleach_mesh::{Palette, Preview, PreviewSettings, png_file};
 use pleach_silhouette::View;
-use pleach_tree::species::{Colour, Season};
+use pleach_tree::species::{Color, Season};
 use pleach_tree::{Foliage, Growth, Species, Tree};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -87,7 +87,7 @@ fn background(text: &str) -> Result<Background, String> {
     match text {
         "studio" => Ok(Background::Studio),
         "transparent" => Ok(Background::Transparent),
-        colour => Colour::parse(colour)
+        color => Color::parse(color)
             .map(Background::Plain)
             .ok_or_else(|| "expected studio, transparent, or a colour such as #dde6ee".to_owned()),
     }

@@ -3,7 +3,7 @@
 use crate::input::LimitArgs;
 use crate::{files, input, output};
 use anyhow::{Context, bail};
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Foliage, Growth};
 use std::path::PathBuf;
 
@@ -55,7 +55,7 @@ impl Silhouette {
         let draw = |width: u32, height: u32| {
             let frame = Frame::automatic(&tree, &self.view, !self.no_leaves, width, height);
             let mut bitmap = Bitmap::default();
-            Rasteriser::new().draw(&tree, &self.view, &frame, !self.no_leaves, &mut bitmap);
+            Rasterizer::new().draw(&tree, &self.view, &frame, !self.no_leaves, &mut bitmap);
             bitmap
         };
         let Some(path) = &self.out else {

@@ -144,7 +144,7 @@ fn views(evaluator: &Evaluator, attempt: &Try) -> Vec<View> {
 fn grow(evaluator: &Evaluator, attempt: &Try, wanted: [bool; 2], side: u32) -> Option<[Option<Looks>; 2]> {
     let views = views(evaluator, attempt);
     let mut looks = wanted.map(|wanted| wanted.then(|| Looks { height: 0.0, plates: Vec::new() }));
-    evaluator.show(&attempt.genome, wanted[place(true)], |tree, rasteriser| {
+    evaluator.show(&attempt.genome, wanted[place(true)], |tree, rasterizer| {
         for (at, looks) in looks.iter_mut().enumerate() {
             let Some(looks) = looks else { continue };
             let foliage = at == place(true);
@@ -152,7 +152,7 @@ fn grow(evaluator: &Evaluator, attempt: &Try, wanted: [bool; 2], side: u32) -> O
                 looks.height = height_of(tree, foliage);
             }
             for view in &views {
-                looks.plates.push(Plate::draw(tree, view, foliage, side, rasteriser));
+                looks.plates.push(Plate::draw(tree, view, foliage, side, rasterizer));
             }
         }
     })?;

@@ -1,6 +1,6 @@
 //! A tree's picture that is drawn once and looked at through many frames.
 
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::Tree;
 
 /// A silhouette, at least twice as fine as the pictures that are made of it.
@@ -29,19 +29,19 @@ impl Plate {
         view: &View,
         foliage: bool,
         side: u32,
-        rasteriser: &mut Rasteriser,
+        rasterizer: &mut Rasterizer,
     ) -> Self {
         let frame = Frame::automatic(tree, view, foliage, side, side);
         let frame = Frame { height: side + side / BELOW, ..frame };
         let mut picture = Bitmap::default();
-        rasteriser.draw(tree, view, &frame, foliage, &mut picture);
+        rasterizer.draw(tree, view, &frame, foliage, &mut picture);
         Self { picture, frame }
     }
 
     /// The tree, `factor` times as large, as it stands in `frame`: black from half a pixel's area on.
     pub(super) fn through(&self, frame: &Frame, factor: f64, into: &mut Bitmap) {
         into.reset(frame.width, frame.height);
-        let ratio = frame.metres_per_pixel / (self.frame.metres_per_pixel * factor);
+        let ratio = frame.meters_per_pixel / (self.frame.meters_per_pixel * factor);
         let (width, height) = (self.picture.width(), self.picture.height());
         let columns = edges(frame.width, frame.axis_column, self.frame.axis_column, ratio, width);
         let rows = edges(frame.height, frame.ground_row, self.frame.ground_row, ratio, height);
@@ -121,21 +121,21 @@ mod tests {
             frame: Frame {
                 width: 400,
                 height: 220,
-                metres_per_pixel: 0.01,
+                meters_per_pixel: 0.01,
                 axis_column: 200.0,
                 ground_row: 200.0,
             },
         };
         let mut seen = Bitmap::default();
         let frame =
-            Frame { width: 64, height: 64, metres_per_pixel: 0.1, axis_column: 20.0, ground_row: 60.0 };
+            Frame { width: 64, height: 64, meters_per_pixel: 0.1, axis_column: 20.0, ground_row: 60.0 };
         plate.through(&frame, 1.0, &mut seen);
         assert_eq!((seen.ink_box(), seen.ink()), (Some((30, 50, 39, 59)), 100));
         plate.through(&frame, 2.0, &mut seen);
         assert_eq!((seen.ink_box(), seen.ink()), (Some((40, 40, 59, 59)), 400));
         // Finer than the plate: every pixel of it four by four times.
         let near =
-            Frame { width: 64, height: 64, metres_per_pixel: 0.0025, axis_column: -400.0, ground_row: 64.0 };
+            Frame { width: 64, height: 64, meters_per_pixel: 0.0025, axis_column: -400.0, ground_row: 64.0 };
         plate.through(&near, 1.0, &mut seen);
         assert_eq!(seen.ink(), 64 * 64);
     }

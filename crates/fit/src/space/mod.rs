@@ -277,7 +277,7 @@ impl SearchSpace {
     #[must_use]
     pub fn sizes_are_free(&self) -> bool {
         let is_free = |slot| self.genes.iter().any(|gene| gene.slot() == Some(slot));
-        let mut sizes = (0..self.params.len()).filter(|&s| self.params.param_of(s).unit == Unit::Metres);
+        let mut sizes = (0..self.params.len()).filter(|&s| self.params.param_of(s).unit == Unit::Meters);
         sizes.all(is_free)
     }
 

@@ -1,7 +1,7 @@
 //! Problems that several test programs share.
 
 use pleach_fit::{FitProblem, GoalView, Unknown};
-use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use std::sync::Arc;
 
 /// The leafy front view of a known species' tree, `size` pixels square, as a goal.
@@ -11,7 +11,7 @@ pub(crate) fn goal_of(species: &str, seed: u64, size: u32) -> FitProblem {
     let frame = Frame::automatic(&tree, &View::FRONT, true, size, size);
     let mut goal = Bitmap::default();
     // Drawn as the evaluator draws, so that the truth is a perfect match.
-    Rasteriser::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, true, &mut goal);
+    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, true, &mut goal);
     FitProblem {
         generator: Arc::clone(&species.generator),
         base: species.params.values().to_vec(),

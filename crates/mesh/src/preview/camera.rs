@@ -12,7 +12,7 @@ pub(crate) struct Camera {
     /// Picture heights at distance 1, and the same across.
     focal: f32,
     size: Vec2,
-    centre: Vec2,
+    center: Vec2,
 }
 
 /// Half of the angle that the picture's shorter side covers: 14°, as through a portrait lens.
@@ -35,7 +35,7 @@ impl Camera {
         let size = vec2(width as f32, height as f32);
         let shorter = size.min_element();
         let focal = shorter / 2.0 / HALF_ANGLE.tan();
-        let mut camera = Self { eye: target, right, up, ahead, focal, size, centre: Vec2::ZERO };
+        let mut camera = Self { eye: target, right, up, ahead, focal, size, center: Vec2::ZERO };
         // Nearest distance at which every corner is inside, then the middle of what is seen.
         let reach = corners.iter().map(|c| c.distance(target)).fold(1e-3, f32::max);
         let (mut near, mut far) = (reach, reach * 40.0);
@@ -51,7 +51,7 @@ impl Camera {
         }
         camera.eye = target - ahead * far;
         let (low, high) = camera.extent(corners);
-        camera.centre = -(low + high) / 2.0;
+        camera.center = -(low + high) / 2.0;
         camera
     }
 
@@ -64,7 +64,7 @@ impl Camera {
         let distance = 200.0 * half[0].max(half[1]).max(1e-3);
         let size = vec2(samples[0] as f32, samples[1] as f32);
         let focal = distance * size.y / (2.0 * half[1].max(1e-6));
-        Self { eye: middle - ahead * distance, right, up: Vec3::Z, ahead, focal, size, centre: Vec2::ZERO }
+        Self { eye: middle - ahead * distance, right, up: Vec3::Z, ahead, focal, size, center: Vec2::ZERO }
     }
 
     fn extent(&self, corners: &[Vec3]) -> (Vec2, Vec2) {
@@ -81,13 +81,13 @@ impl Camera {
         let v = point - self.eye;
         let inverse = 1.0 / v.dot(self.ahead).max(1e-3);
         let scale = self.focal * inverse;
-        let at = self.centre + self.size / 2.0;
+        let at = self.center + self.size / 2.0;
         vec3(at.x + v.dot(self.right) * scale, at.y - v.dot(self.up) * scale, inverse)
     }
 
     /// Unit vector from the eye through a sample.
     pub(crate) fn ray(&self, x: f32, y: f32) -> Vec3 {
-        let p = vec2(x, y) - self.centre - self.size / 2.0;
+        let p = vec2(x, y) - self.center - self.size / 2.0;
         (self.ahead * self.focal + self.right * p.x - self.up * p.y).normalize()
     }
 

@@ -17,7 +17,7 @@ use crate::palette::Palette;
 pub(crate) use flat::Frame;
 use glam::Vec3;
 use pleach_tree::Tree;
-use pleach_tree::species::Colour;
+use pleach_tree::species::Color;
 use scene::Scene;
 
 /// What is behind the tree.
@@ -29,7 +29,7 @@ pub enum Background {
     /// Nothing: the picture has an alpha channel.
     Transparent,
     /// One colour.
-    Plain(Colour),
+    Plain(Color),
 }
 
 /// What the tree stands on.

@@ -84,22 +84,22 @@ impl View<'_> {
                 sum += self.sample(x * SAMPLES + i, y * SAMPLES + j);
             }
         }
-        let mut colour = sum / (SAMPLES * SAMPLES) as f32;
+        let mut color = sum / (SAMPLES * SAMPLES) as f32;
         if let Some(wall) = self.wall(y) {
-            colour += (wall * (1.0 - colour.w)).extend(1.0 - colour.w);
+            color += (wall * (1.0 - color.w)).extend(1.0 - color.w);
         }
-        if colour.w <= 0.0 {
+        if color.w <= 0.0 {
             return [0; 4];
         }
-        let [r, g, b] = (colour.truncate() / colour.w).to_array().map(to_srgb);
-        [r, g, b, (colour.w * 255.0).round() as u8]
+        let [r, g, b] = (color.truncate() / color.w).to_array().map(to_srgb);
+        [r, g, b, (color.w * 255.0).round() as u8]
     }
 
     /// What is behind the tree in row `y`, in shown light.
     fn wall(&self, y: u32) -> Option<Vec3> {
         match self.settings.background {
             Background::Transparent => None,
-            Background::Plain(colour) => Some(linear(colour).into()),
+            Background::Plain(color) => Some(linear(color).into()),
             Background::Studio => {
                 let t = y as f32 / self.settings.height.max(2) as f32;
                 Some(vec3(0.86, 0.88, 0.90).lerp(vec3(0.93, 0.925, 0.91), smooth(0.2, 1.0, t)))
@@ -120,12 +120,12 @@ impl View<'_> {
         let plane = (b - a).cross(c - a);
         let slope = ray.dot(plane);
         let distance = if slope.abs() > 1e-12 { (a - self.camera.eye).dot(plane) / slope } else { 0.0 };
-        let centre = (a + b + c) / 3.0;
+        let center = (a + b + c) / 3.0;
         let size = (b - a).length().max((c - a).length());
         let mut at = self.camera.eye + ray * distance;
-        if at.distance(centre) > 2.0 * size {
+        if at.distance(center) > 2.0 * size {
             // Seen edge on: rounding has thrown the point off the triangle.
-            at = centre;
+            at = center;
         }
         let whole = plane.length_squared().max(1e-20);
         let wb = (at - a).cross(c - a).dot(plane) / whole;
@@ -174,7 +174,7 @@ impl View<'_> {
 
     fn leaf(&self, at: Vec3, normal: Vec3, ray: Vec3, material: Material, number: u32) -> Vec3 {
         let scene = self.scene;
-        let base = Vec3::from(linear(scene.palette.colour(material)));
+        let base = Vec3::from(linear(scene.palette.color(material)));
         // Leaves of one tree differ: evenly spread steps in brightness and warmth.
         let spread = |step: f32| (number as f32 * step).fract() - 0.5;
         let varied =

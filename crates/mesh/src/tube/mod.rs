@@ -95,7 +95,7 @@ impl Tubes {
         let n = self.sides(rings);
         let polygon = &self.polygons[n as usize];
         let mut wide = 0;
-        let mut ring = |centre: DVec3,
+        let mut ring = |center: DVec3,
                         (x, y): (DVec3, DVec3),
                         tangent: DVec3,
                         radius: f64,
@@ -107,24 +107,24 @@ impl Tubes {
                 let out = x * cos + y * sin;
                 let normal = (out - tangent * slope) * level;
                 let u = j as f32 / n as f32;
-                block.vertices.push(vertex((centre + out * radius).as_vec3(), normal.as_vec3(), u, v as f32));
+                block.vertices.push(vertex((center + out * radius).as_vec3(), normal.as_vec3(), u, v as f32));
             }
             wide += 1;
         };
         let blunt = usize::from(!rings.pointed);
         for (i, r) in rings.rings[..rings.rings.len() - 1 + blunt].iter().enumerate() {
             let axes = (r.side, r.tangent.cross(r.side));
-            ring(r.centre, axes, r.tangent, r.radius, rings.slope(i), along + r.along);
+            ring(r.center, axes, r.tangent, r.radius, rings.slope(i), along + r.along);
         }
-        let mut top = tip.centre;
+        let mut top = tip.center;
         if !rings.pointed {
             // A low dome: half an ellipsoid whose height is half the radius.
             let axes = (tip.side, tip.tangent.cross(tip.side));
             let height = tip.radius * 0.5;
             if self.domed(rings) {
                 let half = std::f64::consts::FRAC_1_SQRT_2;
-                let centre = tip.centre + tip.tangent * (height * half);
-                ring(centre, axes, tip.tangent, tip.radius * half, -2.0, along + tip.along + height * half);
+                let center = tip.center + tip.tangent * (height * half);
+                ring(center, axes, tip.tangent, tip.radius * half, -2.0, along + tip.along + height * half);
             }
             top += tip.tangent * height;
         }

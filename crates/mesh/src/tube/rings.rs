@@ -7,11 +7,11 @@ use pleach_tree::{Stem, StemKind, Tree};
 
 /// No ring is narrower, in metres: beads of periodic taper meet in points, and single precision
 /// thirty metres from the origin ends at two micrometres.
-const LEAST_RADIUS: f64 = 2e-4;
+const MIN_RADIUS: f64 = 2e-4;
 /// A stem whose tip is thinner than this many metres ends in a point.
 const POINTED: f64 = 5e-4;
 /// Rings are at least this far apart, in metres.
-const LEAST_STEP: f64 = 1e-4;
+const MIN_STEP: f64 = 1e-4;
 
 /// A turn that never comes back to where it was, in radians.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
@@ -20,7 +20,7 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ring {
     /// On the spline, in metres.
-    pub(crate) centre: DVec3,
+    pub(crate) center: DVec3,
     /// Unit vector along the stem, at right angles to the ring.
     pub(crate) tangent: DVec3,
     /// Unit vector in the ring, towards its first corner.
@@ -59,7 +59,7 @@ impl Rings {
             let first = legs[0];
             for i in u32::from(k > 0)..=chords {
                 let t = f64::from(i) / f64::from(chords);
-                let centre = piece.at(t);
+                let center = piece.at(t);
                 let mut tangent = match i {
                     0 => first,
                     i if i == chords => legs[2],
@@ -74,10 +74,10 @@ impl Rings {
                     tangent = (tangent + leaves.unwrap_or(tangent)).try_normalize().unwrap_or(tangent);
                 }
                 if let Some(last) = self.rings.last() {
-                    along += centre.distance(last.centre);
+                    along += center.distance(last.center);
                 }
-                let radius = (from + (to - from) * t).max(LEAST_RADIUS);
-                self.rings.push(Ring { centre, tangent, side: DVec3::X, radius, along });
+                let radius = (from + (to - from) * t).max(MIN_RADIUS);
+                self.rings.push(Ring { center, tangent, side: DVec3::X, radius, along });
             }
             arrival = Some(legs[2]);
         }
@@ -109,8 +109,8 @@ impl Rings {
         }
         if !apart(&rings[kept - 1], &tip) {
             // A prism: both rings at right angles to the line between them.
-            let line = tip.centre - rings[0].centre;
-            if line.length() < LEAST_STEP {
+            let line = tip.center - rings[0].center;
+            if line.length() < MIN_STEP {
                 rings.clear();
                 return;
             }
@@ -129,14 +129,14 @@ impl Rings {
         for i in 1..self.rings.len() {
             let last = self.rings[i - 1];
             let ring = &mut self.rings[i];
-            ring.side = transport(last.side, last.centre, last.tangent, ring.centre, ring.tangent);
+            ring.side = transport(last.side, last.center, last.tangent, ring.center, ring.tangent);
         }
     }
 
     /// Change of radius per metre at ring `i`, from its neighbours.
     pub(crate) fn slope(&self, i: usize) -> f64 {
         let (a, b) = (&self.rings[i.saturating_sub(1)], &self.rings[(i + 1).min(self.rings.len() - 1)]);
-        (b.radius - a.radius) / (b.along - a.along).max(LEAST_STEP)
+        (b.radius - a.radius) / (b.along - a.along).max(MIN_STEP)
     }
 }
 
@@ -148,9 +148,9 @@ impl Rings {
 fn apart(a: &Ring, b: &Ring) -> bool {
     /// Polygons reach a little further out than circles, triangles the furthest.
     const REACH: f64 = 1.25;
-    let line = b.centre - a.centre;
+    let line = b.center - a.center;
     let cos = a.tangent.dot(b.tangent);
     let sin = (1.0 - cos * cos).max(0.0).sqrt();
-    let clear = |tangent: DVec3, radius: f64| line.dot(tangent) > REACH * radius * sin + LEAST_STEP;
+    let clear = |tangent: DVec3, radius: f64| line.dot(tangent) > REACH * radius * sin + MIN_STEP;
     cos > 0.0 && clear(a.tangent, b.radius) && clear(b.tangent, a.radius)
 }

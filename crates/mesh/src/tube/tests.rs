@@ -96,8 +96,8 @@ proptest! {
         if !rings.rings.is_empty() {
             broken(&block).map_err(TestCaseError::fail)?;
             for pair in rings.rings.windows(2) {
-                prop_assert!((pair[1].centre - pair[0].centre).dot(pair[0].tangent) > 0.0);
-                prop_assert!((pair[1].centre - pair[0].centre).dot(pair[1].tangent) > 0.0);
+                prop_assert!((pair[1].center - pair[0].center).dot(pair[0].tangent) > 0.0);
+                prop_assert!((pair[1].center - pair[0].center).dot(pair[1].tangent) > 0.0);
                 prop_assert!(pair[0].side.dot(pair[0].tangent).abs() < 1e-9);
             }
             faces_outwards(&block, &rings).map_err(TestCaseError::fail)?;
@@ -206,6 +206,6 @@ fn a_stem_that_turns_back_follows_its_spline() {
     let length = rings.rings.last().unwrap().along;
     assert!(rings.rings.len() > 20 && (length - 1.5 * PI).abs() < 0.02, "{length}");
     for ring in &rings.rings {
-        assert!((ring.centre.length() - 1.0).abs() < 1e-3);
+        assert!((ring.center.length() - 1.0).abs() < 1e-3);
     }
 }

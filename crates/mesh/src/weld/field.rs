@@ -9,9 +9,9 @@ use rayon::prelude::*;
 /// crosses has all its corners within √3.
 const BAND: f64 = 2.0;
 /// Most grid points along a side: a place is three such numbers in 64 bits.
-pub(super) const MOST_ALONG: i32 = 1 << 20;
+pub(super) const MAX_ALONG: i32 = 1 << 20;
 /// Most grid points near the surface, those of pieces that overlap counted twice.
-const MOST_POINTS: usize = 12_000_000;
+const MAX_POINTS: usize = 12_000_000;
 
 /// Grid points near the surface in order of their places, and how far each is from it.
 #[derive(Debug)]
@@ -40,12 +40,12 @@ impl Field {
         // The grid stands still while trees grow: its lines are whole multiples of the cell.
         let origin = (low / cell).floor() * cell;
         let along = (high - origin).max_element() / cell;
-        if along.is_nan() || along >= f64::from(MOST_ALONG) {
+        if along.is_nan() || along >= f64::from(MAX_ALONG) {
             return Err(WeldError::TooFine { cell });
         }
         // Told before the work, not after: a grid too fine would take minutes to overflow.
         if cones.iter().map(|cone| cone.volume_around(BAND * cell)).sum::<f64>() / cell.powi(3)
-            > MOST_POINTS as f64
+            > MAX_POINTS as f64
         {
             return Err(WeldError::TooFine { cell });
         }

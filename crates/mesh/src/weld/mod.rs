@@ -62,13 +62,13 @@ pub fn surface(tree: &Tree, cell: f64) -> Result<Block, WeldError> {
 }
 
 /// More pieces of stems are not welded.
-const MOST_PIECES: usize = 2_000_000;
+const MAX_PIECES: usize = 2_000_000;
 
 /// The stems in short pieces.
 fn cones(tree: &Tree, cell: f64) -> Result<Vec<Cone>, WeldError> {
     let mut cones = Vec::new();
     let extent = Bounds::of(tree, false).map_or(0.0, |b| (b.max - b.min).max_element());
-    if extent > cell * f64::from(field::MOST_ALONG) {
+    if extent > cell * f64::from(field::MAX_ALONG) {
         return Err(WeldError::TooFine { cell });
     }
     let mut rings = Rings::default();
@@ -80,17 +80,17 @@ fn cones(tree: &Tree, cell: f64) -> Result<Vec<Cone>, WeldError> {
             let radii = [a.radius, b.radius].map(|r| r.max(cell));
             // A long slanted piece would have a box of mostly air.
             let most = (4.0 * cell).max(2.0 * radii[0].max(radii[1]));
-            let pieces = (a.centre.distance(b.centre) / most).ceil().clamp(1.0, 1e4) as u32;
+            let pieces = (a.center.distance(b.center) / most).ceil().clamp(1.0, 1e4) as u32;
             let at = |k: u32| {
                 let t = f64::from(k) / f64::from(pieces);
-                (a.centre.lerp(b.centre, t), radii[0] + (radii[1] - radii[0]) * t)
+                (a.center.lerp(b.center, t), radii[0] + (radii[1] - radii[0]) * t)
             };
             for k in 0..pieces {
                 let ((from, r), (to, s)) = (at(k), at(k + 1));
                 cones.push(Cone { from, to, radii: [r, s], foot: foot && i == 0 && k == 0 });
             }
         }
-        if cones.len() > MOST_PIECES {
+        if cones.len() > MAX_PIECES {
             return Err(WeldError::TooFine { cell });
         }
     }
@@ -167,7 +167,7 @@ mod tests {
             let slice = |i: usize| {
                 let (a, b) = (&rings.rings[i], &rings.rings[i + 1]);
                 let (r, s) = (a.radius, b.radius);
-                a.centre.distance(b.centre) * std::f64::consts::PI * (r * r + r * s + s * s) / 3.0
+                a.center.distance(b.center) * std::f64::consts::PI * (r * r + r * s + s * s) / 3.0
             };
             (0..rings.rings.len() - 1).map(slice).sum()
         };

@@ -62,11 +62,11 @@ impl<W: Write> Sink for Ply<W> {
     }
 
     fn block(&mut self, part: usize, block: &mut Block) -> Result<(), MeshError> {
-        let colour = self.palette.colour(self.parts[part].material).0;
+        let color = self.palette.color(self.parts[part].material).0;
         self.bytes.clear();
         for (i, vertex) in block.vertices.iter().enumerate() {
             self.bytes.extend_from_slice(bytemuck::cast_slice(vertex));
-            self.bytes.extend_from_slice(&colour);
+            self.bytes.extend_from_slice(&color);
             if let Some(wind) = block.wind.get(i) {
                 self.bytes.extend_from_slice(bytemuck::cast_slice(wind));
             }

@@ -11,7 +11,7 @@ use crate::sink::{Material, MeshError, Part, Sink};
 use std::io::Write;
 
 /// Decimals of metres, of unit vectors, and of texture coordinates.
-const METRES: usize = 5;
+const METERS: usize = 5;
 const UNIT: usize = 4;
 
 /// What a file says beside triangles.
@@ -58,14 +58,14 @@ impl<'a, W: Write> Usda<'a, W> {
         let out = &mut self.out;
         array(out, "        ", "int[] protoIndices", places, |text, _| text.push(b'0'))?;
         array(out, "        ", "point3f[] positions", places, |text, p| {
-            tuple(text, &p.translation.to_array(), METRES);
+            tuple(text, &p.translation.to_array(), METERS);
         })?;
         array(out, "        ", "quath[] orientations", places, |text, p| {
             let [x, y, z, w] = p.rotation.to_array();
             tuple(text, &[w, x, y, z], UNIT);
         })?;
         array(out, "        ", "float3[] scales", places, |text, p| {
-            tuple(text, &p.scale.to_array(), METRES);
+            tuple(text, &p.scale.to_array(), METERS);
         })?;
         writeln!(self.out)?;
         self.mesh(&block, part.material, "shape", "        ")?;
@@ -84,13 +84,13 @@ impl<'a, W: Write> Usda<'a, W> {
         let least = |i| block.vertices.iter().fold(f32::INFINITY, |a, v| corner(i)(a, v).0);
         let most = |i| block.vertices.iter().fold(f32::NEG_INFINITY, |a, v| corner(i)(a, v).1);
         let extent = [[0, 1, 2].map(least), [0, 1, 2].map(most)];
-        array(out, &inner, "float3[] extent", &extent, |text, p| tuple(text, p, METRES))?;
+        array(out, &inner, "float3[] extent", &extent, |text, p| tuple(text, p, METERS))?;
         array(out, &inner, "int[] faceVertexCounts", &block.triangles, |text, _| text.push(b'3'))?;
         array(out, &inner, "int[] faceVertexIndices", block.triangles.as_flattened(), |text, i| {
             digits(text, u64::from(*i), 1);
         })?;
         let vertices = &block.vertices;
-        array(out, &inner, "point3f[] points", vertices, |text, v| tuple(text, &v[..3], METRES))?;
+        array(out, &inner, "point3f[] points", vertices, |text, v| tuple(text, &v[..3], METERS))?;
         array(out, &inner, "normal3f[] normals", vertices, |text, v| tuple(text, &v[3..6], UNIT))?;
         writeln!(out, "{corners}")?;
         // Pictures start at their foot here.
@@ -113,8 +113,8 @@ impl<'a, W: Write> Usda<'a, W> {
         for material in used {
             let picture = self.notes.pictures.iter().find(|(of, _)| *of == material).map(|(_, file)| file);
             let path = format!("/{}/materials/{}", self.root, material.name());
-            let [r, g, b] = linear(self.palette.colour(material));
-            let colour = match picture {
+            let [r, g, b] = linear(self.palette.color(material));
+            let color = match picture {
                 Some(_) => format!(
                     "color3f inputs:diffuseColor.connect = <{path}/picture.outputs:rgb>\n                \
                      float inputs:opacity.connect = <{path}/picture.outputs:a>\n                \
@@ -129,7 +129,7 @@ impl<'a, W: Write> Usda<'a, W> {
                  token outputs:surface.connect = <{path}/surface.outputs:surface>\n\n            \
                  def Shader \"surface\"\n            {{\n                \
                  uniform token info:id = \"UsdPreviewSurface\"\n                \
-                 {colour}\n                \
+                 {color}\n                \
                  float inputs:roughness = {roughness}\n                \
                  token outputs:surface\n            }}\n",
                 material.name()

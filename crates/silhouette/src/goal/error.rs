@@ -1,6 +1,6 @@
 //! What can be wrong with a goal image.
 
-use super::read::{LEAST_SIDE, MOST_SIDE};
+use super::read::{MAX_SIDE, MIN_SIDE};
 use std::io;
 use std::path::PathBuf;
 
@@ -41,7 +41,7 @@ pub enum GoalError {
     },
     /// More pixels to a side than are read.
     #[error(
-        "{path} has {width} × {height} pixels, and at most {MOST_SIDE} to a side are read: make it smaller",
+        "{path} has {width} × {height} pixels, and at most {MAX_SIDE} to a side are read: make it smaller",
         path = path.display()
     )]
     TooLarge {
@@ -78,7 +78,7 @@ pub enum GoalError {
         limit: u64,
     },
     /// Fewer pixels to a side than say anything about a tree.
-    #[error("{name} has {width} × {height} pixels: at least {LEAST_SIDE} × {LEAST_SIDE} are needed")]
+    #[error("{name} has {width} × {height} pixels: at least {MIN_SIDE} × {MIN_SIDE} are needed")]
     TooSmall {
         /// The file, or what the picture is.
         name: String,

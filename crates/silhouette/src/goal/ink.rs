@@ -32,15 +32,15 @@ pub enum Split {
 }
 
 /// Tones closer than this make an even picture.
-const LEAST_CONTRAST: u8 = 16;
+const MIN_CONTRAST: u8 = 16;
 /// Opacities farther apart than this make an alpha channel that says something.
-pub(crate) const LEAST_ALPHA_RANGE: u8 = 128;
+pub(crate) const MIN_ALPHA_RANGE: u8 = 128;
 
 /// The tree in a picture, and how it was told from the paper.
 pub(super) fn ink_of(tones: &Tones, polarity: Polarity) -> (Bitmap, Split) {
     let least = tones.opacity.iter().copied().min().unwrap_or(255);
     let most = tones.opacity.iter().copied().max().unwrap_or(255);
-    if polarity == Polarity::Auto && most - least >= LEAST_ALPHA_RANGE {
+    if polarity == Polarity::Auto && most - least >= MIN_ALPHA_RANGE {
         return (bitmap(tones, |i| tones.opacity[i] >= 128), Split::Opacity);
     }
     // Transparent parts show the paper: white under a dark tree, black under a light one.
@@ -81,7 +81,7 @@ fn bitmap(tones: &Tones, ink: impl Fn(usize) -> bool) -> Bitmap {
 pub(crate) fn otsu(histogram: &[u64; 256]) -> Option<u8> {
     let darkest = histogram.iter().position(|&n| n > 0)?;
     let lightest = histogram.iter().rposition(|&n| n > 0)?;
-    if lightest - darkest < usize::from(LEAST_CONTRAST) {
+    if lightest - darkest < usize::from(MIN_CONTRAST) {
         return None;
     }
     let total: u64 = histogram.iter().sum();
@@ -134,7 +134,7 @@ mod tests {
     fn tones(width: u32, height: u32, light: impl Fn(u32, u32) -> (u8, u8)) -> Tones {
         let at = |i: u32| light(i % width, i / width);
         let (light, opacity) = (0..width * height).map(at).unzip();
-        Tones { width, height, light, opacity, colours: Vec::new(), stride: 1, several: false }
+        Tones { width, height, light, opacity, colors: Vec::new(), stride: 1, several: false }
     }
 
     /// A trunk on the bottom edge.

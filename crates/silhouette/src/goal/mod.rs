@@ -1,7 +1,7 @@
 //! Goal images: from a file to ink, with the place where the tree stands.
 //!
 //! 1. The file is read to its end and its structure checked; then it is decoded within limits: at most
-//!    [`MOST_SIDE`] pixels to a side and [`MOST_BYTES`]. Of an animation or of pages, the first is taken.
+//!    [`MAX_SIDE`] pixels to a side and [`MAX_BYTES`]. Of an animation or of pages, the first is taken.
 //! 2. What is tree is told by opacity where that varies, else by Otsu's threshold on brightness; or
 //!    a mask file says.
 //! 3. Ground row and axis column are read off the ink, unless set by hand.
@@ -25,7 +25,7 @@ mod warning;
 
 pub use error::GoalError;
 pub use ink::{Polarity, Split};
-pub use read::{LEAST_SIDE, MOST_BYTES, MOST_SIDE};
+pub use read::{MAX_BYTES, MAX_SIDE, MIN_SIDE};
 pub use source::Encoded;
 pub use stand::Origin;
 pub use warning::GoalWarning;
@@ -176,7 +176,7 @@ impl Goal {
         let original_size = (ink.width(), ink.height());
         let (width, height) = original_size;
         let name = || name.to_owned();
-        if width.min(height) < LEAST_SIDE {
+        if width.min(height) < MIN_SIDE {
             return Err(GoalError::TooSmall { name: name(), width, height });
         }
         if ink.ink() == ink.area() {
@@ -196,7 +196,7 @@ impl Goal {
         warnings.extend(shape::warnings(&ink));
         let reduction = options
             .max_side
-            .map_or(1.0, |side| f64::from(side.max(LEAST_SIDE)) / f64::from(width.max(height)))
+            .map_or(1.0, |side| f64::from(side.max(MIN_SIDE)) / f64::from(width.max(height)))
             .min(1.0);
         let bitmap = if reduction < 1.0 { shrink::shrink(&ink, reduction) } else { ink };
         if bitmap.ink() == 0 {
@@ -225,7 +225,7 @@ impl Goal {
         Frame {
             width: self.bitmap.width(),
             height: self.bitmap.height(),
-            metres_per_pixel: height / self.height_in_pixels(),
+            meters_per_pixel: height / self.height_in_pixels(),
             axis_column: self.axis_column,
             ground_row: self.ground_row,
         }

@@ -8,16 +8,16 @@ use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Li
 use std::io::Cursor;
 
 /// Most pixels to a side that are read.
-pub const MOST_SIDE: u32 = 8192;
+pub const MAX_SIDE: u32 = 8192;
 /// Fewest pixels to a side that make a goal.
-pub const LEAST_SIDE: u32 = 8;
+pub const MIN_SIDE: u32 = 8;
 /// Most bytes that a file, or a decoded picture, may have: 8192² pixels of four bytes.
-pub const MOST_BYTES: u64 = 4 * MOST_SIDE as u64 * MOST_SIDE as u64;
+pub const MAX_BYTES: u64 = 4 * MAX_SIDE as u64 * MAX_SIDE as u64;
 /// Most bytes that a PNG may carry beside its pixels, unpacked: colour profile and texts.
-pub(super) const MOST_BESIDE: u64 = 32 << 20;
+pub(super) const MAX_BESIDE: u64 = 32 << 20;
 
 /// Most pixels whose colours are looked at to tell a photograph from a silhouette.
-const MOST_SAMPLES: usize = 1 << 17;
+const MAX_SAMPLES: usize = 1 << 17;
 
 /// A decoded picture: per pixel how bright and how opaque it is, 0 to 255, row by row.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub(super) struct Tones {
     pub(super) light: Vec<u8>,
     pub(super) opacity: Vec<u8>,
     /// Colours of every `stride`-th pixel.
-    pub(super) colours: Vec<[u8; 3]>,
+    pub(super) colors: Vec<[u8; 3]>,
     pub(super) stride: usize,
     /// Whether the file holds further pictures.
     pub(super) several: bool,
@@ -37,20 +37,20 @@ pub(super) struct Tones {
 pub(super) fn tones(source: &Encoded) -> Result<Tones, GoalError> {
     let (picture, several) = picture(source)?;
     let pixels = picture.width() as usize * picture.height() as usize;
-    let stride = pixels.div_ceil(MOST_SAMPLES).max(1);
-    let colours = colours(&picture, stride);
+    let stride = pixels.div_ceil(MAX_SAMPLES).max(1);
+    let colors = colors(&picture, stride);
     let both = picture.into_luma_alpha8();
     let (width, height) = both.dimensions();
     let both = both.into_raw();
     let (pairs, _) = both.as_chunks::<2>();
     let light = pairs.iter().map(|p| p[0]).collect();
     let opacity = pairs.iter().map(|p| p[1]).collect();
-    Ok(Tones { width, height, light, opacity, colours, stride, several })
+    Ok(Tones { width, height, light, opacity, colors, stride, several })
 }
 
 /// Colours of every `stride`-th pixel of a picture with 8 bits a channel; greys are not looked at, nor are
 /// deeper pictures.
-fn colours(picture: &DynamicImage, stride: usize) -> Vec<[u8; 3]> {
+fn colors(picture: &DynamicImage, stride: usize) -> Vec<[u8; 3]> {
     match picture {
         DynamicImage::ImageRgb8(p) => p.as_raw().as_chunks::<3>().0.iter().step_by(stride).copied().collect(),
         DynamicImage::ImageRgba8(p) => {
@@ -69,14 +69,14 @@ fn colours(picture: &DynamicImage, stride: usize) -> Vec<[u8; 3]> {
 pub(crate) fn picture(source: &Encoded) -> Result<(DynamicImage, bool), GoalError> {
     let (mut decoder, several) = open(source)?;
     let bytes = decoder.total_bytes();
-    if bytes > MOST_BYTES {
-        return Err(GoalError::TooManyBytes { path: source.name().into(), bytes, limit: MOST_BYTES });
+    if bytes > MAX_BYTES {
+        return Err(GoalError::TooManyBytes { path: source.name().into(), bytes, limit: MAX_BYTES });
     }
     let damaged = |e| undecoded(source, e);
     let mut limits = Limits::default();
-    limits.max_image_width = Some(MOST_SIDE);
-    limits.max_image_height = Some(MOST_SIDE);
-    limits.max_alloc = Some(2 * MOST_BYTES);
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    limits.max_alloc = Some(2 * MAX_BYTES);
     decoder.set_limits(limits).map_err(damaged)?;
     // Photographs lie on their side more often than not; a picture without a note stands as it is.
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
@@ -110,11 +110,11 @@ fn open(source: &Encoded) -> Result<(impl ImageDecoder, bool), GoalError> {
     // file has. Limits on sizes come with sentences of our own.
     let mut limits = Limits::no_limits();
     if format == ImageFormat::Png {
-        limits.max_alloc = Some(MOST_BESIDE);
+        limits.max_alloc = Some(MAX_BESIDE);
     }
     reader.limits(limits);
     let decoder = reader.into_decoder().map_err(|e| match e {
-        ImageError::Limits(_) => GoalError::TooMuchBeside { path: path(), limit: MOST_BESIDE },
+        ImageError::Limits(_) => GoalError::TooMuchBeside { path: path(), limit: MAX_BESIDE },
         other => undecoded(source, other),
     })?;
     check(source, decoder.dimensions())?;
@@ -134,10 +134,10 @@ fn undecoded(source: &Encoded, error: ImageError) -> GoalError {
 }
 
 fn check(source: &Encoded, (width, height): (u32, u32)) -> Result<(), GoalError> {
-    if width.max(height) > MOST_SIDE {
+    if width.max(height) > MAX_SIDE {
         return Err(GoalError::TooLarge { path: source.name().into(), width, height });
     }
-    if width.min(height) < LEAST_SIDE {
+    if width.min(height) < MIN_SIDE {
         return Err(GoalError::TooSmall { name: source.name().display().to_string(), width, height });
     }
     Ok(())

@@ -28,7 +28,7 @@ const ABRUPT: f64 = 0.03;
 /// Ground is at most this part of the picture's height; the rest is a tree with a wide foot.
 const DEEPEST: f64 = 0.35;
 /// Specks away from the tree that are still taken for leaves or dust.
-const MOST_SPECKS: u64 = 12;
+const MAX_SPECKS: u64 = 12;
 /// Pixels in the tone that none of their four neighbours has, per pixel, in noise.
 const GRAINY: f64 = 0.025;
 /// Ink per convex hull from which on a shape is solid.
@@ -54,7 +54,7 @@ pub(crate) fn warnings(ink: &Bitmap) -> Vec<GoalWarning> {
     if let Some(row) = ground {
         found.push(GoalWarning::Ground { row });
     }
-    if specks > MOST_SPECKS || shape.grain() > GRAINY {
+    if specks > MAX_SPECKS || shape.grain() > GRAINY {
         found.push(GoalWarning::Noise { specks: shape.lone().0 });
     }
     let solidity = shape.solidity();
@@ -167,7 +167,7 @@ impl<'a> Shape<'a> {
 
     /// Pixels of ink with no ink among their eight neighbours: how many, and the first few where.
     fn lone(&self) -> (u64, Vec<(u32, u32)>) {
-        const MOST: usize = 4096;
+        const MAX: usize = 4096;
         let (mut count, mut places) = (0, Vec::new());
         let blank = vec![0; self.ink.row(0).len()];
         let row = |y: Option<u32>| match y {
@@ -189,7 +189,7 @@ impl<'a> Shape<'a> {
                 }
                 let mut lone = here & !near;
                 count += u64::from(lone.count_ones());
-                while lone != 0 && places.len() < MOST {
+                while lone != 0 && places.len() < MAX {
                     places.push((i as u32 * 64 + lone.trailing_zeros(), y));
                     lone &= lone - 1;
                 }

@@ -1,7 +1,7 @@
 //! Pictures as they come: bytes with a name, from a file or a pipe, and never more than may be.
 
 use super::error::GoalError;
-use super::read::MOST_BYTES;
+use super::read::MAX_BYTES;
 use image::ImageFormat;
 use std::fs::File;
 use std::io::Read;
@@ -40,8 +40,8 @@ impl Encoded {
         if meta.is_dir() {
             return Err(unreadable(std::io::ErrorKind::IsADirectory.into()));
         }
-        if meta.len() > MOST_BYTES {
-            return Err(GoalError::TooManyBytes { path: path.into(), bytes: meta.len(), limit: MOST_BYTES });
+        if meta.len() > MAX_BYTES {
+            return Err(GoalError::TooManyBytes { path: path.into(), bytes: meta.len(), limit: MAX_BYTES });
         }
         Self::read(path, file)
     }
@@ -58,14 +58,14 @@ impl Encoded {
                 return Ok(false);
             }
             // One byte more tells whether there is too much.
-            from.take(MOST_BYTES + 1 - HEAD).read_to_end(&mut bytes)?;
+            from.take(MAX_BYTES + 1 - HEAD).read_to_end(&mut bytes)?;
             Ok(true)
         })();
         match read {
             Err(cause) => Err(GoalError::Unreadable { path, cause }),
             Ok(false) => Err(GoalError::NotAnImage { path }),
-            Ok(true) if bytes.len() as u64 > MOST_BYTES => {
-                Err(GoalError::TooManyBytes { path, bytes: bytes.len() as u64, limit: MOST_BYTES })
+            Ok(true) if bytes.len() as u64 > MAX_BYTES => {
+                Err(GoalError::TooManyBytes { path, bytes: bytes.len() as u64, limit: MAX_BYTES })
             }
             Ok(true) => Ok(Self { name: path, bytes }),
         }

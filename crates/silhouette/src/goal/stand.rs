@@ -62,19 +62,19 @@ fn trunk(ink: &Bitmap, (left, top, right, _): (u32, u32, u32, u32), ground: u32)
             total += 1.0;
         }
     }
-    let centre = if total > 0.0 { moment / total } else { f64::from(left + right + 1) / 2.0 };
+    let center = if total > 0.0 { moment / total } else { f64::from(left + right + 1) / 2.0 };
     let reach = 0.2 * f64::from(right - left + 1).max(8.0);
     let least = (f64::from(rows) * SUPPORT).ceil() as u32;
     let mut best: Option<(f64, f64)> = None;
     for (from, to) in clumps(&support, least) {
         let at = (from + to) / 2.0;
-        let off = (at - centre) / reach;
+        let off = (at - center) / reach;
         let merit = (to - from) / (1.0 + off * off);
         if best.is_none_or(|(most, _)| merit > most) {
             best = Some((merit, at));
         }
     }
-    best.map_or_else(|| weighted_middle(&support).unwrap_or(centre), |(_, at)| at)
+    best.map_or_else(|| weighted_middle(&support).unwrap_or(center), |(_, at)| at)
 }
 
 /// Left and right edges of the runs of columns with at least this support, joined across narrow gaps.

@@ -14,7 +14,7 @@ fn expected() -> Bitmap {
     Bitmap::from_fn(120, 100, tree)
 }
 
-fn grey(on: u8, off: u8) -> DynamicImage {
+fn gray(on: u8, off: u8) -> DynamicImage {
     GrayImage::from_fn(120, 100, |x, y| Luma([if tree(x, y) { on } else { off }])).into()
 }
 
@@ -50,18 +50,18 @@ fn every_format_and_polarity_shows_the_same_tree() {
     let alpha: DynamicImage =
         RgbaImage::from_fn(120, 100, |x, y| Rgba([9, 200, 9, if tree(x, y) { 255 } else { 0 }])).into();
     for (name, picture, format) in [
-        ("a.png", grey(0, 255), ImageFormat::Png),
-        ("b.png", grey(255, 0), ImageFormat::Png),
-        ("c.webp", grey(20, 230), ImageFormat::WebP),
+        ("a.png", gray(0, 255), ImageFormat::Png),
+        ("b.png", gray(255, 0), ImageFormat::Png),
+        ("c.webp", gray(20, 230), ImageFormat::WebP),
         ("d.png", alpha.clone(), ImageFormat::Png),
         ("e.webp", alpha, ImageFormat::WebP),
-        ("misnamed.txt", grey(0, 255), ImageFormat::Png),
+        ("misnamed.txt", gray(0, 255), ImageFormat::Png),
     ] {
         let goal = load(&room.picture(name, &picture, format)).unwrap();
         assert_eq!(goal.bitmap, expected(), "{name}");
         assert_eq!((goal.ground_row, goal.axis_column, goal.top_row), (90.0, 60.0, 16.0), "{name}");
     }
-    let jpeg = load(&room.picture("f.jpg", &grey(0, 255), ImageFormat::Jpeg)).unwrap();
+    let jpeg = load(&room.picture("f.jpg", &gray(0, 255), ImageFormat::Jpeg)).unwrap();
     assert!(jpeg.bitmap.differing(&expected()) < 20, "JPEG: {:?}", jpeg.bitmap);
 }
 
@@ -78,14 +78,14 @@ fn our_own_pictures_come_back() {
 fn the_frame_puts_the_top_at_the_height_asked_for() {
     let frame = Goal::from_bitmap(expected()).unwrap().frame(7.4);
     assert_eq!((frame.width, frame.height), (120, 100));
-    assert!((frame.metres_per_pixel - 0.1).abs() < 1e-12);
+    assert!((frame.meters_per_pixel - 0.1).abs() < 1e-12);
     assert_eq!((frame.axis_column, frame.ground_row), (60.0, 90.0));
 }
 
 #[test]
 fn places_set_by_hand_stand_and_scale() {
     let room = Room::new();
-    let path = room.picture("a.png", &grey(0, 255), ImageFormat::Png);
+    let path = room.picture("a.png", &gray(0, 255), ImageFormat::Png);
     let options = GoalOptions {
         ground_row: Some(80.0),
         axis_column: Some(30.0),
@@ -109,7 +109,7 @@ fn a_mask_says_what_is_tree() {
     let room = Room::new();
     let noise = GrayImage::from_fn(120, 100, |x, y| Luma([(x * 37 + y * 91) as u8]));
     let photo = room.picture("photo.jpg", &noise.into(), ImageFormat::Jpeg);
-    let mask = room.picture("mask.png", &grey(255, 0), ImageFormat::Png);
+    let mask = room.picture("mask.png", &gray(255, 0), ImageFormat::Png);
     let options = GoalOptions { mask: Some(mask.clone()), ..GoalOptions::default() };
     let goal = Goal::load(&photo, &options).unwrap();
     assert_eq!(goal.bitmap, expected());
@@ -122,8 +122,8 @@ fn a_mask_says_what_is_tree() {
 #[test]
 fn bad_files_are_errors_with_their_names() {
     let room = Room::new();
-    let whole = fs::read(room.picture("whole.png", &grey(0, 255), ImageFormat::Png)).unwrap();
-    let jpeg = fs::read(room.picture("whole.jpg", &grey(0, 255), ImageFormat::Jpeg)).unwrap();
+    let whole = fs::read(room.picture("whole.png", &gray(0, 255), ImageFormat::Png)).unwrap();
+    let jpeg = fs::read(room.picture("whole.jpg", &gray(0, 255), ImageFormat::Jpeg)).unwrap();
     let even = |w, h, v| DynamicImage::from(GrayImage::from_pixel(w, h, Luma([v])));
     type Check = fn(&GoalError) -> bool;
     let cases: [(PathBuf, Check); 10] = [

@@ -19,7 +19,7 @@ pub(super) type Sample = ([f64; 2], Oklab);
 const TERMS: usize = 6;
 
 /// Spread below which colours are taken for equal, in Oklab: what the eye can just tell.
-const LEAST_SPREAD: f64 = 0.02;
+const MIN_SPREAD: f64 = 0.02;
 /// Rounds of reweighting, after which the surface does not move any more.
 const ROUNDS: usize = 20;
 /// Samples with residuals beyond this many medians are no background.
@@ -58,7 +58,7 @@ impl Backdrop {
         // Once by the plane, then by a surface that knows better what is close.
         for _ in 0..2 {
             let mut sizes: Vec<f64> = samples.iter().map(|s| norm(residual(&surface, s))).collect();
-            let far = OUTLYING * median(&mut sizes).max(LEAST_SPREAD / 2.0);
+            let far = OUTLYING * median(&mut sizes).max(MIN_SPREAD / 2.0);
             for (weight, sample) in weights.iter_mut().zip(samples) {
                 *weight = f64::from(u8::from(norm(residual(&surface, sample)) <= far));
             }
@@ -78,14 +78,14 @@ impl Backdrop {
             for v in row.iter_mut() {
                 *v /= total;
             }
-            row[i] += LEAST_SPREAD * LEAST_SPREAD;
+            row[i] += MIN_SPREAD * MIN_SPREAD;
         }
         Some(Self { surface, whiten: inverse_factor(covariance) })
     }
 
     /// The colour of the background at a place.
-    pub(super) fn colour(&self, at: [f64; 2]) -> [f64; 3] {
-        colour(&self.surface, at)
+    pub(super) fn color(&self, at: [f64; 2]) -> [f64; 3] {
+        color(&self.surface, at)
     }
 
     /// How far a difference of colours is, in spreads.
@@ -94,13 +94,13 @@ impl Backdrop {
     }
 }
 
-fn colour(surface: &[[f64; TERMS]; 3], at: [f64; 2]) -> [f64; 3] {
+fn color(surface: &[[f64; TERMS]; 3], at: [f64; 2]) -> [f64; 3] {
     let t = terms(at);
     surface.map(|c| c.iter().zip(t).map(|(c, t)| c * t).sum())
 }
 
 fn residual(surface: &[[f64; TERMS]; 3], (at, seen): &Sample) -> [f64; 3] {
-    let expected = colour(surface, *at);
+    let expected = color(surface, *at);
     std::array::from_fn(|i| f64::from(seen[i]) - expected[i])
 }
 
@@ -191,7 +191,7 @@ mod tests {
         for hidden in [0, 33] {
             let backdrop = Backdrop::fit(&samples(hidden)).unwrap();
             for at in [[0.0, 0.0], [0.9, -0.4], [-0.9, 0.9]] {
-                let [light, _, b] = backdrop.colour(at);
+                let [light, _, b] = backdrop.color(at);
                 let expected = 0.8 + 0.1 * at[1] - 0.05 * at[0] * at[0];
                 assert!((light - expected).abs() < 0.01 && (b + 0.05).abs() < 0.01, "{hidden}: {light}");
             }

@@ -21,7 +21,7 @@ impl Clear {
 /// Horizons lie below this part of the picture's height.
 const HIGHEST: f64 = 0.35;
 /// Sides that disagree by more than this part of the height do not see the same horizon.
-const MOST_SLOPE: f64 = 0.15;
+const MAX_SLOPE: f64 = 0.15;
 
 /// A straight line between the picture's sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,7 @@ impl Horizon {
         let height = left.len().min(right.len()) as f64;
         let found = [step(left, clear), step(right, clear)];
         if let [Some(left), Some(right)] = found
-            && (left - right).abs() <= MOST_SLOPE * height
+            && (left - right).abs() <= MAX_SLOPE * height
         {
             return Some(Self { left, right });
         }
@@ -69,11 +69,11 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, y: f64, colour: Oklab) {
+    fn add(&mut self, y: f64, color: Oklab) {
         self.n += 1.0;
         self.y += y;
         self.yy += y * y;
-        for (i, v) in colour.into_iter().map(f64::from).enumerate() {
+        for (i, v) in color.into_iter().map(f64::from).enumerate() {
             self.c[i] += v;
             self.yc[i] += y * v;
             self.cc += v * v;
@@ -84,13 +84,13 @@ impl Sums {
     fn line(&self, at: f64) -> (f64, [f64; 3]) {
         let spread = self.yy - self.y * self.y / self.n;
         let mut left = self.cc;
-        let colours = std::array::from_fn(|i| {
+        let colors = std::array::from_fn(|i| {
             let joint = self.yc[i] - self.y * self.c[i] / self.n;
             let slope = if spread > 1e-9 { joint / spread } else { 0.0 };
             left -= self.c[i] * self.c[i] / self.n + slope * joint;
             self.c[i] / self.n + slope * (at - self.y / self.n)
         });
-        (left.max(0.0), colours)
+        (left.max(0.0), colors)
     }
 }
 
@@ -98,14 +98,14 @@ impl Sums {
 /// of the squares; none if there is no clear step of colour there.
 fn step(rows: &[Oklab], clear: Clear) -> Option<f64> {
     let mut below = vec![Sums::default(); rows.len() + 1];
-    for (y, &colour) in rows.iter().enumerate().rev() {
+    for (y, &color) in rows.iter().enumerate().rev() {
         below[y] = below[y + 1];
-        below[y].add(y as f64, colour);
+        below[y].add(y as f64, color);
     }
     let least = (rows.len() / 50).max(2);
     let mut above = Sums::default();
     let mut best: Option<(f64, usize, f64)> = None;
-    for (y, &colour) in rows.iter().enumerate() {
+    for (y, &color) in rows.iter().enumerate() {
         let edge = y as f64 - 0.5;
         if y >= least && y + least <= rows.len() && y as f64 >= HIGHEST * rows.len() as f64 {
             let ((a, over), (b, under)) = (above.line(edge), below[y].line(edge));
@@ -114,7 +114,7 @@ fn step(rows: &[Oklab], clear: Clear) -> Option<f64> {
                 best = Some((a + b, y, step));
             }
         }
-        above.add(y as f64, colour);
+        above.add(y as f64, color);
     }
     let (squares, row, step) = best?;
     let noise = (squares / rows.len() as f64).sqrt();
@@ -159,15 +159,15 @@ mod tests {
     #[test]
     fn a_crown_at_one_side_does_not_raise_the_horizon() {
         let mut left = side(160);
-        for colour in &mut left[75..120] {
-            *colour = [0.2, 0.0, 0.05];
+        for color in &mut left[75..120] {
+            *color = [0.2, 0.0, 0.05];
         }
         let horizon = Horizon::of(&left, &side(160), Clear::SURELY).unwrap();
         assert!((horizon.at(50, 100) - 160.0).abs() < 1.0, "{horizon:?}");
         // Without a lawn there is none.
         let mut left = side(200);
-        for colour in &mut left[75..120] {
-            *colour = [0.2, 0.0, 0.05];
+        for color in &mut left[75..120] {
+            *color = [0.2, 0.0, 0.05];
         }
         assert_eq!(Horizon::of(&left, &side(200), Clear::PERHAPS), None);
         assert_eq!(Horizon::of(&side(200), &left, Clear::PERHAPS), None);

@@ -29,7 +29,7 @@ pub use horizon::Horizon;
 pub use photo::Photo;
 
 use crate::bitmap::Bitmap;
-use crate::goal::ink::LEAST_ALPHA_RANGE;
+use crate::goal::ink::MIN_ALPHA_RANGE;
 use crate::goal::{GoalWarning, shape};
 use crate::picture::{MISSED, Picture};
 
@@ -63,7 +63,7 @@ pub enum Means {
     /// The tree is what is at least half opaque.
     Opacity,
     /// The tree is what differs in colour.
-    Colour {
+    Color {
         /// Distance that all of the tree has from the background, in spreads of that.
         threshold: f64,
         /// Where the ground begins, if it was seen.
@@ -125,7 +125,7 @@ const SMALLEST: u64 = 1_000;
 /// Trees are at least this part of the picture's height.
 const LOWEST: f64 = 0.1;
 /// What covers more than this part of the picture is no tree on a background.
-const MOST_INK: f64 = 0.9;
+const MAX_INK: f64 = 0.9;
 
 impl Mask {
     /// Finds the tree.
@@ -140,7 +140,7 @@ impl Mask {
             return Err(MaskError::SeedOutside { x, y, width, height });
         }
         let (least, most) = photo.opacities();
-        if most.saturating_sub(least) >= LEAST_ALPHA_RANGE {
+        if most.saturating_sub(least) >= MIN_ALPHA_RANGE {
             let bitmap = Bitmap::from_fn(width, height, |x, y| photo.opacity(x, y) >= 128);
             return Ok(Self {
                 touches: touches(&bitmap),
@@ -171,7 +171,7 @@ impl Mask {
             touches: touches(&bitmap),
             warnings: warnings(&bitmap, photo, confidence),
             bitmap,
-            means: Means::Colour { threshold: standing.threshold, horizon: standing.horizon },
+            means: Means::Color { threshold: standing.threshold, horizon: standing.horizon },
             dropped,
             filled,
             confidence,
@@ -184,18 +184,18 @@ impl Mask {
         let mut out = Picture::new(photo.width(), photo.height());
         for y in 0..photo.height() {
             for x in 0..photo.width() {
-                let colour = photo.rgb(x, y);
+                let color = photo.rgb(x, y);
                 let ink = |dx, dy| match (x.checked_add_signed(dx), y.checked_add_signed(dy)) {
                     (Some(x), Some(y)) => self.bitmap.get(x, y),
                     _ => false,
                 };
                 let beside = || ink(-1, 0) || ink(1, 0) || ink(0, -1) || ink(0, 1);
                 let shown = if self.bitmap.get(x, y) {
-                    colour
+                    color
                 } else if beside() {
                     MISSED
                 } else {
-                    colour.map(|v| 170 + v / 3)
+                    color.map(|v| 170 + v / 3)
                 };
                 out.set(x, y, shown);
             }
@@ -214,7 +214,7 @@ fn check(ink: &Bitmap) -> Result<(), MaskError> {
     if ink.ink() * SMALLEST < ink.area() || tall < LOWEST {
         return no_tree("what stands out from the background is too small");
     }
-    if ink.ink() as f64 > MOST_INK * ink.area() as f64 {
+    if ink.ink() as f64 > MAX_INK * ink.area() as f64 {
         return no_tree("nearly all of the picture differs from its frame");
     }
     Ok(())

@@ -11,12 +11,12 @@ use crate::goal::ink::otsu;
 /// Width of the frame that is taken for background, as a part of the picture's shorter side.
 const FRAME: f64 = 0.02;
 /// Most pixels of the frame that a background is fitted to; more do not change it.
-const MOST_SAMPLES: usize = 20_000;
+const MAX_SAMPLES: usize = 20_000;
 /// Rows near the horizon, as a part of the picture's height, where pixels may be part sky and part
 /// ground.
 const HAZE: f64 = 0.01;
 /// Nothing nearer to the background than this, in spreads, is tree.
-const LEAST_DISTANCE: f64 = 3.5;
+const MIN_DISTANCE: f64 = 3.5;
 /// Side of the parts of a picture in which tree is told by its own tone, as a part of the shorter side.
 const TILE: f64 = 0.05;
 /// What is half way between background and tree, as a part of the mean level of what stands out: a
@@ -29,7 +29,7 @@ const LEVELS: f64 = 5.1;
 const FIRM: f64 = 1.5;
 const LOOSE: f64 = 1.0 / 1.5;
 /// The farthest that a pixel may have to be.
-const MOST_LEVEL: u8 = 254;
+const MAX_LEVEL: u8 = 254;
 
 /// What stands out from the background, before it is tidied up.
 pub(super) struct Standing {
@@ -64,16 +64,16 @@ pub(super) fn standing(photo: &Photo, background: Background) -> Result<Standing
     let mut histogram = [0_u64; 256];
     for y in 0..height {
         for x in 0..width {
-            let colour = frame.converter.oklab(photo.rgb(x, y));
+            let color = frame.converter.oklab(photo.rgb(x, y));
             let at = frame.place(x, y);
             let depth = match (horizon, &below) {
                 (Some(horizon), Some(_)) => f64::from(y) + 0.5 - horizon.at(x, width),
                 _ => f64::NEG_INFINITY,
             };
             let distance = match &below {
-                Some(below) if depth.abs() <= haze => between(&above, below, at, colour),
-                Some(below) if depth > 0.0 => below.spreads(less(colour, below.colour(at))),
-                _ => above.spreads(less(colour, above.colour(at))),
+                Some(below) if depth.abs() <= haze => between(&above, below, at, color),
+                Some(below) if depth > 0.0 => below.spreads(less(color, below.color(at))),
+                _ => above.spreads(less(color, above.color(at))),
             };
             let level = (LEVELS * distance).min(255.0) as u8;
             // Trunk and lawn are no measure for crown and sky.
@@ -84,7 +84,7 @@ pub(super) fn standing(photo: &Photo, background: Background) -> Result<Standing
         }
     }
     let even = MaskError::NoTree { why: "the picture has about one colour" };
-    let least = (LEVELS * LEAST_DISTANCE) as u8;
+    let least = (LEVELS * MIN_DISTANCE) as u8;
     let root = u32::from(otsu(&square_roots(&histogram)).ok_or(even)?);
     let level = ((root * root / 255) as u8).max(least);
     let row = width as usize;
@@ -92,24 +92,24 @@ pub(super) fn standing(photo: &Photo, background: Background) -> Result<Standing
     let beyond = |part: f64| {
         Bitmap::from_fn(width, height, |x, y| {
             let least = (part * f64::from(level.max(local.half_way(x, y)))) as u8;
-            levels[y as usize * row + x as usize] > least.min(MOST_LEVEL)
+            levels[y as usize * row + x as usize] > least.min(MAX_LEVEL)
         })
     };
     let (ink, firm, loose) = (beyond(1.0), beyond(FIRM), beyond(LOOSE));
     Ok(Standing { ink, horizon, threshold: f64::from(level) / LEVELS, firm, loose })
 }
 
-fn less(colour: Oklab, other: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| f64::from(colour[i]) - other[i])
+fn less(color: Oklab, other: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| f64::from(color[i]) - other[i])
 }
 
 /// Distance from the nearest mixture of sky and ground.
-fn between(above: &Backdrop, below: &Backdrop, at: [f64; 2], colour: Oklab) -> f64 {
-    let (sky, ground) = (above.colour(at), below.colour(at));
+fn between(above: &Backdrop, below: &Backdrop, at: [f64; 2], color: Oklab) -> f64 {
+    let (sky, ground) = (above.color(at), below.color(at));
     let spreads = (0..=4).map(|quarter| {
         let share = f64::from(quarter) / 4.0;
         let mixed = std::array::from_fn(|i| sky[i] + share * (ground[i] - sky[i]));
-        let difference = less(colour, mixed);
+        let difference = less(color, mixed);
         above.spreads(difference).min(below.spreads(difference))
     });
     spreads.fold(f64::INFINITY, f64::min)
@@ -141,8 +141,8 @@ impl<'a> Frame<'a> {
         let row = |y| {
             let mut sum = [0.0; 3];
             for x in column..column + self.width {
-                let colour = self.converter.oklab(self.photo.rgb(x, y));
-                sum.iter_mut().zip(colour).for_each(|(s, c)| *s += c);
+                let color = self.converter.oklab(self.photo.rgb(x, y));
+                sum.iter_mut().zip(color).for_each(|(s, c)| *s += c);
             }
             sum.map(|s| s / self.width as f32)
         };
@@ -153,7 +153,7 @@ impl<'a> Frame<'a> {
     fn samples(&self, horizon: Option<Horizon>) -> (Vec<Sample>, Vec<Sample>) {
         let (w, h, f) = (self.photo.width(), self.photo.height(), self.width);
         let gap = 2.0 * (HAZE * f64::from(h)).max(1.0);
-        let stride = (2 * (w as usize + h as usize) * f as usize).div_ceil(MOST_SAMPLES).max(1);
+        let stride = (2 * (w as usize + h as usize) * f as usize).div_ceil(MAX_SAMPLES).max(1);
         let (mut above, mut below) = (Vec::new(), Vec::new());
         let mut count = 0_usize;
         for y in 0..h {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::raster::{Part, Rasteriser};
+use crate::raster::{Part, Rasterizer};
 use crate::view::{Frame, View};
 
 /// A number from 0 to 1 for a place, without order: what noise looks like.
@@ -43,11 +43,11 @@ pub(super) fn scene(species: &str, grain: f64, background: impl Fn(u32, u32) -> 
     let tree = pleach_generators::species(species).unwrap().grow(3).unwrap();
     let upright = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
     let frame = Frame {
-        metres_per_pixel: upright.metres_per_pixel / 0.88,
+        meters_per_pixel: upright.meters_per_pixel / 0.88,
         ground_row: 0.92 * f64::from(SIDE),
         ..upright
     };
-    let mut raster = Rasteriser::new();
+    let mut raster = Rasterizer::new();
     let (mut truth, mut stems, mut all) = (Bitmap::default(), Vec::new(), Vec::new());
     let mut coverage = |parts: &[Part], out: &mut Vec<u8>| {
         let mut bitmap = Bitmap::default();
@@ -118,7 +118,7 @@ fn trees_are_found_before_sky_clouds_lawn_and_wall() {
                 assert!(iou >= 0.9, "{species}, {name}, {background:?}: {iou:.3}");
                 assert_eq!(mask.touches, Touches::default(), "{species}, {name}");
                 if name == "sky and lawn" {
-                    let Means::Colour { horizon: Some(horizon), .. } = mask.means else {
+                    let Means::Color { horizon: Some(horizon), .. } = mask.means else {
                         panic!("{species}: no horizon")
                     };
                     assert!((horizon.left - GROUND * f64::from(SIDE)).abs() <= 2.0, "{horizon:?}");

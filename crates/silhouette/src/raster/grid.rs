@@ -36,7 +36,7 @@ const HIGH: usize = 64;
 /// 0.
 const SKEW: [i32; 8] = [-28_672, 4_096, -12_288, 20_480, -20_480, 12_288, -4_096, 28_672];
 /// Crossings of one row that the wide path sorts; more corners than this are no shape of ours.
-const MOST_CROSSINGS: usize = 64;
+const MAX_CROSSINGS: usize = 64;
 
 impl Grid {
     /// Clears the grid for a picture of this size with `down` samples down a pixel.
@@ -179,13 +179,13 @@ impl Grid {
     /// Any polygon: the crossings of each row, sorted, and spans between them.
     fn fill_wide(&mut self, corners: &[Corner], first: usize, last: usize) {
         let (wide, _) = self.extent();
-        let mut crossings = [0.0_f32; MOST_CROSSINGS];
+        let mut crossings = [0.0_f32; MAX_CROSSINGS];
         for row in first..last {
             let y = row as f32 + 0.5;
             let mut count = 0;
             let mut p = corners[corners.len() - 1];
             for &q in corners {
-                if (p[1] <= y) != (q[1] <= y) && count < MOST_CROSSINGS {
+                if (p[1] <= y) != (q[1] <= y) && count < MAX_CROSSINGS {
                     crossings[count] = p[0] + (y - p[1]) * (q[0] - p[0]) / (q[1] - p[1]);
                     count += 1;
                 }

@@ -57,14 +57,14 @@ pub enum Part {
 
 /// Draws silhouettes; keeps its memory from one to the next.
 #[derive(Clone, Debug, Default)]
-pub struct Rasteriser {
+pub struct Rasterizer {
     /// How finely pixels are sampled.
     pub detail: Detail,
     grid: Grid,
     outline: OutlineCache,
 }
 
-impl Rasteriser {
+impl Rasterizer {
     /// A rasteriser at full detail.
     #[must_use]
     pub fn new() -> Self {
@@ -84,14 +84,14 @@ impl Rasteriser {
         self.draw_parts(tree, view, frame, parts, out);
     }
 
-    /// Draws only some `parts` of `tree`; otherwise as [`Rasteriser::draw`].
+    /// Draws only some `parts` of `tree`; otherwise as [`Rasterizer::draw`].
     pub fn draw_parts(&mut self, tree: &Tree, view: &View, frame: &Frame, parts: &[Part], out: &mut Bitmap) {
         self.sample(tree, view, frame, parts);
         self.grid.resolve(out);
     }
 
     /// What the last drawn tree covers of each pixel, row by row: the number of samples, of
-    /// [`Rasteriser::samples`].
+    /// [`Rasterizer::samples`].
     pub fn coverage(&self, out: &mut Vec<u8>) {
         self.grid.coverage(out);
     }
@@ -123,7 +123,7 @@ impl Rasteriser {
 
     fn leaves(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
         let Some(first) = tree.leaves.first() else { return };
-        let pixels = camera.pixels_per_metre() as f32;
+        let pixels = camera.pixels_per_meter() as f32;
         let size = [first.across.length() * pixels, first.along.length() * pixels];
         let outline = self.outline.get(tree.leaf_shape, size);
         let placer = Placer::new(camera, scale);
@@ -177,7 +177,7 @@ impl Rasteriser {
 /// Width of the tree's leaves in pixels, seen from the front of the blade; infinite without leaves.
 fn leaf_width(tree: &Tree, camera: &Camera) -> f32 {
     let unit = 2.0 * tree.leaf_shape.half_outline().iter().map(|p| p[0]).fold(0.0, f32::max);
-    tree.leaves.first().map_or(f32::INFINITY, |l| unit * l.across.length() * camera.pixels_per_metre() as f32)
+    tree.leaves.first().map_or(f32::INFINITY, |l| unit * l.across.length() * camera.pixels_per_meter() as f32)
 }
 
 /// Takes the frames of leaves from the world to samples.

@@ -26,9 +26,9 @@ fn simplify(shape: LeafShape, scale: [f32; 2], tolerance: f32, kept: &mut Vec<[f
     if left.abs() > 0.05 * full.abs() {
         let factor = (full / left).abs().sqrt();
         let n = kept.len() as f32;
-        let centre = kept.iter().fold([0.0, 0.0], |c, p| [c[0] + p[0] / n, c[1] + p[1] / n]);
+        let center = kept.iter().fold([0.0, 0.0], |c, p| [c[0] + p[0] / n, c[1] + p[1] / n]);
         for p in kept {
-            *p = [centre[0] + (p[0] - centre[0]) * factor, centre[1] + (p[1] - centre[1]) * factor];
+            *p = [center[0] + (p[0] - center[0]) * factor, center[1] + (p[1] - center[1]) * factor];
         }
     } else {
         // Nothing like the shape is left of it: keep it whole.

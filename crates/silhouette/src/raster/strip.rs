@@ -9,12 +9,12 @@ use pleach_tree::{Stem, Tree};
 /// Farthest that a chord may stray from the curve, in pixels.
 const TOLERANCE: f64 = 0.1;
 /// Cross-sections smaller than this many pixels to a side are not drawn at the ends of stems.
-const LEAST_CAP: f32 = 0.25;
+const MIN_CAP: f32 = 0.25;
 
 /// A point of a stem's outline in pixels.
 #[derive(Clone, Copy, Debug)]
 struct Rib {
-    centre: Vec2,
+    center: Vec2,
     /// From the centre to the left rim.
     side: Vec2,
 }
@@ -25,7 +25,7 @@ pub(super) fn draw(grid: &mut Grid, camera: &Camera, scale: Vec2, tree: &Tree, s
     let knots = tree.knots_of(stem);
     let straight = knots[knots.len() - 1].point - knots[0].point;
     for (piece, r0, r1) in tree.pieces_of(stem) {
-        let chords = piece.chords(TOLERANCE / camera.pixels_per_metre());
+        let chords = piece.chords(TOLERANCE / camera.pixels_per_meter());
         if last.is_none() {
             last = rib(camera, &piece, 0.0, r0, straight);
             cap(grid, camera, scale, &piece, 0.0, r0);
@@ -53,17 +53,17 @@ fn rib(camera: &Camera, piece: &Cubic, t: f64, radius: f64, fallback: DVec3) -> 
     let seen = |v: DVec3| Vec2::new(v.dot(camera.right) as f32, v.dot(camera.down) as f32);
     let along = seen(piece.derivative(t)).try_normalize();
     let along = along.or_else(|| seen(fallback).try_normalize()).unwrap_or(Vec2::Y);
-    let width = (radius * camera.pixels_per_metre() * magnification) as f32;
-    Some(Rib { centre: Vec2::new(x as f32, y as f32), side: along.perp() * width })
+    let width = (radius * camera.pixels_per_meter() * magnification) as f32;
+    Some(Rib { center: Vec2::new(x as f32, y as f32), side: along.perp() * width })
 }
 
 /// The strip between two ribs; where it bends more sharply than it is wide, two triangles, since the
 /// quadrilateral would cross itself.
 fn quad(grid: &mut Grid, scale: Vec2, from: &Rib, to: &Rib) {
     let corner = |p: Vec2| -> Corner { (p * scale).to_array() };
-    let (a, b) = (from.centre + from.side, from.centre - from.side);
-    let (c, d) = (to.centre - to.side, to.centre + to.side);
-    let ahead = to.centre - from.centre;
+    let (a, b) = (from.center + from.side, from.center - from.side);
+    let (c, d) = (to.center - to.side, to.center + to.side);
+    let ahead = to.center - from.center;
     if (d - a).dot(ahead) >= 0.0 && (c - b).dot(ahead) >= 0.0 {
         grid.fill(&[corner(a), corner(b), corner(c), corner(d)]);
     } else {
@@ -80,13 +80,13 @@ fn cap(grid: &mut Grid, camera: &Camera, scale: Vec2, piece: &Cubic, t: f64, rad
     let Some(rib) = rib(camera, piece, t, radius, tangent) else { return };
     let wide = rib.side.length();
     let high = wide * tangent.dot(camera.away).abs() as f32;
-    if high < LEAST_CAP {
+    if high < MIN_CAP {
         return;
     }
     let short = rib.side.perp() * (high / wide);
     let corners: [Corner; CORNERS] = std::array::from_fn(|i| {
         let (sin, cos) = (i as f32 * std::f32::consts::TAU / CORNERS as f32).sin_cos();
-        ((rib.centre + rib.side * cos + short * sin) * scale).to_array()
+        ((rib.center + rib.side * cos + short * sin) * scale).to_array()
     });
     grid.fill(&corners);
 }

@@ -254,12 +254,12 @@ impl Rows {
         let axis = |variance: f64| (2.0 * variance.max(0.0).sqrt()).clamp(0.5, self.longest);
         let moments =
             [mean[0], mean[1], axis(middle + off), axis(middle - off), 0.5 * (2.0 * xy).atan2(xx - yy)];
-        let centre = [0, 1].map(|k| f64::midpoint(low[k], high[k]));
+        let center = [0, 1].map(|k| f64::midpoint(low[k], high[k]));
         let half = [0, 1].map(|k| ((high[k] - low[k]) / 2.0).max(0.5));
         vec![
             moments,
-            [centre[0], centre[1], self.longest, half[1], 0.0],
-            [centre[0], centre[1], half[0], self.longest, 0.0],
+            [center[0], center[1], self.longest, half[1], 0.0],
+            [center[0], center[1], half[0], self.longest, 0.0],
         ]
     }
 }

@@ -126,7 +126,7 @@ impl Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Metres.
-    Metres,
+    Meters,
     /// Degrees; converted to radians when a generator reads them.
     Degrees,
     /// A count of things.
@@ -138,7 +138,7 @@ pub enum Unit {
 impl fmt::Display for Unit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Metres => "m",
+            Self::Meters => "m",
             Self::Degrees => "°",
             Self::Count => "count",
             Self::Ratio => "ratio",

@@ -152,13 +152,13 @@ pub struct SlotError {
 }
 
 /// Names longer than this are no misspelling of anything, and comparing them takes time.
-const LONGEST_NAME: usize = 100;
+const MAX_NAME_CHARS: usize = 100;
 
 /// The known name that `name` most likely stands for, if any is near enough: a few letters are wrong, or
 /// it is a whole word of the known name, as `aspen` is of `quaking_aspen`.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    if name.len() > LONGEST_NAME {
+    if name.len() > MAX_NAME_CHARS {
         return None;
     }
     let lower = name.to_lowercase();
@@ -171,7 +171,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 
 /// How alike two names are, 0 to 1; `None` where nobody would take one for the other.
 fn likeness(name: &str, candidate: &str) -> Option<f64> {
-    const LEAST: f64 = 0.75;
+    const MIN: f64 = 0.75;
     /// Alike enough whatever the number of letters that differ.
     const PLENTY: f64 = 0.85;
     const WORD: f64 = 0.95;
@@ -183,7 +183,7 @@ fn likeness(name: &str, candidate: &str) -> Option<f64> {
     // `floor_splits`. One letter in three may be wrong.
     let letters = name.chars().count().max(candidate.chars().count());
     let few = strsim::osa_distance(name, candidate) <= (letters / 3).max(1);
-    (alike > PLENTY || (few && alike > LEAST)).then_some(alike)
+    (alike > PLENTY || (few && alike > MIN)).then_some(alike)
 }
 
 /// Whether `name` is one of the words that `whole` is put together from, and not a mere letter.

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 /// Characters that a message shows of a key or a value.
-const LONGEST: usize = 60;
+const MAX_CHARS: usize = 60;
 
 /// Whether `c` moves the cursor, turns the writing direction or is otherwise not to be printed.
 #[must_use]
@@ -16,8 +16,8 @@ pub(crate) fn is_hidden(c: char) -> bool {
 /// escaped, and no longer than 60 characters.
 #[must_use]
 pub fn shown(text: &str) -> String {
-    let mut escaped = escaped(text, LONGEST + 1);
-    if let Some((end, _)) = escaped.char_indices().nth(LONGEST) {
+    let mut escaped = escaped(text, MAX_CHARS + 1);
+    if let Some((end, _)) = escaped.char_indices().nth(MAX_CHARS) {
         escaped.truncate(end);
         escaped.push('…');
     }

@@ -99,9 +99,9 @@ impl SpeciesDoc {
     /// What the parser says, on one line that is not too long.
     fn syntax(&self, span: Range<usize>, message: &str) -> Issue {
         /// Most characters of what the parser says; it quotes keys of any length.
-        const LONGEST: usize = 200;
-        let mut short = escaped(&message.trim().replace('\n', "; "), LONGEST);
-        if message.trim().chars().nth(LONGEST).is_some() {
+        const MAX_CHARS: usize = 200;
+        let mut short = escaped(&message.trim().replace('\n', "; "), MAX_CHARS);
+        if message.trim().chars().nth(MAX_CHARS).is_some() {
             short.push('…');
         }
         self.issue(span, "", Problem::Syntax { message: short })

@@ -39,14 +39,14 @@ pub struct SpeciesError {
 impl fmt::Display for SpeciesError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         /// Lines beyond which nobody reads on.
-        const MOST: usize = 20;
-        for (i, issue) in self.issues.iter().take(MOST).enumerate() {
+        const MAX: usize = 20;
+        for (i, issue) in self.issues.iter().take(MAX).enumerate() {
             if i > 0 {
                 writeln!(f)?;
             }
             write!(f, "{issue}")?;
         }
-        match self.issues.len().saturating_sub(MOST) {
+        match self.issues.len().saturating_sub(MAX) {
             0 => Ok(()),
             1 => write!(f, "\nand one more mistake"),
             more => write!(f, "\nand {more} more mistakes"),

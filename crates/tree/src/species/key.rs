@@ -29,7 +29,7 @@ pub enum Form {
     /// A whole number from 0 to 2⁵³.
     Seed,
     /// A string `#rrggbb`: a colour as on screens.
-    Colour,
+    Color,
     /// `true` or `false`.
     Switch,
     /// A string that is one of these.
@@ -63,7 +63,7 @@ impl Form {
         match self {
             Self::Text => "string",
             Self::Seed => "seed",
-            Self::Colour => "colour",
+            Self::Color => "colour",
             Self::Switch => "boolean",
             Self::Choice(_) => "choice",
             Self::Length { .. } => "real",
@@ -89,7 +89,7 @@ impl Form {
         match self {
             Self::Text => "\"…\"".to_owned(),
             Self::Seed => "0 to 2^53".to_owned(),
-            Self::Colour => "\"#rrggbb\"".to_owned(),
+            Self::Color => "\"#rrggbb\"".to_owned(),
             Self::Switch => "true, false".to_owned(),
             Self::Choice(names) => names.join(", "),
             Self::Length { max } => format!("0 to {max} m"),

@@ -19,7 +19,7 @@ mod key;
 mod name;
 mod write;
 
-pub use appearance::{Appearance, BarkPattern, Colour, Look, Season};
+pub use appearance::{Appearance, BarkPattern, Color, Look, Season};
 pub use doc::{Entry, Node, SpeciesDoc, Value};
 pub use error::{Issue, SpeciesError};
 pub use key::{Form, KEYS, Key, Shape};

@@ -96,7 +96,7 @@ pub(super) fn params() -> Vec<Param> {
 }
 
 fn crown() -> Vec<Param> {
-    use Unit::{Count, Metres, Ratio};
+    use Unit::{Count, Meters, Ratio};
     vec![
         scalar(
             "crown",
@@ -111,7 +111,7 @@ fn crown() -> Vec<Param> {
             "crown",
             "g_scale",
             real(0.01, 200.0),
-            Metres,
+            Meters,
             13.0,
             (4.0, 45.0),
             "height that the tree is scaled to",
@@ -120,7 +120,7 @@ fn crown() -> Vec<Param> {
             "crown",
             "g_scale_v",
             real(0.0, 100.0),
-            Metres,
+            Meters,
             3.0,
             (0.0, 8.0),
             "largest variation of `g_scale`, drawn once a trunk",
@@ -383,7 +383,7 @@ fn stems() -> Vec<Param> {
 }
 
 fn foliage() -> Vec<Param> {
-    use Unit::{Count, Metres, Ratio};
+    use Unit::{Count, Meters, Ratio};
     let fan = Kind::FlaggedInteger { max: 100_000, negative: "a fan at the stem's tip" };
     vec![
         scalar(
@@ -404,7 +404,7 @@ fn foliage() -> Vec<Param> {
             (1.0, 10.0),
             "shape of a leaf",
         ),
-        scalar("leaves", "leaf_scale", real(0.0, 100.0), Metres, 0.17, (0.03, 0.9), "length of a leaf"),
+        scalar("leaves", "leaf_scale", real(0.0, 100.0), Meters, 0.17, (0.03, 0.9), "length of a leaf"),
         scalar(
             "leaves",
             "leaf_scale_x",
@@ -432,7 +432,7 @@ fn foliage() -> Vec<Param> {
             (1.0, 3.0),
             "shape of a blossom",
         ),
-        scalar("blossoms", "blossom_scale", real(0.0, 100.0), Metres, 0.0, (0.0, 0.2), "scale of a blossom"),
+        scalar("blossoms", "blossom_scale", real(0.0, 100.0), Meters, 0.0, (0.0, 0.2), "scale of a blossom"),
         scalar(
             "blossoms",
             "blossom_rate",

@@ -7,7 +7,7 @@ use anyhow::Context;
 use pleach_blend::draw::{Drawing, each_tree, picture, silhouettes};
 use pleach_blend::{Blend, BlendMap, Features, Point, Settings, map};
 use pleach_silhouette::score::blurred_iou;
-use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View, picture as sheets};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View, picture as sheets};
 use pleach_tree::{Growth, Key, Kind, Limits, Species, Tree};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -273,9 +273,9 @@ impl Ranges {
 
 fn figures(tree: &Tree) -> [f64; 3] {
     let frame = Frame::automatic(tree, &View::FRONT, true, DRAWING.pixels, DRAWING.pixels);
-    let bitmap = picture(tree, &mut Rasteriser::new(), DRAWING);
+    let bitmap = picture(tree, &mut Rasterizer::new(), DRAWING);
     let (left, top, right, bottom) = bitmap.ink_box().unwrap_or_default();
-    let height = (frame.ground_row - f64::from(top)) * frame.metres_per_pixel;
+    let height = (frame.ground_row - f64::from(top)) * frame.meters_per_pixel;
     let area = f64::from(right - left + 1) * f64::from(bottom - top + 1);
     [height, bitmap.ink() as f64 / area, tree.stems.len() as f64]
 }
@@ -382,9 +382,9 @@ impl Line {
     fn of(maps: &Maps, method: Method, pair: (usize, usize), steps: u32) -> anyhow::Result<Self> {
         let at = |i: u32| maps.between(method, pair, f64::from(i) / f64::from(steps));
         let species = (0..=steps).map(at).collect::<anyhow::Result<Vec<_>>>()?;
-        let mut rasteriser = Rasteriser::new();
+        let mut rasterizer = Rasterizer::new();
         let drawn: Vec<Option<Bitmap>> =
-            species.iter().map(|s| Some(picture(&grow(s, SEED)?, &mut rasteriser, DRAWING))).collect();
+            species.iter().map(|s| Some(picture(&grow(s, SEED)?, &mut rasterizer, DRAWING))).collect();
         let overlap = |pair: &[Option<Bitmap>]| match pair {
             [Some(a), Some(b)] => blurred_iou(a, b, BLUR),
             _ => 0.0,

@@ -12,7 +12,7 @@ use pleach_fit::{
     Unknown,
 };
 use pleach_silhouette::score::ScoreCard;
-use pleach_silhouette::{Bitmap, Detail, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::Species;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -108,7 +108,7 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
     let frame = Frame::automatic(&tree, &View::FRONT, true, SIZE, SIZE);
     let mut goal = Bitmap::default();
     // As searches draw, so that the truth itself is a perfect match.
-    Rasteriser::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, true, &mut goal);
+    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, true, &mut goal);
     let ellipse = ScoreCard::of(&goal, &goal)?.best_ellipse_iou;
     let generator = &species.generator;
     let truth = Genome::new(species.params.values().to_vec(), TREE_SEED);

@@ -14,7 +14,7 @@ pub(super) enum Scale {
 }
 
 /// Colours that most colour-blind eyes tell apart (Okabe and Ito 2008), then again with other dots.
-const COLOURS: [&str; 8] =
+const COLORS: [&str; 8] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#8a8a00"];
 
 struct Series {
@@ -115,9 +115,9 @@ impl Plot {
             self.y_label
         ));
         for (i, series) in self.series.iter().enumerate() {
-            let colour = COLOURS[i % COLOURS.len()];
-            let hollow = i / COLOURS.len() % 2 == 1;
-            let fill = if hollow { "white" } else { colour };
+            let color = COLORS[i % COLORS.len()];
+            let hollow = i / COLORS.len() % 2 == 1;
+            let fill = if hollow { "white" } else { color };
             let key = TOP + 8.0 + 17.0 * i as f64;
             if series.line {
                 let path: Vec<String> = series
@@ -127,23 +127,23 @@ impl Plot {
                     .collect();
                 let dash = if series.dashed { " stroke-dasharray=\"5 4\"" } else { "" };
                 put(format!(
-                    "<path d=\"M{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\"{dash}/>",
+                    "<path d=\"M{}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.6\"{dash}/>",
                     path.join("L")
                 ));
                 put(format!(
-                    "<path d=\"M{:.1} {key:.1}h18\" stroke=\"{colour}\" stroke-width=\"1.6\"{dash}/>",
+                    "<path d=\"M{:.1} {key:.1}h18\" stroke=\"{color}\" stroke-width=\"1.6\"{dash}/>",
                     right + 12.0
                 ));
             } else {
                 for p in &series.points {
                     put(format!(
-                        "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"2\" fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"0.8\"/>",
+                        "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"2\" fill=\"{fill}\" stroke=\"{color}\" stroke-width=\"0.8\"/>",
                         x.place(p.0),
                         y.place(p.1)
                     ));
                 }
                 put(format!(
-                    "<circle cx=\"{:.1}\" cy=\"{key:.1}\" r=\"4\" fill=\"{fill}\" stroke=\"{colour}\"/>",
+                    "<circle cx=\"{:.1}\" cy=\"{key:.1}\" r=\"4\" fill=\"{fill}\" stroke=\"{color}\"/>",
                     right + 21.0
                 ));
             }

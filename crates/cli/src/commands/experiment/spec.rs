@@ -6,7 +6,7 @@
 use super::needle::NeedleSpec;
 use super::robustness::RobustnessSpec;
 use super::treefit::TreefitSpec;
-use super::within::{FileName, List, Metres, Real, SpeciesName, Whole, Word};
+use super::within::{FileName, List, Meters, Real, SpeciesName, Whole, Word};
 use anyhow::Context;
 use pleach_fit::{Objective, Optimizer};
 use serde::Deserialize;
@@ -57,10 +57,10 @@ pub(super) struct Head {
 }
 
 /// Largest seed: it must survive JSON.
-pub(super) const LARGEST_SEED: u64 = 1 << 53;
+pub(super) const MAX_SEED: u64 = 1 << 53;
 
 /// A seed of trees or searches.
-pub(super) type Seed = Whole<0, LARGEST_SEED>;
+pub(super) type Seed = Whole<0, MAX_SEED>;
 /// How often something is done with other seeds.
 pub(super) type Repetitions = Whole<1, 10_000>;
 /// Evaluations of a search.
@@ -93,7 +93,7 @@ pub(super) struct GoalSpec {
     /// The picture, from the experiment's folder.
     pub(super) file: PathBuf,
     /// Height of its tree in metres.
-    pub(super) height: Real<Metres>,
+    pub(super) height: Real<Meters>,
     /// What it is called in the results; the file's name without its ending if it is not said.
     name: Option<FileName>,
 }
@@ -162,7 +162,7 @@ pub(super) struct LikenessSpec {
     /// Parameters that walk away from the truth, as slots.
     pub(super) walks: List<Spanned<String>, 1, 100>,
     /// Steps of each walk; shorter ones say too little about order.
-    pub(super) walk_steps: Whole<{ super::likeness::LEAST_STEPS as u64 }, 100>,
+    pub(super) walk_steps: Whole<{ super::likeness::MIN_STEPS as u64 }, 100>,
     /// Species whose first tree that the weights have not seen is the goal of a row of the sheet.
     pub(super) sheet: List<Spanned<String>, 1, 100>,
     /// The walks, once they are made: curves need more of them than their rows say.

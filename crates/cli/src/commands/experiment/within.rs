@@ -110,7 +110,7 @@ macro_rules! quantities {
 
 quantities! {
     /// Height of a tree in metres.
-    Metres: "a height in metres", 0.001..=1000.0;
+    Meters: "a height in metres", 0.001..=1000.0;
     /// An azimuth in degrees.
     Azimuth: "an azimuth in degrees", -360.0..=360.0;
     /// The time of a fit.
@@ -119,17 +119,17 @@ quantities! {
     Part: "a part of the search range", 0.0..=1.0;
 }
 
-/// A list of `LEAST` to `MOST` entries.
+/// A list of `MIN` to `MAX` entries.
 #[derive(Clone, Debug)]
-pub(super) struct List<T, const LEAST: usize = 1, const MOST: usize = 1000>(Vec<T>);
+pub(super) struct List<T, const MIN: usize = 1, const MAX: usize = 1000>(Vec<T>);
 
-impl<T, const LEAST: usize, const MOST: usize> Default for List<T, LEAST, MOST> {
+impl<T, const MIN: usize, const MAX: usize> Default for List<T, MIN, MAX> {
     fn default() -> Self {
         Self(Vec::new())
     }
 }
 
-impl<T, const LEAST: usize, const MOST: usize> Deref for List<T, LEAST, MOST> {
+impl<T, const MIN: usize, const MAX: usize> Deref for List<T, MIN, MAX> {
     type Target = [T];
 
     fn deref(&self) -> &[T] {
@@ -137,7 +137,7 @@ impl<T, const LEAST: usize, const MOST: usize> Deref for List<T, LEAST, MOST> {
     }
 }
 
-impl<'a, T, const LEAST: usize, const MOST: usize> IntoIterator for &'a List<T, LEAST, MOST> {
+impl<'a, T, const MIN: usize, const MAX: usize> IntoIterator for &'a List<T, MIN, MAX> {
     type Item = &'a T;
     type IntoIter = std::slice::Iter<'a, T>;
 
@@ -146,15 +146,13 @@ impl<'a, T, const LEAST: usize, const MOST: usize> IntoIterator for &'a List<T, 
     }
 }
 
-impl<'de, T: Deserialize<'de>, const LEAST: usize, const MOST: usize> Deserialize<'de>
-    for List<T, LEAST, MOST>
-{
+impl<'de, T: Deserialize<'de>, const MIN: usize, const MAX: usize> Deserialize<'de> for List<T, MIN, MAX> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let list = Vec::<T>::deserialize(deserializer)?;
-        if (LEAST..=MOST).contains(&list.len()) {
+        if (MIN..=MAX).contains(&list.len()) {
             return Ok(Self(list));
         }
-        Err(D::Error::custom(format!("{} entries, expected from {LEAST} to {MOST}", list.len())))
+        Err(D::Error::custom(format!("{} entries, expected from {MIN} to {MAX}", list.len())))
     }
 }
 
@@ -214,16 +212,16 @@ impl<'de> Deserialize<'de> for SpeciesName {
 pub(super) struct FileName(String);
 
 /// Longest name in bytes: endings are added, and file systems take 255.
-const LONGEST_NAME: usize = 100;
+const MAX_NAME_CHARS: usize = 100;
 
 impl FromStr for FileName {
     type Err = String;
 
     fn from_str(name: &str) -> Result<Self, String> {
         let is_bad = |c: char| c.is_control() || matches!(c, '/' | '\\' | ':');
-        if name.is_empty() || name.len() > LONGEST_NAME || name.starts_with('.') || name.contains(is_bad) {
+        if name.is_empty() || name.len() > MAX_NAME_CHARS || name.starts_with('.') || name.contains(is_bad) {
             return Err(format!(
-                "{name:.60?} cannot name files: expected up to {LONGEST_NAME} bytes without `/`, `\\`, `:` \
+                "{name:.60?} cannot name files: expected up to {MAX_NAME_CHARS} bytes without `/`, `\\`, `:` \
                  and control characters, the first one no dot"
             ));
         }

@@ -33,13 +33,13 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
 }
 
 /// Most trees that an individual is judged by: more than the spread of seeds needs.
-const MOST_SEEDS: u32 = 64;
+const MAX_SEEDS: u32 = 64;
 
 pub(super) fn seeds(text: &str) -> Result<NonZeroU32, String> {
     text.parse::<NonZeroU32>()
         .ok()
-        .filter(|count| count.get() <= MOST_SEEDS)
-        .ok_or_else(|| format!("expected a number of trees from 1 to {MOST_SEEDS}"))
+        .filter(|count| count.get() <= MAX_SEEDS)
+        .ok_or_else(|| format!("expected a number of trees from 1 to {MAX_SEEDS}"))
 }
 
 pub(super) fn share(text: &str) -> Result<f64, String> {

@@ -80,7 +80,7 @@ pub(super) struct Begun {
 }
 
 /// Species with less confidence than this are not spoken of.
-const LEAST_CONFIDENCE: f64 = 0.01;
+const MIN_CONFIDENCE: f64 = 0.01;
 
 impl From {
     /// The species whose generator is fitted, and whose values fixed parameters keep unless a guess
@@ -145,7 +145,7 @@ fn guess(
     let guess = library.first_guess(problem, settings, &candidates(problem), &how, stop, progress)?;
     bar.finish_and_clear();
     let mut names = guess.names;
-    names.retain(|(_, confidence)| *confidence >= LEAST_CONFIDENCE);
+    names.retain(|(_, confidence)| *confidence >= MIN_CONFIDENCE);
     if !quiet {
         let said: Vec<String> =
             names.iter().take(3).map(|(name, c)| format!("{name} ({:.0} %)", 100.0 * c)).collect();

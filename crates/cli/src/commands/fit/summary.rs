@@ -83,7 +83,7 @@ pub(super) struct Summary {
     pub(super) height_m: f64,
     /// The fitted tree in metres.
     pub(super) tree_m: Dendrometry,
-    pub(super) metres_per_pixel: f64,
+    pub(super) meters_per_pixel: f64,
     pub(super) goal_width: u32,
     pub(super) goal_height: u32,
     pub(super) search: SearchScores,
@@ -198,7 +198,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         fix: settings.freedom.fix.clone(),
         height_m: drawing.args.height,
         tree_m: Dendrometry::of(&drawn.tree),
-        metres_per_pixel: goal.frame(drawing.args.height).metres_per_pixel,
+        meters_per_pixel: goal.frame(drawing.args.height).meters_per_pixel,
         goal_width: goal.bitmap.width(),
         goal_height: goal.bitmap.height(),
         search: SearchScores {

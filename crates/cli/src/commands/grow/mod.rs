@@ -193,7 +193,7 @@ impl Grow {
         if self.json {
             reports.iter().try_for_each(output::json)
         } else {
-            output::line(statistics::summarise(&reports))
+            output::line(statistics::summarize(&reports))
         }
     }
 
@@ -251,7 +251,7 @@ impl Grow {
     fn picture(&self, path: &Path, tree: &Tree) -> anyhow::Result<()> {
         let size = self.size.unwrap_or(SIZE);
         let frame = Frame::automatic(tree, &View::FRONT, true, size, size);
-        let picture = picture::two_colours(tree, &View::FRONT, &frame, true);
+        let picture = picture::two_colors(tree, &View::FRONT, &frame, true);
         files::write_out(path, |mut out| Ok(picture.write_png(&mut out)?))
     }
 }

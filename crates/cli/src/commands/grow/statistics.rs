@@ -61,7 +61,7 @@ pub(super) fn describe(report: &Report<'_>) -> String {
 }
 
 /// Mean, standard deviation and range of every figure over many trees.
-pub(super) fn summarise(reports: &[Report<'_>]) -> String {
+pub(super) fn summarize(reports: &[Report<'_>]) -> String {
     type Figure = (&'static str, fn(&TreeStats) -> f64);
     const FIGURES: [Figure; 8] = [
         ("stems", |s| s.stems.iter().sum::<usize>() as f64),

@@ -188,7 +188,7 @@ impl Made {
         let (mask, goal) = (&self.mask, &self.goal);
         let (by, threshold, horizon) = match mask.means {
             Means::Opacity => ("opacity", None, None),
-            Means::Colour { threshold, horizon } => ("colour", Some(threshold), horizon),
+            Means::Color { threshold, horizon } => ("colour", Some(threshold), horizon),
         };
         Found {
             width: mask.bitmap.width(),
@@ -228,7 +228,7 @@ fn same_file(a: &Path, b: &Path) -> bool {
 pub(super) fn means(mask: &Mask) -> String {
     match mask.means {
         Means::Opacity => "the picture has an alpha channel: the tree is what is opaque".to_owned(),
-        Means::Colour { threshold, horizon } => {
+        Means::Color { threshold, horizon } => {
             let behind = horizon.map_or_else(
                 || "one background".to_owned(),
                 |h| format!("sky down to row {:.0}, ground below", (h.left + h.right) / 2.0),

@@ -36,8 +36,8 @@ pub(super) struct Distribution {
 const WIDEST: f64 = 1.0;
 /// The step in every direction, and the quotient of the longest and the shortest, beyond which a
 /// search has ended.
-const LEAST_STEP: f64 = 1e-9;
-const MOST_CONDITION: f64 = 1e7;
+const MIN_STEP: f64 = 1e-9;
+const MAX_CONDITION: f64 = 1e7;
 
 impl Distribution {
     /// A ball around `mean`.
@@ -169,7 +169,7 @@ impl Distribution {
     pub(super) fn is_spent(&self) -> bool {
         let longest = self.roots.iter().copied().fold(0.0, f64::max);
         let shortest = self.roots.iter().copied().fold(f64::INFINITY, f64::min);
-        let is_fine = self.sigma * longest > LEAST_STEP && longest < MOST_CONDITION * shortest;
+        let is_fine = self.sigma * longest > MIN_STEP && longest < MAX_CONDITION * shortest;
         !self.roots.is_empty() && !is_fine
     }
 }

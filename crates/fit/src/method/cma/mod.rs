@@ -100,7 +100,7 @@ const SAMPLE: u32 = 1;
 /// Part of the cost that counts as progress.
 const GAIN: f64 = 1e-3;
 /// Most individuals in a generation, however often it restarts.
-const MOST: usize = 4096;
+const MAX: usize = 4096;
 
 impl Cma {
     /// Starts at the best of the lists of `start`, or of random lists.
@@ -137,7 +137,7 @@ impl Cma {
             0 => strategy::population(genes.len()),
             given => given.max(4),
         };
-        let population = smallest.saturating_mul(1_usize << self.restarts.min(16)).min(MOST.max(smallest));
+        let population = smallest.saturating_mul(1_usize << self.restarts.min(16)).min(MAX.max(smallest));
         let mut distribution = Distribution::new(mean, sigma);
         keep_margin(&mut distribution, space, population);
         let tree_seed = members[best].tree_seed;

@@ -43,8 +43,8 @@ const BETTER_REWARD: f64 = 0.2;
 /// Weight of the newest reward, and the least credit, of moves and of genes.
 const MOVE_MEMORY: f64 = 0.02;
 const GENE_MEMORY: f64 = 0.05;
-const LEAST_MOVE: f64 = 0.01;
-const LEAST_GENE: f64 = 0.06;
+const MIN_MOVE: f64 = 0.01;
+const MIN_GENE: f64 = 0.06;
 
 impl Lane {
     pub(super) fn is_empty(&self) -> bool {
@@ -84,7 +84,7 @@ impl Lane {
         if self.credit.is_empty() {
             let genes = space.genes().len();
             self.steps = vec![settings.step; genes];
-            self.promise = vec![4.0 * LEAST_GENE; genes];
+            self.promise = vec![4.0 * MIN_GENE; genes];
             self.credit = vec![0.1; Move::ALL.len()];
         }
     }
@@ -128,14 +128,14 @@ impl Lane {
                 0.0
             };
             let credit = &mut self.credit[birth.by as usize];
-            *credit = (*credit + MOVE_MEMORY * (reward - *credit)).max(LEAST_MOVE);
+            *credit = (*credit + MOVE_MEMORY * (reward - *credit)).max(MIN_MOVE);
             // One gene is judged by what it did alone; among several each has its share of it.
             let share = if birth.genes.len() == 1 { 1.0 } else { 0.3 };
             for &gene in &birth.genes {
                 let factor = if better { LONGER } else { SHORTER };
                 self.steps[gene] = (self.steps[gene] * factor.powf(share)).clamp(STEPS.0, STEPS.1);
                 let promise = &mut self.promise[gene];
-                *promise = (*promise + share * GENE_MEMORY * (reward - *promise)).max(LEAST_GENE);
+                *promise = (*promise + share * GENE_MEMORY * (reward - *promise)).max(MIN_GENE);
             }
         }
     }

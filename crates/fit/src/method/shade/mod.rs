@@ -100,7 +100,7 @@ const ARCHIVE: u32 = 2;
 const VARIED: u32 = 3;
 
 /// The least population of which a target, r and s can be drawn.
-const LEAST: usize = 4;
+const MIN: usize = 4;
 /// Variations of the start's lists: share of numbers that are moved, and how far, in units.
 const VARIED_SHARE: f64 = 0.2;
 const VARIED_STEP: f64 = 0.1;
@@ -127,12 +127,12 @@ impl Shade {
         let draws = |member| Stream::at(self.seed, FIRST, self.round, member);
         let lists = self.start.lists();
         if self.round > 0 || lists.is_empty() {
-            let count = self.settings.first.max(LEAST);
+            let count = self.settings.first.max(MIN);
             return first(space, &[], count, self.settings.sparsity, draws, members);
         }
         given(space, lists, draws, members);
         let given = members.len();
-        for member in given..self.settings.population.max(LEAST) {
+        for member in given..self.settings.population.max(MIN) {
             let mut draws = Stream::at(self.seed, VARIED, self.round, member as u32);
             let mut genome = members[member % given].clone();
             for gene in space.genes() {
@@ -251,7 +251,7 @@ impl Method for Shade {
 
     fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>) {
         self.trials.clear();
-        if self.population.len() < LEAST {
+        if self.population.len() < MIN {
             return self.begin(space, members);
         }
         let scores: Vec<Score> = self.population.iter().map(|scored| scored.score).collect();
@@ -270,7 +270,7 @@ impl Method for Shade {
             let grown = grown.map(|(genome, score)| Scored { genome: genome.clone(), score: *score });
             self.population.extend(grown);
             self.population.sort_by(|a, b| a.score.cost.total_cmp(&b.score.cost));
-            self.population.truncate(self.settings.population.max(LEAST));
+            self.population.truncate(self.settings.population.max(MIN));
         } else {
             self.select(members, scores);
         }

@@ -15,7 +15,7 @@ const SECONDS: u32 = 8;
 /// Keys of every joint: twelve a second, and the first again at the end.
 pub(super) const KEYS: u32 = SECONDS * 12 + 1;
 /// Most cycles a loop that twelve keys a second can show, six keys each.
-const MOST_CYCLES: f64 = 16.0;
+const MAX_CYCLES: f64 = 16.0;
 
 /// Times of the keys in seconds.
 pub(super) fn times() -> Vec<f32> {
@@ -46,7 +46,7 @@ pub(super) fn rotations(rig: &Rig) -> Vec<f32> {
     let mut rotations = Vec::with_capacity(rig.joints.len() * KEYS as usize * 4);
     for joint in &rig.joints {
         let sway = joint.sway;
-        let cycles = (sway.frequency * f64::from(SECONDS)).round().clamp(1.0, MOST_CYCLES);
+        let cycles = (sway.frequency * f64::from(SECONDS)).round().clamp(1.0, MAX_CYCLES);
         let across = (cycles * 0.7).round().max(1.0);
         for key in 0..KEYS {
             // The last key is the first, bit for bit.

@@ -80,7 +80,7 @@ fn material(scene: &Scene<'_>, textures: &[Material], material: Material) -> Val
             },
         });
     }
-    let [r, g, b] = linear(scene.palette.colour(material)).map(|c| (f64::from(c) * 1e4).round() / 1e4);
+    let [r, g, b] = linear(scene.palette.color(material)).map(|c| (f64::from(c) * 1e4).round() / 1e4);
     let roughness = if material == Material::Bark { 0.95 } else { 0.7 };
     let mut value = json!({
         "name": material.name(),

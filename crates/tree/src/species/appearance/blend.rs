@@ -1,6 +1,6 @@
 //! What a blend of species looks like.
 
-use super::{Appearance, Colour};
+use super::{Appearance, Color};
 
 impl Appearance {
     /// The appearance of a blend, from the appearances of its species and their weights (0 or more).
@@ -16,12 +16,12 @@ impl Appearance {
         if parts.iter().all(|(one, _)| one == first) {
             return **first;
         }
-        let drawn = |said: fn(&Self) -> Option<Colour>, drawn: fn(&Self) -> Colour| {
+        let drawn = |said: fn(&Self) -> Option<Color>, drawn: fn(&Self) -> Color| {
             let anybody = parts.iter().any(|(one, _)| said(one).is_some());
-            anybody.then(|| Colour::mean(parts.iter().map(|(one, w)| (drawn(one), *w)))).flatten()
+            anybody.then(|| Color::mean(parts.iter().map(|(one, w)| (drawn(one), *w)))).flatten()
         };
-        let of_those = |said: fn(&Self) -> Option<Colour>| {
-            Colour::mean(parts.iter().filter_map(|(one, weight)| Some((said(one)?, *weight))))
+        let of_those = |said: fn(&Self) -> Option<Color>| {
+            Color::mean(parts.iter().filter_map(|(one, weight)| Some((said(one)?, *weight))))
         };
         let patterns = parts.iter().any(|(one, _)| one.bark_pattern.is_some());
         let evergreens = parts.iter().any(|(one, _)| one.evergreen.is_some());
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     fn of(bark: u32) -> Appearance {
-        Appearance { bark: Some(Colour::from_hex(bark)), ..Appearance::default() }
+        Appearance { bark: Some(Color::from_hex(bark)), ..Appearance::default() }
     }
 
     #[test]
@@ -70,13 +70,13 @@ mod tests {
         let birch = Appearance { bark_pattern: Some(BarkPattern::Banded), ..of(0xd9_d6_cc) };
         let oak = Appearance {
             bark_pattern: Some(BarkPattern::Furrowed),
-            autumn: Some(Colour::from_hex(0xa8_5a_2a)),
+            autumn: Some(Color::from_hex(0xa8_5a_2a)),
             season: Some(Season::Autumn),
             ..of(0x55_4c_43)
         };
         let half = Appearance::blend(&[(&birch, 0.5), (&oak, 0.5)]);
         assert_eq!(half.bark_pattern, Some(BarkPattern::Banded), "of equals the first");
-        let Some(Colour([r, ..])) = half.bark else { panic!("{half:?}") };
+        let Some(Color([r, ..])) = half.bark else { panic!("{half:?}") };
         assert!((0x85..0xa8).contains(&r), "between #55 and #d9: {r:x}");
         assert_eq!(half.autumn, oak.autumn, "the birch says nothing of it");
         assert_eq!((half.leaf, half.blossom, half.evergreen), (None, None, None), "nobody says");
@@ -91,17 +91,17 @@ mod tests {
     fn a_species_that_says_nothing_counts_as_it_is_drawn() {
         let silent = Appearance::default();
         let white = of(0xff_ff_ff);
-        let Some(Colour([r, ..])) = Appearance::blend(&[(&silent, 0.99), (&white, 0.01)]).bark else {
+        let Some(Color([r, ..])) = Appearance::blend(&[(&silent, 0.99), (&white, 0.01)]).bark else {
             panic!("a colour");
         };
-        let Colour([plain, ..]) = silent.look().bark;
+        let Color([plain, ..]) = silent.look().bark;
         assert!(r.abs_diff(plain) < 4, "nearly the plain look: {r:x} and {plain:x}");
     }
 
     #[test]
     fn what_never_turns_has_no_say_in_autumn() {
         let palm = Appearance { evergreen: Some(true), ..of(0x8d_7b_62) };
-        let acer = Appearance { autumn: Some(Colour::from_hex(0xc8_54_1f)), ..of(0x71_65_57) };
+        let acer = Appearance { autumn: Some(Color::from_hex(0xc8_54_1f)), ..of(0x71_65_57) };
         let mostly_acer = Appearance::blend(&[(&palm, 0.4), (&acer, 0.6)]);
         assert_eq!((mostly_acer.evergreen, mostly_acer.autumn), (Some(false), acer.autumn));
         assert_eq!(Appearance::blend(&[(&palm, 0.6), (&acer, 0.4)]).evergreen, Some(true));

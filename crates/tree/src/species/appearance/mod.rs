@@ -15,10 +15,10 @@
 //! called. Generators never read it.
 
 mod blend;
-mod colour;
+mod color;
 mod words;
 
-pub use colour::Colour;
+pub use color::Color;
 pub use words::{BarkPattern, Season};
 
 use super::doc::{Node, SpeciesDoc, Value};
@@ -30,15 +30,15 @@ use crate::param::{Problem, nearest, shown};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Appearance {
     /// Colour of the bark.
-    pub bark: Option<Colour>,
+    pub bark: Option<Color>,
     /// How bark is marked.
     pub bark_pattern: Option<BarkPattern>,
     /// Colour of leaves in summer.
-    pub leaf: Option<Colour>,
+    pub leaf: Option<Color>,
     /// Colour of leaves in autumn.
-    pub autumn: Option<Colour>,
+    pub autumn: Option<Color>,
     /// Colour of blossoms.
-    pub blossom: Option<Colour>,
+    pub blossom: Option<Color>,
     /// Whether leaves stay on, and green, all year.
     pub evergreen: Option<bool>,
     /// When the tree is shown.
@@ -49,15 +49,15 @@ pub struct Appearance {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Look {
     /// Colour of the bark.
-    pub bark: Colour,
+    pub bark: Color,
     /// How bark is marked.
     pub bark_pattern: BarkPattern,
     /// Colour of leaves in summer.
-    pub leaf: Colour,
+    pub leaf: Color,
     /// Colour of leaves in autumn.
-    pub autumn: Colour,
+    pub autumn: Color,
     /// Colour of blossoms.
-    pub blossom: Colour,
+    pub blossom: Color,
     /// Whether leaves stay on, and green, all year.
     pub evergreen: bool,
     /// When the tree is shown; `None` for full leaf with whatever blossom the model gives it.
@@ -67,11 +67,11 @@ pub struct Look {
 impl Look {
     /// What a species looks like that says nothing.
     pub const PLAIN: Self = Self {
-        bark: Colour::from_hex(0x6b_5c_4c),
+        bark: Color::from_hex(0x6b_5c_4c),
         bark_pattern: BarkPattern::Furrowed,
-        leaf: Colour::from_hex(0x5c_83_36),
-        autumn: Colour::from_hex(0xd0_96_2c),
-        blossom: Colour::from_hex(0xf4_e3_e6),
+        leaf: Color::from_hex(0x5c_83_36),
+        autumn: Color::from_hex(0xd0_96_2c),
+        blossom: Color::from_hex(0xf4_e3_e6),
         evergreen: false,
         season: None,
     };
@@ -91,12 +91,12 @@ const FIELDS: [Field; COUNT] = [
     Field {
         key: Key {
             name: "bark",
-            form: Form::Colour,
+            form: Form::Color,
             default: "#6b5c4c",
             doc: "bark of trunks; twigs are drawn darker",
         },
         written: |a| a.bark.map(text),
-        read: |a, said| said.colour().map(|colour| a.bark = Some(colour)),
+        read: |a, said| said.color().map(|color| a.bark = Some(color)),
     },
     Field {
         key: Key {
@@ -112,24 +112,24 @@ const FIELDS: [Field; COUNT] = [
         },
     },
     Field {
-        key: Key { name: "leaf", form: Form::Colour, default: "#5c8336", doc: "leaves in summer" },
+        key: Key { name: "leaf", form: Form::Color, default: "#5c8336", doc: "leaves in summer" },
         written: |a| a.leaf.map(text),
-        read: |a, said| said.colour().map(|colour| a.leaf = Some(colour)),
+        read: |a, said| said.color().map(|color| a.leaf = Some(color)),
     },
     Field {
         key: Key {
             name: "autumn",
-            form: Form::Colour,
+            form: Form::Color,
             default: "#d0962c",
             doc: "leaves in autumn, unless the species is evergreen",
         },
         written: |a| a.autumn.map(text),
-        read: |a, said| said.colour().map(|colour| a.autumn = Some(colour)),
+        read: |a, said| said.color().map(|color| a.autumn = Some(color)),
     },
     Field {
-        key: Key { name: "blossom", form: Form::Colour, default: "#f4e3e6", doc: "blossoms" },
+        key: Key { name: "blossom", form: Form::Color, default: "#f4e3e6", doc: "blossoms" },
         written: |a| a.blossom.map(text),
-        read: |a, said| said.colour().map(|colour| a.blossom = Some(colour)),
+        read: |a, said| said.color().map(|color| a.blossom = Some(color)),
     },
     Field {
         key: Key {
@@ -183,9 +183,9 @@ impl Said<'_> {
         self.doc.issue(self.node.span.clone(), self.name, problem)
     }
 
-    fn colour(&self) -> Result<Colour, Issue> {
+    fn color(&self) -> Result<Color, Issue> {
         let text = self.doc.text_of(self.name, self.node)?;
-        Colour::parse(text).ok_or_else(|| {
+        Color::parse(text).ok_or_else(|| {
             let message =
                 format!("\"{}\" is not a colour, expected \"#rrggbb\" such as \"#4f7a2e\"", shown(text));
             self.wrong(Problem::Conflict { message })
@@ -293,7 +293,7 @@ mod tests {
         let text = "\n[appearance]\nbark = \"#6b5b4a\"\nautumn = \"#d9a520\"\nseason = \"winter\"\n";
         let (appearance, issues) = read(text);
         assert_eq!(issues, Vec::<String>::new());
-        assert_eq!(appearance.bark, Some(Colour([0x6b, 0x5b, 0x4a])));
+        assert_eq!(appearance.bark, Some(Color([0x6b, 0x5b, 0x4a])));
         assert_eq!((appearance.leaf, appearance.season), (None, Some(Season::Winter)));
         assert_eq!(appearance.to_toml(), text);
         assert_eq!(read("").0.to_toml(), "");
@@ -313,10 +313,10 @@ mod tests {
         let default = |name: &str| KEYS.iter().find(|key| key.name == name).unwrap().default;
         let plain = Appearance::default().look();
         assert_eq!(plain, Look::PLAIN);
-        for (name, colour) in
+        for (name, color) in
             [("bark", plain.bark), ("leaf", plain.leaf), ("autumn", plain.autumn), ("blossom", plain.blossom)]
         {
-            assert_eq!(default(name), colour.to_string(), "{name}");
+            assert_eq!(default(name), color.to_string(), "{name}");
         }
         assert_eq!(default("bark_pattern"), plain.bark_pattern.name());
         assert_eq!(default("evergreen"), plain.evergreen.to_string());

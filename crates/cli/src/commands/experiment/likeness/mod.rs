@@ -19,7 +19,7 @@ use pleach_tree::Species;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
-pub(super) use walk::{LEAST_STEPS, Line};
+pub(super) use walk::{Line, MIN_STEPS};
 
 /// One number of one question about one set of pictures.
 ///

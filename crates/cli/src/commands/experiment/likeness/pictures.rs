@@ -4,7 +4,7 @@ use super::measures::{self, Seen, Values};
 use super::{LikenessSpec, SIDE, progress, stop};
 use anyhow::{Context, bail};
 use pleach_silhouette::goal::{Goal, GoalOptions};
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Foliage, Growth, Species, Tree};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ pub(super) fn draw(species: &[Species], seeds: u64, foliage: bool) -> anyhow::Re
 
 pub(super) fn silhouette(tree: &Tree, frame: &Frame, foliage: bool) -> Bitmap {
     let mut bitmap = Bitmap::default();
-    Rasteriser::new().draw(tree, &View::FRONT, frame, foliage, &mut bitmap);
+    Rasterizer::new().draw(tree, &View::FRONT, frame, foliage, &mut bitmap);
     bitmap
 }
 

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Step of a walk, as a part of the true value.
 pub(super) const STEP: f64 = 0.1;
 /// Shorter walks say too little about order.
-pub(in super::super) const LEAST_STEPS: usize = 5;
+pub(in super::super) const MIN_STEPS: usize = 5;
 /// Seed of all trees: only the parameter changes.
 const SEED: u64 = 1;
 
@@ -38,7 +38,7 @@ pub(super) fn lines(species: &[Species], spec: &LikenessSpec) -> anyhow::Result<
             stop::check()?;
             for sign in [-1.0, 1.0] {
                 let walk = goal.walk(one, parameter, sign, *spec.walk_steps as u32)?;
-                if walk.len() >= LEAST_STEPS && walk.iter().any(|(_, values)| values[0] < 1.0) {
+                if walk.len() >= MIN_STEPS && walk.iter().any(|(_, values)| values[0] < 1.0) {
                     lines.push(Line { species: one.name.clone(), parameter: parameter.clone(), sign, walk });
                 }
             }

@@ -38,14 +38,14 @@ const NESTED: [(&str, &str); 3] = [("[", "]"), ("{a=", "}"), ("{\"a\":", "}")];
 /// Most edits of one input.
 const EDITS: usize = 4;
 /// Largest result in bytes: what is repeated does not grow without end.
-const LARGEST: usize = 1 << 18;
+const MAX_BYTES: usize = 1 << 18;
 
 /// A spoilt copy of a text; not always text.
 pub(super) fn text(original: &str, draws: &mut Stream) -> Vec<u8> {
     let mut bytes = original.as_bytes().to_vec();
     for _ in 0..edits(draws) {
         edit_text(&mut bytes, draws);
-        bytes.truncate(LARGEST);
+        bytes.truncate(MAX_BYTES);
     }
     bytes
 }
@@ -55,7 +55,7 @@ pub(super) fn binary(original: &[u8], draws: &mut Stream) -> Vec<u8> {
     let mut bytes = original.to_vec();
     for _ in 0..edits(draws) {
         edit_bytes(&mut bytes, draws);
-        bytes.truncate(LARGEST);
+        bytes.truncate(MAX_BYTES);
     }
     bytes
 }
@@ -159,13 +159,13 @@ mod tests {
             let of = || text(&original, &mut Stream::at(1, 2, case, 0));
             let spoilt = of();
             assert_eq!(spoilt, of());
-            assert!(spoilt.len() <= LARGEST);
+            assert!(spoilt.len() <= MAX_BYTES);
             changed += usize::from(spoilt != original.as_bytes());
             unreadable += usize::from(std::str::from_utf8(&spoilt).is_err());
         }
         assert!(changed > 1950 && (1..1000).contains(&unreadable), "{changed} {unreadable}");
         // Of nothing, something or nothing is made.
-        assert!((0..100).all(|case| binary(&[], &mut Stream::at(1, 2, case, 0)).len() <= LARGEST));
+        assert!((0..100).all(|case| binary(&[], &mut Stream::at(1, 2, case, 0)).len() <= MAX_BYTES));
     }
 
     #[test]

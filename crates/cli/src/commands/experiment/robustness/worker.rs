@@ -53,7 +53,7 @@ struct Watched {
 type Slot = Arc<Mutex<Option<Watched>>>;
 
 /// Cases that never came back, beyond which a run makes no sense.
-const MOST_LOST: usize = 8;
+const MAX_LOST: usize = 8;
 /// A case that is left to itself has had this many times its limit.
 const PATIENCE: u32 = 2;
 
@@ -97,7 +97,7 @@ pub(super) fn run(
                     };
                     judged.entry(case).or_insert(Judged { verdict: Verdict::OverTime, cpu });
                     lost += 1;
-                    if lost > MOST_LOST {
+                    if lost > MAX_LOST {
                         bail!("{lost} cases did not come back, the last one {} {case}", area.name());
                     }
                     *slot = begin()?;

@@ -6,7 +6,7 @@ use anyhow::Context;
 use pleach_fit::{FitProblem, Genome, GoalView, Objective, Unknown, fresh_seeds};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::score::likeness::Likeness;
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Foliage, Growth, Key, Limits, Tree, Workspace};
 use std::path::Path;
 
@@ -111,7 +111,7 @@ fn problem(goals: Vec<GoalView>, foliage: bool) -> anyhow::Result<FitProblem> {
 fn pictured(tree: &Tree, view: View, foliage: bool) -> GoalView {
     let frame = Frame::automatic(tree, &view, foliage, SIZE, SIZE);
     let mut goal = Bitmap::default();
-    Rasteriser::new().draw(tree, &view, &frame, foliage, &mut goal);
+    Rasterizer::new().draw(tree, &view, &frame, foliage, &mut goal);
     GoalView { goal, view, frame, unknown: Unknown::default() }
 }
 
@@ -182,6 +182,6 @@ pub(super) fn draw(problem: &FitProblem, genome: &Genome, view: &GoalView) -> an
     let growth = Growth { foliage, ..Growth::seed(genome.tree_seed) };
     problem.generator.grow(&params, &growth, &mut Workspace::default(), &mut tree)?;
     let mut bitmap = Bitmap::default();
-    Rasteriser::new().draw(&tree, &view.view, &view.frame, problem.foliage, &mut bitmap);
+    Rasterizer::new().draw(&tree, &view.view, &view.frame, problem.foliage, &mut bitmap);
     Ok(bitmap)
 }

@@ -2,7 +2,7 @@
 
 use crate::commands::experiment::spec::{Evaluations, OTHER_NAME, Repetitions, Seed, Source, stem};
 use crate::commands::experiment::within::{
-    Azimuth, FileName, List, Metres, Real, Seconds, SpeciesName, Word,
+    Azimuth, FileName, List, Meters, Real, Seconds, SpeciesName, Word,
 };
 use pleach_fit::{Objective, Optimizer};
 use serde::Deserialize;
@@ -78,7 +78,7 @@ struct GoalOptions {
     held_out: Option<Real<Azimuth>>,
     degraded: Option<Degraded>,
     file: Option<PathBuf>,
-    height: Option<Real<Metres>>,
+    height: Option<Real<Meters>>,
     #[serde(default)]
     others: List<PathBuf, 0, 100>,
     like: Option<SpeciesName>,

@@ -36,7 +36,7 @@ impl Checkpoints {
         let frame = Frame {
             width: SIDE,
             height: SIDE,
-            metres_per_pixel: 0.5,
+            meters_per_pixel: 0.5,
             axis_column: f64::from(SIDE) / 2.0,
             ground_row: f64::from(SIDE),
         };

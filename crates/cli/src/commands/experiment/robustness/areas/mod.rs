@@ -14,7 +14,7 @@ pub(super) use species::SpeciesFiles;
 
 use super::worker::Verdict;
 use pleach_fit::stream::Stream;
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Growth, Limits, Species};
 use std::path::Path;
 
@@ -40,7 +40,7 @@ fn draws(lane: u32, case: u64) -> Stream {
 const LIMITS: Limits = Limits { stems: 1_000, leaves: 5_000, knots: 15_000, work: 1_000_000 };
 
 /// Longest message that a person reads.
-const LONGEST_MESSAGE: usize = 2_000;
+const MAX_MESSAGE_CHARS: usize = 2_000;
 
 /// A refusal, if its message is one that helps: short, without control characters, and with line and
 /// column if it is about text.
@@ -48,7 +48,7 @@ fn refused(message: String, has_place: bool) -> Verdict {
     let is_control = |c: char| c.is_control() && c != '\n';
     let is_bidi = |c: char| matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let unclear = message.trim().is_empty()
-        || message.len() > LONGEST_MESSAGE
+        || message.len() > MAX_MESSAGE_CHARS
         || message.contains(|c| is_control(c) || is_bidi(c))
         || (has_place && !names_a_place(&message));
     if unclear { Verdict::Unclear(message) } else { Verdict::Refused }
@@ -86,11 +86,11 @@ fn grown(species: &Species, seed: u64) -> Verdict {
         return Verdict::Wrong("more than the limits allow".to_owned());
     }
     let frame = Frame::automatic(&tree, &View::FRONT, true, 64, 64);
-    if !(frame.metres_per_pixel.is_finite() && frame.metres_per_pixel > 0.0) {
-        return Verdict::Wrong(format!("{} metres to a pixel", frame.metres_per_pixel));
+    if !(frame.meters_per_pixel.is_finite() && frame.meters_per_pixel > 0.0) {
+        return Verdict::Wrong(format!("{} metres to a pixel", frame.meters_per_pixel));
     }
     let mut bitmap = Bitmap::default();
-    Rasteriser::new().draw(&tree, &View::FRONT, &frame, true, &mut bitmap);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut bitmap);
     Verdict::Accepted
 }
 
@@ -104,7 +104,7 @@ mod tests {
         for bad in ["", "stream did not contain", "a:3: b", "a:3:4: \u{1b}[31m", "a:3:4: \u{202e}"] {
             assert!(matches!(refused(bad.to_owned(), true), Verdict::Unclear(_)), "{bad:?}");
         }
-        assert!(matches!(refused("x".repeat(LONGEST_MESSAGE + 1), false), Verdict::Unclear(_)));
+        assert!(matches!(refused("x".repeat(MAX_MESSAGE_CHARS + 1), false), Verdict::Unclear(_)));
         assert_eq!(refused("plain words".to_owned(), false), Verdict::Refused);
     }
 }

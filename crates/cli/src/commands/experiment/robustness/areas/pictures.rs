@@ -7,7 +7,7 @@ use anyhow::Context;
 use image::{DynamicImage, GrayImage, ImageFormat, RgbImage, RgbaImage};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
-use pleach_silhouette::{Bitmap, Frame, Rasteriser, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use std::io::Cursor;
 use std::path::Path;
 
@@ -28,14 +28,14 @@ impl Pictures {
         let tree = species.grow(1)?;
         let frame = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
         let mut ink = Bitmap::default();
-        Rasteriser::new().draw(&tree, &View::FRONT, &frame, true, &mut ink);
+        Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut ink);
         let tone = |x, y| if ink.get(x, y) { 20 } else { 200 + (x + y) as u8 % 40 };
-        let grey = GrayImage::from_fn(SIDE, SIDE, |x, y| image::Luma([tone(x, y)]));
-        let colour = RgbImage::from_fn(SIDE, SIDE, |x, y| image::Rgb([tone(x, y), 90, tone(x, y)]));
+        let gray = GrayImage::from_fn(SIDE, SIDE, |x, y| image::Luma([tone(x, y)]));
+        let color = RgbImage::from_fn(SIDE, SIDE, |x, y| image::Rgb([tone(x, y), 90, tone(x, y)]));
         let clear = RgbaImage::from_fn(SIDE, SIDE, |x, y| {
             image::Rgba([0, 0, 0, if ink.get(x, y) { 255 } else { 0 }])
         });
-        let pictures: [DynamicImage; 3] = [grey.into(), colour.into(), clear.into()];
+        let pictures: [DynamicImage; 3] = [gray.into(), color.into(), clear.into()];
         let mut files = Vec::new();
         for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::WebP, ImageFormat::Tiff] {
             for picture in &pictures {

@@ -5,11 +5,11 @@ use crate::preview::Picture;
 /// Bits a channel that tell colours apart before boxes are cut.
 const BITS: u32 = 6;
 /// Colours of a picture.
-const MOST: usize = 256;
+const MAX: usize = 256;
 
 /// Colours and, for each pixel, the number of its own. Opacity is not looked at.
-pub(crate) struct FewColours {
-    pub(crate) colours: Vec<[u8; 3]>,
+pub(crate) struct FewColors {
+    pub(crate) colors: Vec<[u8; 3]>,
     pub(crate) pixels: Vec<u8>,
 }
 
@@ -27,12 +27,12 @@ impl Cell {
     }
 }
 
-impl FewColours {
+impl FewColors {
     pub(crate) fn of(picture: &Picture) -> Self {
         let mut cells = cells(picture);
-        let mut boxes = Vec::with_capacity(MOST);
+        let mut boxes = Vec::with_capacity(MAX);
         boxes.push(0..cells.len());
-        while boxes.len() < MOST {
+        while boxes.len() < MAX {
             // The box that errs most is cut; the first of equals, everywhere.
             let worst = boxes
                 .iter()
@@ -51,7 +51,7 @@ impl FewColours {
             boxes.push(cut..range.end);
         }
         let mut number = vec![0_u8; 1 << (3 * BITS)];
-        let mut colours = Vec::with_capacity(boxes.len());
+        let mut colors = Vec::with_capacity(boxes.len());
         for (i, range) in boxes.into_iter().enumerate() {
             let mut whole = Cell::default();
             for cell in &cells[range] {
@@ -59,10 +59,10 @@ impl FewColours {
                 whole.count += cell.count;
                 (0..3).for_each(|c| whole.sum[c] += cell.sum[c]);
             }
-            colours.push([0, 1, 2].map(|c| ((whole.sum[c] + whole.count / 2) / whole.count.max(1)) as u8));
+            colors.push([0, 1, 2].map(|c| ((whole.sum[c] + whole.count / 2) / whole.count.max(1)) as u8));
         }
         let pixels = picture.rgba.chunks_exact(4).map(|p| number[index(p)]).collect();
-        Self { colours, pixels }
+        Self { colors, pixels }
     }
 }
 
@@ -114,9 +114,9 @@ fn middle(cells: &[Cell]) -> usize {
 mod tests {
     use super::*;
 
-    fn picture(colour: impl Fn(u32) -> [u8; 3]) -> Picture {
+    fn picture(color: impl Fn(u32) -> [u8; 3]) -> Picture {
         let rgba = (0..64 * 64).flat_map(|i| {
-            let [r, g, b] = colour(i);
+            let [r, g, b] = color(i);
             [r, g, b, 255]
         });
         Picture { width: 64, height: 64, rgba: rgba.collect() }
@@ -125,20 +125,20 @@ mod tests {
     #[test]
     fn few_colours_stay_as_they_are() {
         let picture = picture(|i| if i % 7 == 0 { [10, 200, 30] } else { [250, 250, 250] });
-        let few = FewColours::of(&picture);
-        assert_eq!(few.colours.len(), 2);
+        let few = FewColors::of(&picture);
+        assert_eq!(few.colors.len(), 2);
         for (pixel, number) in picture.rgba.chunks_exact(4).zip(&few.pixels) {
-            assert_eq!(few.colours[usize::from(*number)], pixel[..3]);
+            assert_eq!(few.colors[usize::from(*number)], pixel[..3]);
         }
     }
 
     #[test]
     fn many_colours_come_out_near() {
         let picture = picture(|i| [i % 64 * 4, i / 64 * 4, (i * 37 % 256) / 8].map(|c| c as u8));
-        let few = FewColours::of(&picture);
-        assert_eq!(few.colours.len(), MOST);
+        let few = FewColors::of(&picture);
+        assert_eq!(few.colors.len(), MAX);
         let strays = picture.rgba.chunks_exact(4).zip(&few.pixels).map(|(pixel, number)| {
-            let near = few.colours[usize::from(*number)];
+            let near = few.colors[usize::from(*number)];
             (0..3).map(|c| u32::from(pixel[c].abs_diff(near[c])).pow(2)).sum::<u32>()
         });
         let mean = strays.map(f64::from).sum::<f64>() / f64::from(64 * 64);

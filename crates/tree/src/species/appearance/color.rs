@@ -4,9 +4,9 @@ use std::fmt;
 
 /// A colour as on screens: sRGB, 0 to 255 a channel. Written `#rrggbb`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Colour(pub [u8; 3]);
+pub struct Color(pub [u8; 3]);
 
-impl Colour {
+impl Color {
     /// From `0xrrggbb`.
     #[must_use]
     pub const fn from_hex(hex: u32) -> Self {
@@ -29,13 +29,13 @@ impl Colour {
     pub fn mean(parts: impl IntoIterator<Item = (Self, f64)>) -> Option<Self> {
         let parts: Vec<(Self, f64)> = parts.into_iter().filter(|(_, weight)| *weight > 0.0).collect();
         let (first, _) = *parts.first()?;
-        if parts.iter().all(|(colour, _)| *colour == first) {
+        if parts.iter().all(|(color, _)| *color == first) {
             return Some(first);
         }
         let sum: f64 = parts.iter().map(|(_, weight)| weight).sum();
         let mut mean = [0.0; 3];
-        for (colour, weight) in parts {
-            for (mean, value) in mean.iter_mut().zip(colour.oklab()) {
+        for (color, weight) in parts {
+            for (mean, value) in mean.iter_mut().zip(color.oklab()) {
                 *mean += value * weight / sum;
             }
         }
@@ -77,7 +77,7 @@ impl Colour {
     }
 }
 
-impl fmt::Display for Colour {
+impl fmt::Display for Color {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self([r, g, b]) = self;
         write!(f, "#{r:02x}{g:02x}{b:02x}")
@@ -91,23 +91,23 @@ mod tests {
     #[test]
     fn every_third_colour_comes_back_from_oklab() {
         for hex in (0..0x0100_0000).step_by(997) {
-            let colour = Colour::from_hex(hex);
-            assert_eq!(Colour::from_oklab(colour.oklab()), colour, "{colour}");
-            assert_eq!(Colour::parse(&colour.to_string()), Some(colour));
+            let color = Color::from_hex(hex);
+            assert_eq!(Color::from_oklab(color.oklab()), color, "{color}");
+            assert_eq!(Color::parse(&color.to_string()), Some(color));
         }
     }
 
     #[test]
     fn a_mean_lies_between_and_keeps_what_is_alike() {
-        let (black, white) = (Colour([0; 3]), Colour([255; 3]));
+        let (black, white) = (Color([0; 3]), Color([255; 3]));
         // Lightness 0.5 in Oklab is an eighth of the light.
-        assert_eq!(Colour::mean([(black, 1.0), (white, 1.0)]), Some(Colour([0x63; 3])));
-        assert_eq!(Colour::mean([(black, 0.0), (white, 2.0)]), Some(white));
-        let green = Colour::from_hex(0x5f_87_34);
-        assert_eq!(Colour::mean([(green, 0.3), (green, 0.7)]), Some(green));
-        assert_eq!(Colour::mean([(green, 0.0)]), None);
+        assert_eq!(Color::mean([(black, 1.0), (white, 1.0)]), Some(Color([0x63; 3])));
+        assert_eq!(Color::mean([(black, 0.0), (white, 2.0)]), Some(white));
+        let green = Color::from_hex(0x5f_87_34);
+        assert_eq!(Color::mean([(green, 0.3), (green, 0.7)]), Some(green));
+        assert_eq!(Color::mean([(green, 0.0)]), None);
         // The plain mean of red and green would be #808000, dark beside both.
-        let Some(Colour([r, g, b])) = Colour::mean([(Colour([255, 0, 0]), 0.5), (Colour([0, 255, 0]), 0.5)])
+        let Some(Color([r, g, b])) = Color::mean([(Color([255, 0, 0]), 0.5), (Color([0, 255, 0]), 0.5)])
         else {
             panic!("a mean");
         };
