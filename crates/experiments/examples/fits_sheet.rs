@@ -10,8 +10,9 @@
 
 use anyhow::Context;
 use pleach_blend::picture::{Anchor, Color, Scene, Shape};
-use pleach_mesh::preview::Background;
-use pleach_mesh::{Palette, Picture, Preview, PreviewSettings, png_file};
+use pleach_mesh::Palette;
+use pleach_render::preview::Background;
+use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_tree::species;
 use std::path::Path;

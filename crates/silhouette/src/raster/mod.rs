@@ -55,6 +55,16 @@ pub enum Part {
     Blossoms,
 }
 
+/// The silhouette of `tree`, leaves and blossoms included, in a square of `size` pixels that shows all of
+/// it: [`Frame::automatic`] and a [`Rasterizer`] at full detail.
+#[must_use]
+pub fn silhouette(tree: &Tree, view: View, size: u32) -> Bitmap {
+    let mut picture = Bitmap::default();
+    let frame = Frame::automatic(tree, &view, true, size, size);
+    Rasterizer::new().draw(tree, &view, &frame, true, &mut picture);
+    picture
+}
+
 /// Draws silhouettes; keeps its memory from one to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Rasterizer {

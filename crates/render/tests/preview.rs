@@ -2,8 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_mesh::preview::{Background, Ground};
-use pleach_mesh::{Palette, Picture, Preview, PreviewSettings, png_file};
+use pleach_mesh::Palette;
+use pleach_render::preview::{Background, Ground};
+use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_tree::Tree;
 use pleach_tree::species::{Color, Season};
 

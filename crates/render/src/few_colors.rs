@@ -1,6 +1,6 @@
 //! A picture in at most 256 colours, for files a third as large: median cut (Heckbert 1982).
 
-use crate::preview::Picture;
+use crate::picture::Picture;
 
 /// Bits a channel that tell colours apart before boxes are cut.
 const BITS: u32 = 6;

@@ -5,11 +5,12 @@ use super::camera::Camera;
 use super::light::Sun;
 use super::raster::{DepthBuffer, NONE};
 use super::scene::Scene;
-use super::{Background, Ground, Picture, PreviewSettings};
-use crate::block::normal;
-use crate::palette::{BarkPattern, linear};
-use crate::sink::Material;
+use super::settings::{Background, Ground, PreviewSettings};
+use crate::picture::Picture;
 use glam::{Vec3, Vec4, vec3};
+use pleach_mesh::Material;
+use pleach_mesh::block::normal;
+use pleach_mesh::palette::{BarkPattern, linear};
 use rayon::prelude::*;
 
 /// Samples across and down a pixel.

@@ -1,6 +1,6 @@
 //! Markings on bark, as functions of the place on the stem.
 
-use crate::palette::BarkPattern;
+use pleach_mesh::palette::BarkPattern;
 use std::f32::consts::TAU;
 
 /// How much lighter or darker than its colour bark is at a place, about 0.3 to 1.3.

@@ -4,11 +4,11 @@
 //! two sides. The pictures hold the tree's own colours with the crown's own shade and without sun,
 //! since the engine lights them again.
 
-use crate::block::{Block, vertex};
-use crate::palette::Palette;
-use crate::preview::{Frame, Picture, Preview};
-use crate::tube::Count;
+use crate::picture::Picture;
+use crate::preview::{Frame, Preview};
 use glam::{Vec3, vec3};
+use pleach_mesh::Palette;
+use pleach_mesh::card::Card;
 use pleach_tree::Tree;
 use pleach_tree::trig::sin_cos;
 use std::f64::consts::PI;
@@ -19,15 +19,6 @@ pub const MAX_SIDES: u32 = 8;
 const HEIGHT: u32 = 256;
 /// Part of a card around the tree that stays empty, so that neighbours in the picture do not bleed.
 const MARGIN: f32 = 0.03;
-
-/// One upright card.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Card {
-    /// Lower left, lower right, upper right and upper left corner, in metres, z up.
-    pub corners: [Vec3; 4],
-    /// Left, top, right and bottom in the picture, 0 to 1.
-    pub uv: [f32; 4],
-}
 
 /// The cards of some trees and the one picture that all of them show.
 #[derive(Clone, Debug)]
@@ -103,22 +94,5 @@ fn bleed(picture: &mut Picture) {
     let mean = sum.map(|s| (s / weight.max(1)) as u8);
     for pixel in picture.rgba.chunks_exact_mut(4).filter(|p| p[3] == 0) {
         pixel[..3].copy_from_slice(&mean);
-    }
-}
-
-pub(crate) fn count(cards: &[Card]) -> Count {
-    Count { vertices: 4 * cards.len() as u64, triangles: 2 * cards.len() as u64 }
-}
-
-/// Appends the cards. Their normals point up, so that crossing cards are lit alike.
-pub(crate) fn push(cards: &[Card], block: &mut Block) {
-    for card in cards {
-        let base = block.vertices.len() as u32;
-        let [left, top, right, bottom] = card.uv;
-        let uv = [[left, bottom], [right, bottom], [right, top], [left, top]];
-        for (corner, [u, v]) in card.corners.iter().zip(uv) {
-            block.vertices.push(vertex(*corner, Vec3::Z, u, v));
-        }
-        block.triangles.extend([[base, base + 1, base + 2], [base, base + 2, base + 3]]);
     }
 }

@@ -3,8 +3,9 @@
 use super::camera::Camera;
 use super::raster::DepthBuffer;
 use super::scene::Scene;
+use super::settings::{Background, Ground, PreviewSettings};
 use super::shade::View;
-use super::{Background, Ground, Picture, PreviewSettings};
+use crate::picture::Picture;
 use glam::Vec3;
 use rayon::prelude::*;
 

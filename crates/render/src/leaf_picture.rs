@@ -1,13 +1,11 @@
-//! Pictures of one leaf and of one blossom, for the cards of [`crate::LeafStyle::CrossedCards`].
+//! Pictures of one leaf and of one blossom, for the cards of [`pleach_mesh::LeafStyle::CrossedCards`].
 //!
 //! They fill the card's texture coordinates: u across, v from the tip (0) to the base (1) of a leaf;
 //! a blossom is seen from above. What is not leaf is transparent and has the leaf's colour, so that
 //! filtered edges are not dark.
 
-use crate::foliage::spread;
-use crate::palette::Palette;
-use crate::preview::Picture;
-use crate::sink::Material;
+use crate::picture::Picture;
+use pleach_mesh::{Material, Palette, blossom_spread};
 use pleach_tree::Tree;
 use pleach_tree::leaf_shape::{BlossomShape, LeafShape};
 use pleach_tree::species::Color;
@@ -43,7 +41,7 @@ pub fn leaf(shape: LeafShape, color: Color) -> Picture {
 #[must_use]
 pub fn blossom(shape: BlossomShape, color: Color) -> Picture {
     let faces = shape.faces();
-    let reach = spread(shape).0;
+    let reach = blossom_spread(shape).0;
     let at = |i: &u8| {
         let [x, _, z] = faces.vertices[usize::from(*i)];
         [0.5 + 0.5 * x / reach, 0.5 + 0.5 * z / reach]

@@ -1,13 +1,9 @@
 //! A meshed tree as shading wants it.
 
 use super::crown::Crown;
-use crate::block::{Vertex, position};
-use crate::mesh::Mesh;
-use crate::mesher::Mesher;
-use crate::palette::Palette;
-use crate::settings::{LeafStyle, MeshSettings};
-use crate::sink::{Material, send};
 use glam::Vec3;
+use pleach_mesh::block::{Vertex, position};
+use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, Mesher, Palette, send};
 use pleach_tree::Tree;
 use pleach_tree::stats::Bounds;
 

@@ -1,7 +1,7 @@
 //! Pictures as PNG files, one or many in a row.
 
 use crate::few_colors::FewColors;
-use crate::preview::Picture;
+use crate::picture::Picture;
 use std::io::{self, Write};
 
 /// Writes `pictures`, all of one size, as a PNG; several become an animation that loops (APNG), each
@@ -35,6 +35,16 @@ pub fn write(out: &mut impl Write, pictures: &[Picture], milliseconds: u16) -> i
         }
     }
     Ok(writer.finish()?)
+}
+
+impl Picture {
+    /// Writes the picture as a PNG.
+    ///
+    /// # Errors
+    /// What the system says, or if the picture is no rectangle of pixels.
+    pub fn write_png(&self, out: &mut impl Write) -> io::Result<()> {
+        write(out, std::slice::from_ref(self), 0)
+    }
 }
 
 /// `picture` as the bytes of a PNG file.
