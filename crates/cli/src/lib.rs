@@ -8,7 +8,7 @@
 //!
 //! let species = pleach::generators::species("quaking_aspen").unwrap();
 //! let tree = species.grow(1).unwrap();
-//! println!("{} leaves", TreeStats::of(&tree).leaves);
+//! println!("{} leaves", TreeStats::new(&tree).leaves);
 //! ```
 
 pub use pleach_blend as blend;

@@ -21,7 +21,7 @@ use pleach_fit::{
 };
 use pleach_silhouette::score::best_ellipse_iou;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::Species;
+use pleach_tree::{Parts, Species};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::fs;
@@ -54,9 +54,9 @@ const FIFTEEN: [&str; 15] = [
 
 fn problem(species: &Species, seed: u64) -> Result<FitProblem, Box<dyn Error>> {
     let tree = species.grow(seed)?;
-    let frame = Frame::automatic(&tree, &View::FRONT, true, SIZE, SIZE);
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIZE, SIZE);
     let mut goal = Bitmap::default();
-    Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut goal);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
     Ok(FitProblem {
         generator: Arc::clone(&species.generator),
         base: species.generator.space().defaults(),

@@ -9,6 +9,7 @@ mod support;
 
 use pleach_mesh::{Mesh, MeshSettings, lod};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::Parts;
 
 fn main() {
     let only: Vec<String> = std::env::args().skip(1).collect();
@@ -18,9 +19,9 @@ fn main() {
         let species = pleach_generators::preset(name).unwrap();
         for foliage in [true, false] {
             let tree = if foliage { species.grow(1) } else { species.grow_bare(1) }.unwrap();
-            let frame = Frame::automatic(&tree, &View::FRONT, foliage, 512, 512);
+            let frame = Frame::automatic(&tree, &View::FRONT, Parts::with_foliage(foliage), 512, 512);
             let mut direct = Bitmap::new(512, 512);
-            Rasterizer::new().draw(&tree, &View::FRONT, &frame, foliage, &mut direct);
+            Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::with_foliage(foliage), &mut direct);
             let mesh = Mesh::of(&tree, MeshSettings::default());
             let iou = support::iou(&direct, &support::silhouette(&mesh, &View::FRONT, &frame));
             let small = frame.scaled(256, 256);

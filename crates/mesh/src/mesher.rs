@@ -57,7 +57,7 @@ impl<'a> Mesher<'a> {
         let (mut bark, mut blocks, mut first) = (Count::default(), Vec::new(), 0);
         for (i, (stem, &count)) in tree.stems.iter().zip(&counts).enumerate() {
             let along = match (stem.kind, stem.parent) {
-                (StemKind::Clone, Some(parent)) => stems[parent as usize].along + stem.offset,
+                (StemKind::Fork, Some(parent)) => stems[parent as usize].along + stem.offset,
                 _ => 0.0,
             };
             stems.push(StemStart { vertex: bark.vertices, along });
@@ -74,8 +74,12 @@ impl<'a> Mesher<'a> {
             tree,
             settings,
             rig: None,
-            leaf: UnitMesh::leaf(tree.leaf_shape, settings.leaves),
-            blossom: UnitMesh::blossom(tree.blossom_shape, settings.leaves),
+            leaf: tree.leaf_shapes.first().map(|s| UnitMesh::leaf(s, settings.leaves)).unwrap_or_default(),
+            blossom: tree
+                .blossom_shapes
+                .first()
+                .map(|&s| UnitMesh::blossom(s, settings.leaves))
+                .unwrap_or_default(),
             tubes,
             stems,
             bark,
@@ -258,7 +262,8 @@ impl<'a> Mesher<'a> {
 }
 
 /// Where the unit shape stands as it is.
-const UNIT: Leaf = Leaf { position: glam::Vec3::ZERO, along: glam::Vec3::Y, across: glam::Vec3::X, stem: 0 };
+const UNIT: Leaf =
+    Leaf { position: glam::Vec3::ZERO, along: glam::Vec3::Y, across: glam::Vec3::X, stem: 0, shape: 0 };
 
 /// Translation, rotation and scale that carry the unit shape to `leaf`.
 fn placement(leaf: &Leaf) -> crate::block::Placement {

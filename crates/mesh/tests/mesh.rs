@@ -67,7 +67,7 @@ fn every_leaf_is_there_with_its_area() {
                 assert!(tree.leaves.is_empty(), "{name}");
                 continue;
             };
-            let each = triangles.unwrap_or(tree.leaf_shape.outline().len() - 2);
+            let each = triangles.unwrap_or(tree.leaf_shapes[0].corners().len() - 2);
             assert_eq!(leaves.triangles.len(), each * tree.leaves.len(), "{name} {style:?}");
             if style == LeafStyle::Outline {
                 let corner = |i: u32| block::position(&leaves.vertices[i as usize]);
@@ -76,7 +76,7 @@ fn every_leaf_is_there_with_its_area() {
                     f64::from((b - a).cross(c - a).length()) / 2.0
                 };
                 let found: f64 = leaves.triangles.iter().map(area).sum();
-                let expected = pleach_tree::TreeStats::of(&tree).leaf_area_m2;
+                let expected = pleach_tree::TreeStats::new(&tree).leaf_area_m2;
                 assert!((found / expected - 1.0).abs() < 1e-3, "{name}: {found} is not {expected}");
             }
         }

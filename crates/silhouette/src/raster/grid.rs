@@ -7,6 +7,7 @@
 //! at once in the bytes of a word.
 
 use crate::bitmap::Bitmap;
+use pleach_tree::leaf_shape::Outline;
 
 /// Samples across a pixel: a byte.
 pub(crate) const ACROSS: u32 = 8;
@@ -35,8 +36,6 @@ const HIGH: usize = 64;
 /// column: other places in each row, so that upright edges are seen eight times as finely. The mean is
 /// 0.
 const SKEW: [i32; 8] = [-28_672, 4_096, -12_288, 20_480, -20_480, 12_288, -4_096, 28_672];
-/// Crossings of one row that the wide path sorts; more corners than this are no shape of ours.
-const MAX_CROSSINGS: usize = 64;
 
 impl Grid {
     /// Clears the grid for a picture of this size with `down` samples down a pixel.
@@ -60,7 +59,8 @@ impl Grid {
         ((self.width * ACROSS) as f32, (self.height * self.down) as f32)
     }
 
-    /// Fills a simple polygon, convex or not (even-odd). Corners that are not finite draw nothing.
+    /// Fills a polygon of at most [`Outline::MAX_CORNERS`] corners, convex or not (even-odd). Corners
+    /// that are not finite draw nothing.
     #[inline]
     pub(crate) fn fill(&mut self, corners: &[Corner]) {
         let (mut left, mut right) = (f32::INFINITY, f32::NEG_INFINITY);
@@ -179,13 +179,13 @@ impl Grid {
     /// Any polygon: the crossings of each row, sorted, and spans between them.
     fn fill_wide(&mut self, corners: &[Corner], first: usize, last: usize) {
         let (wide, _) = self.extent();
-        let mut crossings = [0.0_f32; MAX_CROSSINGS];
+        let mut crossings = [0.0_f32; Outline::MAX_CORNERS];
         for row in first..last {
             let y = row as f32 + 0.5;
             let mut count = 0;
             let mut p = corners[corners.len() - 1];
             for &q in corners {
-                if (p[1] <= y) != (q[1] <= y) && count < MAX_CROSSINGS {
+                if (p[1] <= y) != (q[1] <= y) {
                     crossings[count] = p[0] + (y - p[1]) * (q[0] - p[0]) / (q[1] - p[1]);
                     count += 1;
                 }

@@ -197,7 +197,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         free: settings.freedom.free.clone(),
         fix: settings.freedom.fix.clone(),
         height_m: drawing.args.height,
-        tree_m: Dendrometry::of(&drawn.tree),
+        tree_m: Dendrometry::new(&drawn.tree),
         meters_per_pixel: goal.frame(drawing.args.height).meters_per_pixel,
         goal_width: goal.bitmap.width(),
         goal_height: goal.bitmap.height(),
