@@ -130,8 +130,7 @@ fn furnished(names: &[&str]) -> Dir {
     let photographed = names.iter().any(|name| ["fit", "mask"].contains(name));
     let photos = [("oak.jpg", "#a9c8ee"), ("photo.jpg", "#a9c8ee"), ("shed.jpg", "#c8b8a0")];
     for (photo, background) in photos.into_iter().filter(|_| photographed) {
-        let args =
-            ["render", "palm", "--size", "1600", "--ground", "none", "--background", background];
+        let args = ["render", "palm", "--size", "1600", "--ground", "none", "--background", background];
         let _ = dir.run([&args[..], &["-o", "drawn.png"]].concat()).ok();
         std::fs::rename(dir.path("drawn.png"), dir.path(photo)).unwrap();
     }

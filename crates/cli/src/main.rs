@@ -4,13 +4,12 @@
 //! failed, 2 wrong usage, 130 stopped by ctrl-C or SIGTERM.
 
 mod commands;
-mod files;
 mod help;
 mod input;
-mod interrupted;
-mod output;
 mod skeleton;
 
+use pleach_console::{files, interrupted, output, signals};
+use pleach_fit::FitError;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -20,7 +19,28 @@ fn main() -> ExitCode {
         Err(error) if output::is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             output::error(&error);
-            if interrupted::Interrupted::is_in(&error) { ExitCode::from(130) } else { ExitCode::FAILURE }
+            if was_interrupted(&error) { ExitCode::from(signals::INTERRUPTED) } else { ExitCode::FAILURE }
         }
+    }
+}
+
+/// Whether a request to stop is what `error` is about.
+fn was_interrupted(error: &anyhow::Error) -> bool {
+    let is_fit = |cause: &FitError| matches!(cause, FitError::Interrupted);
+    interrupted::Interrupted::is_in(error)
+        || error.downcast_ref().is_some_and(is_fit)
+        || error.chain().any(|cause| cause.downcast_ref().is_some_and(is_fit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fit_that_was_stopped_is_an_interruption_whatever_is_said_of_it() {
+        let fit = anyhow::Error::from(FitError::Interrupted).context("acer.png");
+        assert!(was_interrupted(&fit));
+        assert!(was_interrupted(&interrupted::Interrupted::new("stopped").into()));
+        assert!(!was_interrupted(&anyhow::anyhow!("interrupted")));
     }
 }

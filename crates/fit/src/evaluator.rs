@@ -72,7 +72,7 @@ pub enum ProblemError {
 
 /// Weights of the blend: cells of 32, 16, 8, 4 and 2 pixels, then single pixels.
 ///
-/// Equal weights. Chosen by experiment over the fifteen species (see `examples/compare.rs`).
+/// Equal weights. Chosen by fits of the fifteen species.
 const BLEND: [f64; 6] = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
 
 /// Scores individuals against the goals of a problem. Shared between threads.

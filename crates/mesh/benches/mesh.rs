@@ -1,9 +1,9 @@
-//! Meshing, writing and drawing: a small tree, the aspen, and a large one.
+//! Meshing and writing: a small tree, the aspen, and a large one.
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{obj, stl};
-use pleach_mesh::{Mesh, MeshSettings, Mesher, Palette, Preview, PreviewSettings, lod, send};
+use pleach_mesh::{Mesh, MeshSettings, Mesher, Palette, lod, send};
 use std::hint::black_box;
 use std::io::Cursor;
 
@@ -48,20 +48,5 @@ fn meshes(criterion: &mut Criterion) {
     group.finish();
 }
 
-fn pictures(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("preview");
-    group.sample_size(10);
-    for name in ["acer", "quaking_aspen"] {
-        let Some(species) = pleach_generators::preset(name) else { continue };
-        let Ok(tree) = species.grow(1) else { continue };
-        let palette = Palette::of(&species, None);
-        let settings = PreviewSettings { width: 512, height: 512, ..PreviewSettings::default() };
-        group.bench_function(name, |b| {
-            b.iter(|| black_box(Preview::new(&tree, &palette, 512).picture(&settings)));
-        });
-    }
-    group.finish();
-}
-
-criterion_group!(benches, meshes, pictures);
+criterion_group!(benches, meshes);
 criterion_main!(benches);

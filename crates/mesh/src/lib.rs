@@ -7,12 +7,10 @@
 //! | [`sink`] | where blocks go: files of five formats, or memory |
 //! | [`block`] | corners and triangles |
 //! | [`lod`] | levels of detail |
-//! | [`billboard`] | the last level: cards with pictures of the tree |
+//! | [`card`] | the last level: cards with pictures of the tree |
 //! | [`forest`] | where many trees stand |
 //! | [`mod@write`] | GLB, OBJ, PLY, STL, USDA |
-//! | [`preview`], [`png_file`] | shaded pictures without a graphics card |
 //! | [`palette`] | colours of species and seasons |
-//! | [`leaf_picture`] | pictures of leaves and blossoms for cards |
 //! | [`weld`] | all stems as one watertight surface |
 //! | [`wind`], [`rig`] | how stems sway |
 //!
@@ -22,18 +20,14 @@
 //! forest does, by address), nothing here reads the clock or prints, and the number of threads changes
 //! nothing. A mesher knows trees, not generators.
 
-pub mod billboard;
 pub mod block;
-mod few_colors;
+pub mod card;
 mod foliage;
 pub mod forest;
-pub mod leaf_picture;
 pub mod lod;
 pub mod mesh;
 pub mod mesher;
 pub mod palette;
-pub mod png_file;
-pub mod preview;
 pub mod rig;
 pub mod settings;
 pub mod sink;
@@ -42,12 +36,11 @@ pub mod weld;
 pub mod wind;
 pub mod write;
 
-pub use billboard::Billboards;
 pub use block::{Block, Placement, Vertex, Wind};
+pub use foliage::blossom_spread;
 pub use mesh::Mesh;
 pub use mesher::Mesher;
 pub use palette::Palette;
-pub use preview::{Picture, Preview, PreviewSettings};
 pub use rig::Rig;
 pub use settings::{LeafStyle, MeshSettings};
 pub use sink::{Material, MeshError, Part, Sink, send};

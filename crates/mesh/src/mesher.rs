@@ -1,7 +1,7 @@
 //! From a tree to blocks of triangles: sizes first, then any run of stems or leaves.
 
-use crate::billboard::{self, Card};
 use crate::block::Block;
+use crate::card::{self, Card};
 use crate::foliage::UnitMesh;
 use crate::rig::Rig;
 use crate::settings::MeshSettings;
@@ -137,7 +137,7 @@ impl<'a> Mesher<'a> {
     #[must_use]
     pub fn parts(&self, mesh: usize) -> Vec<Part> {
         if let Some(cards) = self.cards {
-            let count = billboard::count(cards);
+            let count = card::count(cards);
             let plain =
                 Part { mesh, material: Material::Card, count, instances: 0, wind: false, rigged: false };
             return if cards.is_empty() { Vec::new() } else { vec![plain] };
@@ -171,7 +171,11 @@ impl<'a> Mesher<'a> {
     }
 
     /// Number of the first corner of stem number `stem` in the bark.
-    pub(crate) fn first_vertex(&self, stem: usize) -> u64 {
+    ///
+    /// # Panics
+    /// If the tree has no such stem.
+    #[must_use]
+    pub fn first_vertex(&self, stem: usize) -> u64 {
         self.stems[stem].vertex
     }
 
@@ -199,7 +203,7 @@ impl<'a> Mesher<'a> {
     /// Appends the stems or leaves of `range` to `block`.
     pub(crate) fn fill(&self, material: Material, range: Range<usize>, block: &mut Block) {
         if let Some(cards) = self.cards {
-            return billboard::push(&cards[range], block);
+            return card::push(&cards[range], block);
         }
         if let (Some(bark), Material::Bark) = (self.welded, material) {
             block.vertices.extend_from_slice(&bark.vertices);

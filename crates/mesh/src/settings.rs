@@ -10,8 +10,8 @@ pub enum LeafStyle {
     Reduced,
     /// Two triangles a leaf with the area of the outline, four a blossom.
     Simple,
-    /// Two crossed cards through the middle of each leaf and one across each blossom, for the pictures
-    /// of [`crate::leaf_picture`].
+    /// Two crossed cards through the middle of each leaf and one across each blossom, for pictures
+    /// of leaves.
     CrossedCards,
     /// No leaves and no blossom.
     None,

@@ -3,13 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
+use pleach_mesh::card::Card;
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{obj, ply, stl, usda};
-use pleach_mesh::{
-    Billboards, LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Rig, Sink, leaf_picture,
-    png_file, send,
-};
+use pleach_mesh::{LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Rig, Sink, send};
 use pleach_tree::{Species, Tree};
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -63,22 +61,36 @@ fn instanced(name: &str) -> Vec<u8> {
     glb(&[mesher], &scene(&species, &tree, 1))
 }
 
+/// A picture of one pixel.
+fn dot() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 1, 1);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header().unwrap().write_image_data(&[90, 140, 50, 255]).unwrap();
+    bytes
+}
+
 fn cards_glb(name: &str) -> Vec<u8> {
     let (species, tree) = grow(name);
     let settings = MeshSettings { leaves: LeafStyle::CrossedCards, ..MeshSettings::default() };
     let plain = scene(&species, &tree, 1);
-    let pictures = leaf_picture::of(&tree, &plain.palette);
-    let pictures = pictures.iter().map(|(of, picture)| (*of, png_file::bytes(picture).unwrap())).collect();
+    let pictures = vec![(Material::Leaf, dot()), (Material::Blossom, dot())];
     glb(&[Mesher::new(&tree, settings)], &Scene { pictures, ..plain })
 }
 
 fn billboards_glb(name: &str, sides: u32) -> Vec<u8> {
     let (species, tree) = grow(name);
     let plain = scene(&species, &tree, 2);
-    let billboards = Billboards::paint(&[&tree], &plain.palette, sides);
+    let card = |side: u32| {
+        let right = glam::Vec2::from_angle(side as f32).extend(0.0);
+        let corner = |x: f32, z: f32| right * x + glam::Vec3::Z * z;
+        let corners = [corner(-1.0, 0.0), corner(1.0, 0.0), corner(1.0, 2.0), corner(-1.0, 2.0)];
+        Card { corners, uv: [0.0, 0.0, 1.0, 1.0] }
+    };
+    let cards: Vec<Card> = (0..sides).map(card).collect();
     let settings = MeshSettings::default();
-    let meshers = [Mesher::new(&tree, settings), Mesher::of_cards(&tree, &billboards.cards[0])];
-    let pictures = vec![(Material::Card, png_file::bytes(&billboards.picture).unwrap())];
+    let meshers = [Mesher::new(&tree, settings), Mesher::of_cards(&tree, &cards)];
+    let pictures = vec![(Material::Card, dot())];
     glb(&meshers, &Scene { pictures, ..plain })
 }
 

@@ -23,5 +23,5 @@ pub mod view;
 
 pub use bitmap::Bitmap;
 pub use goal::{Goal, GoalError, GoalOptions, GoalWarning, Polarity};
-pub use raster::{Detail, Rasterizer};
+pub use raster::{Detail, Rasterizer, silhouette};
 pub use view::{Camera, Frame, Projection, View};

@@ -4,14 +4,12 @@ use super::grow::formats::Format;
 use crate::files;
 use anyhow::{Context, bail};
 use clap::ValueEnum;
+use pleach_mesh::forest;
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{obj, ply, stl, usda};
-use pleach_mesh::{
-    Billboards, Block, LeafStyle, Material, MeshSettings, Mesher, Palette, Rig, leaf_picture, png_file, send,
-    weld,
-};
-use pleach_mesh::{billboard, forest};
+use pleach_mesh::{Block, LeafStyle, Material, MeshSettings, Mesher, Palette, Rig, send, weld};
+use pleach_render::{Billboards, billboard, leaf_picture, png_file};
 use pleach_tree::species::Season;
 use pleach_tree::{Species, Tree};
 use serde_json::{Map, Value, json};

@@ -2,8 +2,9 @@
 
 use anyhow::Context;
 use pleach_blend::picture::{Anchor, Color, Scene, Shape};
-use pleach_mesh::preview::Background;
-use pleach_mesh::{Palette, Picture, Preview, PreviewSettings};
+use pleach_mesh::Palette;
+use pleach_render::preview::Background;
+use pleach_render::{Picture, Preview, PreviewSettings};
 use pleach_tree::species::{self, Season};
 use pleach_tree::{Species, Tree, TreeStats};
 

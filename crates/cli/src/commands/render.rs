@@ -6,8 +6,9 @@ use crate::input::LimitArgs;
 use crate::{files, input, output};
 use anyhow::{Context, bail};
 use clap::ValueEnum;
-use pleach_mesh::preview::{Background, Ground};
-use pleach_mesh::{Palette, Preview, PreviewSettings, png_file};
+use pleach_mesh::Palette;
+use pleach_render::preview::{Background, Ground};
+use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_silhouette::View;
 use pleach_tree::species::{Color, Season};
 use pleach_tree::{Foliage, Growth, Species, Tree};
@@ -184,7 +185,7 @@ impl Render {
     }
 }
 
-fn write(path: &Path, pictures: &[pleach_mesh::Picture], milliseconds: u16) -> anyhow::Result<()> {
+fn write(path: &Path, pictures: &[Picture], milliseconds: u16) -> anyhow::Result<()> {
     files::write_out(path, |mut out| Ok(png_file::write(&mut out, pictures, milliseconds)?))?;
     output::wrote(path);
     Ok(())

@@ -91,7 +91,7 @@ impl UnitMesh {
 
     /// One card across the blossom's axis, which shows it from above.
     fn level_card(shape: BlossomShape) -> Self {
-        let (reach, high) = spread(shape);
+        let (reach, high) = blossom_spread(shape);
         let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)].map(|(x, z): (f32, f32)| Corner {
             at: vec3(x * reach, 0.5 * high, z * reach),
             normal: Vec3::Y,
@@ -115,7 +115,7 @@ impl UnitMesh {
                 triangles.push([a, b, c].map(u32::from));
             }
         }
-        let widest = spread(shape).0;
+        let widest = blossom_spread(shape).0;
         let corners = faces
             .vertices
             .iter()
@@ -131,7 +131,7 @@ impl UnitMesh {
 
     /// Four triangles that open from the stalk, as wide and high as the blossom.
     fn pyramid(shape: BlossomShape) -> Self {
-        let (reach, high) = spread(shape);
+        let (reach, high) = blossom_spread(shape);
         let rim = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
         let mut corners = vec![Corner { at: Vec3::ZERO, normal: Vec3::Y, uv: [0.5, 0.5] }];
         corners.extend(rim.map(|(x, z): (f32, f32)| Corner {
@@ -144,7 +144,8 @@ impl UnitMesh {
 }
 
 /// How far a unit blossom reaches from its axis, and how high it is.
-pub(crate) fn spread(shape: BlossomShape) -> (f32, f32) {
+#[must_use]
+pub fn blossom_spread(shape: BlossomShape) -> (f32, f32) {
     let vertices = shape.faces().vertices;
     let reach = vertices.iter().flat_map(|v| [v[0].abs(), v[2].abs()]).fold(f32::MIN_POSITIVE, f32::max);
     (reach, vertices.iter().map(|v| v[1]).fold(0.0, f32::max))

@@ -44,6 +44,16 @@ impl Detail {
     }
 }
 
+/// The silhouette of `tree`, leaves and blossoms included, in a square of `size` pixels that shows all of
+/// it: [`Frame::automatic`] and a [`Rasterizer`] at full detail.
+#[must_use]
+pub fn silhouette(tree: &Tree, view: View, size: u32) -> Bitmap {
+    let mut picture = Bitmap::default();
+    let frame = Frame::automatic(tree, &view, Parts::LEAFY, size, size);
+    Rasterizer::new().draw(tree, &view, &frame, Parts::LEAFY, &mut picture);
+    picture
+}
+
 /// Draws silhouettes; keeps its memory from one to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Rasterizer {

@@ -18,8 +18,6 @@ mod summary;
 mod task;
 mod views;
 
-pub(crate) use start::candidates;
-
 use crate::interrupted::Interrupted;
 use crate::{input, output};
 use anyhow::bail;

@@ -165,7 +165,7 @@ fn guess(
 }
 
 /// The known species that the problem's generator grows.
-pub(crate) fn candidates(problem: &FitProblem) -> Vec<Candidate> {
+pub(super) fn candidates(problem: &FitProblem) -> Vec<Candidate> {
     let species = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
     species
         .filter(|s| s.generator.family() == problem.generator.family() && s.generator.extra_toml().is_empty())

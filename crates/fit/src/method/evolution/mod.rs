@@ -32,7 +32,7 @@ use crate::stream::Stream;
 use lane::Lane;
 use serde::{Deserialize, Serialize};
 
-/// Settings of [`Evolution`]. The defaults were chosen by `examples/compare.rs`.
+/// Settings of [`Evolution`]. The defaults were chosen by fits of the fifteen species.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvolutionSettings {
     /// Random lists at the beginning of a lane.

@@ -17,11 +17,14 @@ mod json;
 mod layout;
 
 use crate::block::Block;
+use crate::mesher::Mesher;
 use crate::palette::Palette;
 use crate::rig::Rig;
-use crate::sink::{Material, MeshError, Part, Sink};
+use crate::settings::MeshSettings;
+use crate::sink::{Material, MeshError, Part, Sink, send};
 use glam::{Quat, Vec3, vec3};
 use layout::Layout;
+use pleach_tree::Tree;
 use std::io::{Seek, SeekFrom, Write};
 
 /// Where a tree stands in a scene.
@@ -72,6 +75,23 @@ pub struct Glb<'a, W> {
     scene: &'a Scene<'a>,
     layout: Layout,
     json_room: u64,
+}
+
+/// Writes `tree` in the colours of `palette` to `out`, an empty file, as one mesh with the default
+/// settings.
+///
+/// # Errors
+/// See [`MeshError`].
+pub fn write<W: Write + Seek>(out: W, name: &str, tree: &Tree, palette: &Palette) -> Result<(), MeshError> {
+    let scene = Scene {
+        name: name.to_owned(),
+        palette: *palette,
+        extras: serde_json::Value::Null,
+        placed: vec![Placed::at_origin(name, 1)],
+        rig: None,
+        pictures: Vec::new(),
+    };
+    send(&[Mesher::new(tree, MeshSettings::default())], &mut Glb::new(out, &scene))
 }
 
 /// Header, chunk header of the JSON, chunk header of the binary part.

@@ -1,0 +1,17 @@
+//! What the program and the experiments say to people and write to disks.
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | [`output`] | standard output and standard error: results, notes, warnings, tables |
+//! | [`progress`] | bars that only a person sees |
+//! | [`files`] | files that appear whole or not at all |
+//! | [`signals`] | ctrl-C and requests to end |
+//! | [`interrupted`] | the error of a run that was asked to stop |
+//!
+//! The crates below this one neither print nor catch signals.
+
+pub mod files;
+pub mod interrupted;
+pub mod output;
+pub mod progress;
+pub mod signals;

@@ -1,0 +1,120 @@
+//! Standard output and standard error.
+
+#![expect(clippy::print_stderr, reason = "this is the one place that prints messages")]
+
+use anstyle::{AnsiColor, Style};
+use serde::Serialize;
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// As clap shows its own.
+const ERROR: Style = AnsiColor::Red.on_default().bold();
+const WARNING: Style = AnsiColor::Yellow.on_default().bold();
+
+/// Whether `--quiet` was asked for.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on, nothing but errors and warnings goes to standard error.
+pub fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Writes `text` and a line's end to standard output.
+pub fn line(text: impl std::fmt::Display) -> anyhow::Result<()> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{text}")?;
+    Ok(())
+}
+
+/// Writes `value` to standard output as JSON on one line.
+pub fn json(value: &impl Serialize) -> anyhow::Result<()> {
+    line(serde_json::to_string(value)?)
+}
+
+/// Tells the user something on standard error that is not a result; nothing with `--quiet`.
+pub fn note(text: impl std::fmt::Display) {
+    let text = text.to_string();
+    if let Some(text) = text.strip_prefix("warning: ") {
+        warning(text);
+    } else if !QUIET.load(Ordering::Relaxed) {
+        eprintln!("{text}");
+    }
+}
+
+/// Warns the user on standard error, also with `--quiet`.
+pub fn warning(text: impl std::fmt::Display) {
+    anstream::eprintln!("{WARNING}warning:{WARNING:#} {text}");
+}
+
+/// Tells the user what was written where; nothing for standard output.
+pub fn wrote(path: &Path) {
+    if !crate::files::is_stdout(path) {
+        note(format_args!("wrote {}", path.display()));
+    }
+}
+
+/// Tells the user why the program failed: each cause on its own line.
+pub fn error(error: &anyhow::Error) {
+    anstream::eprintln!("{ERROR}error:{ERROR:#} {}", causes(error, "\n  because: "));
+}
+
+/// What went wrong and why, causes set apart by `because`.
+pub fn causes(error: &anyhow::Error, because: &str) -> String {
+    let mut message = String::new();
+    for (i, cause) in error.chain().enumerate() {
+        let cause = cause.to_string();
+        // Errors that carry their source in their own words would say it twice.
+        if i > 0 && message.contains(&cause) {
+            continue;
+        }
+        if i > 0 {
+            message.push_str(because);
+        }
+        message.push_str(&cause);
+    }
+    message
+}
+
+/// Whether `error` only says that nobody reads standard output any more.
+pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| {
+        let io = cause.downcast_ref::<std::io::Error>().map(std::io::Error::kind);
+        let json = cause.downcast_ref::<serde_json::Error>().and_then(serde_json::Error::io_error_kind);
+        io.or(json) == Some(std::io::ErrorKind::BrokenPipe)
+    })
+}
+
+/// Whether a person watches standard error and wants to see progress there.
+pub fn is_watched() -> bool {
+    !QUIET.load(Ordering::Relaxed) && std::io::stderr().is_terminal()
+}
+
+/// A table of text with aligned columns; the first row is the heading, `numbers` lists the columns
+/// that are set to the right.
+pub fn table(rows: &[Vec<String>], numbers: &[usize]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |c: usize| rows.iter().filter_map(|r| r.get(c)).map(|t| t.chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (c, cell) in row.iter().enumerate() {
+            let pad = " ".repeat(widths[c] - cell.chars().count());
+            if c > 0 {
+                line.push_str("  ");
+            }
+            if numbers.contains(&c) {
+                line.push_str(&pad);
+                line.push_str(cell);
+            } else {
+                line.push_str(cell);
+                line.push_str(&pad);
+            }
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text.truncate(text.trim_end().len());
+    text
+}

@@ -1,0 +1,131 @@
+//! Experiments: folders that say what to run and hold what came of it.
+//!
+//! `experiment.toml` says what to run, `results.csv` has a row for every repetition. Columns whose
+//! names begin with `wall_` depend on the clock and are never compared.
+
+mod blend;
+mod fits;
+mod growth;
+mod journal;
+mod likeness;
+mod list;
+mod needle;
+mod outputs;
+mod plot;
+mod robustness;
+mod spec;
+mod stop;
+mod table;
+mod treefit;
+mod within;
+
+use anyhow::bail;
+use journal::Journal;
+use outputs::Outputs;
+use pleach_console::progress::bar as progress;
+use spec::{Source, Spec};
+use std::path::{Path, PathBuf};
+use table::Table;
+
+pub use list::{FOLDER, of as list};
+pub use stop::raise as stop;
+
+/// What of an experiment is run.
+#[derive(Clone, Debug, Default)]
+pub struct Part {
+    /// Only these methods, again for further ones; rows of the others stay as they are (kind treefit).
+    /// All if there are none.
+    pub methods: Vec<String>,
+    /// Go on with a run that was interrupted or killed: rows that it had finished are kept.
+    pub resume: bool,
+    /// Begin anew although an unfinished run has left rows.
+    pub overwrite: bool,
+}
+
+/// Which part of an experiment is checked.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Slice {
+    /// Only the first so many repetitions; all if it is not said.
+    pub repetitions: Option<u64>,
+    /// Only up to this many evaluations of a fit.
+    pub evaluations: Option<u64>,
+}
+
+impl Slice {
+    /// So many of `all`: the first ones of a slice.
+    fn of(self, all: usize) -> usize {
+        self.repetitions.map_or(all, |n| all.min(usize::try_from(n).unwrap_or(usize::MAX)))
+    }
+}
+
+/// A kind of experiments.
+trait Kind {
+    /// The columns of its results.
+    fn columns(&self) -> Vec<&'static str>;
+
+    /// What it writes beside the results, and what it reads: paths in and from `folder`.
+    fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>);
+
+    /// Makes the rows.
+    fn rows(&self, folder: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()>;
+
+    /// Makes plots and pictures of a whole run, and a report.
+    fn report(&self, folder: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String>;
+}
+
+impl Spec {
+    fn kind(&self) -> &dyn Kind {
+        match self {
+            Self::Fits(spec) => spec,
+            Self::Growth(spec) => spec,
+            Self::Blend(spec) => spec,
+            Self::Likeness(spec) => spec,
+            Self::Treefit(spec) => spec,
+            Self::Needle(spec) => spec,
+            Self::Robustness(spec) => spec,
+        }
+    }
+}
+
+/// Runs the experiment in `folder`, writes results, plots and pictures into it, and gives the report.
+///
+/// # Errors
+/// If the folder has no `experiment.toml` that can be run, if an unfinished run is there and `part` says
+/// neither to resume nor to overwrite it, if a file cannot be written, or what the experiment runs into.
+/// After [`stop`](fn@stop) it is [`Interrupted`](pleach_console::interrupted::Interrupted).
+pub fn run(folder: &Path, part: &Part) -> anyhow::Result<String> {
+    let source = Source::read(folder)?;
+    let spec = source.spec()?;
+    let kind = spec.kind();
+    let columns = kind.columns();
+    let (written, read) = kind.files(folder);
+    let outputs = Outputs::declare(folder, written, read)?;
+    let kept = match (&spec, part.methods.is_empty()) {
+        (_, true) => Vec::new(),
+        (Spec::Treefit(spec), false) => spec.rows_of_others(folder, &part.methods)?,
+        (_, false) => bail!("--method is for experiments of kind treefit"),
+    };
+    let mut journal = Journal::open(folder, &source.text, &columns, part)?;
+    journal.know(kept, treefit::is_same)?;
+    kind.rows(folder, Slice::default(), &mut journal).map_err(|error| journal.told(error))?;
+    let table = journal.table();
+    // Pictures may take a while as well: rows stay in the journal until all is written.
+    let report = kind.report(folder, &table, &outputs).map_err(|error| journal.told(error))?;
+    outputs.results(&table)?;
+    Ok(report)
+}
+
+/// Runs a slice of the experiment in `folder` again and compares it with the `results.csv` there, time
+/// columns apart. Gives the number of rows, which all agree.
+///
+/// # Errors
+/// If a row is not in the results, or as [`run`].
+pub fn check(folder: &Path, slice: Slice) -> anyhow::Result<usize> {
+    let spec = Source::read(folder)?.spec()?;
+    let kind = spec.kind();
+    let mut journal = Journal::unkept(&kind.columns());
+    kind.rows(folder, slice, &mut journal)?;
+    let table = journal.table();
+    table.check(&folder.join("results.csv"))?;
+    Ok(table.rows.len())
+}

@@ -1,0 +1,186 @@
+//! Fits of goals that the search has not grown, scored with seeds that it has not seen.
+
+mod attempt;
+mod goals;
+mod report;
+mod sheet;
+mod spec;
+
+pub(super) use spec::TreefitSpec;
+
+use super::table::Row;
+use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
+use anyhow::{Context, bail};
+use attempt::Guesses;
+use goals::Problem;
+use pleach_console::files;
+use pleach_fit::Genome;
+use pleach_tree::Species;
+use pleach_tree::species::Appearance;
+use spec::{GoalSpec, MethodSpec};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+const COLUMNS: [&str; 28] = [
+    "goal",
+    "kind",
+    "method",
+    "repetition",
+    "evaluations",
+    "named",
+    "confidence",
+    "guess_likeness",
+    "guess_iou",
+    "likeness",
+    "iou",
+    "blurred_iou_64",
+    "boundary_f",
+    "pixel_accuracy",
+    "empty_accuracy",
+    "best_ellipse_iou",
+    "clean_likeness",
+    "clean_iou",
+    "held_out_likeness",
+    "held_out_iou",
+    "fresh_likeness",
+    "fresh_likeness_sd",
+    "fresh_iou",
+    "fresh_iou_sd",
+    "ceiling_likeness",
+    "ceiling_iou",
+    "skill",
+    "wall_s",
+];
+
+/// Side of every goal in pixels.
+const SIZE: u32 = 256;
+/// Trees of other seeds that a result, and the truth, is judged by.
+const FRESH: usize = 16;
+
+fn fit_file(goal: &str) -> String {
+    format!("fits/{goal}.toml")
+}
+
+fn guess_file(goal: &str) -> String {
+    format!("fits/{goal}-guess.toml")
+}
+
+/// Whether two rows are of the same fit.
+pub(super) fn is_same(a: &[String], b: &[String]) -> bool {
+    [0, 2, 3].iter().all(|&at| a[at] == b[at])
+}
+
+impl Kind for TreefitSpec {
+    fn columns(&self) -> Vec<&'static str> {
+        COLUMNS.to_vec()
+    }
+
+    fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>) {
+        let fits = self.goals().flat_map(|goal| [fit_file(&goal.name()), guess_file(&goal.name())]);
+        let read = self.goals().flat_map(|goal| match goal {
+            GoalSpec::File(goal) => {
+                std::iter::once(&goal.file).chain(&goal.others).map(|file| folder.join(file)).collect()
+            }
+            GoalSpec::Own(goal) => vec![PathBuf::from(&goal.species)],
+        });
+        (fits.chain([sheet::SHEET.to_owned()]).collect(), read.collect())
+    }
+
+    /// A slice is a few goals, whole: fits of fewer evaluations have other results.
+    fn rows(&self, folder: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
+        let is_slice = slice.repetitions.is_some() || slice.evaluations.is_some() || !journal.is_kept();
+        let most = slice.evaluations.unwrap_or(u64::MAX);
+        let is_in =
+            |m: &&MethodSpec| !is_slice || (m.seconds.is_none() && m.evaluations.is_some_and(|n| *n <= most));
+        let methods: Vec<&MethodSpec> = self.methods().filter(is_in).collect();
+        if methods.is_empty() {
+            bail!("no method has a number of evaluations that is at most {most}");
+        }
+        let repetitions =
+            |method: &MethodSpec| if is_slice { 1 } else { method.repetitions.map_or(1, |n| *n) };
+        let mut jobs = Vec::new();
+        for goal in self.goals().take(slice.of(self.goals.len())) {
+            for method in methods.iter().filter(|method| method.fits(goal.kind())) {
+                jobs.extend((1..=repetitions(method)).map(|repetition| (goal, *method, repetition)));
+            }
+        }
+        let bar = progress("fits", jobs.len() as u64);
+        let mut current: Option<(Problem, Guesses)> = None;
+        let keeps = journal.is_kept();
+        for (goal, method, repetition) in jobs {
+            let name = goal.name();
+            let key = [(0, &name), (2, &method.name), (3, &repetition.to_string())];
+            let is_of = |row: &[String]| key.iter().all(|(at, cell)| row[*at] == **cell);
+            let make = || {
+                let is_first = repetition == 1 && method.name == self.first_method().name;
+                let row = fitted(folder, goal, method, repetition, &mut current, keeps && is_first)?;
+                Ok(vec![row])
+            };
+            journal.job(is_of, make)?;
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        Ok(())
+    }
+
+    fn report(&self, folder: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
+        sheet::draw(folder, self, outputs)?;
+        report::of(self, table)
+    }
+}
+
+impl TreefitSpec {
+    /// The rows of methods that are not run again.
+    pub(super) fn rows_of_others(&self, folder: &Path, again: &[String]) -> anyhow::Result<Vec<Row>> {
+        for name in again {
+            if self.methods().all(|method| method.name != *name) {
+                let names: Vec<&str> = self.methods().map(|method| method.name.as_str()).collect();
+                bail!("there is no method `{name}`; the experiment has {}", names.join(", "));
+            }
+        }
+        let mut rows = Table::read(&folder.join("results.csv"), &COLUMNS)?.rows;
+        rows.retain(|row| !again.contains(&row[2]));
+        Ok(rows)
+    }
+}
+
+/// The row of a fit; what was found is written as well if it `is_kept`.
+fn fitted(
+    folder: &Path,
+    goal: &GoalSpec,
+    method: &MethodSpec,
+    repetition: u64,
+    current: &mut Option<(Problem, Guesses)>,
+    is_kept: bool,
+) -> anyhow::Result<Row> {
+    let name = goal.name();
+    let (problem, guesses) = match current.take().filter(|(problem, _)| problem.name == name) {
+        Some(same) => current.insert(same),
+        None => current.insert((Problem::with_ceiling(folder, goal)?, Guesses::default())),
+    };
+    let result = attempt::fit(problem, guesses, method, repetition)
+        .with_context(|| format!("{name}, {}, repetition {repetition}", method.name))?;
+    if is_kept && !stop::is_raised() {
+        files::make_folder(&folder.join("fits"))?;
+        write_species(&folder.join(fit_file(&name)), &name, problem, &result.best)?;
+        if let Some(guess) = &result.guess {
+            write_species(&folder.join(guess_file(&name)), &name, problem, guess)?;
+        }
+    }
+    Ok(result.row)
+}
+
+/// A fit as a species file, so that anybody can grow it.
+fn write_species(path: &Path, name: &str, problem: &Problem, genome: &Genome) -> anyhow::Result<()> {
+    let generator = Arc::clone(&problem.fit.generator);
+    let params = generator.space().check(genome.values.clone())?;
+    let species = Species {
+        name: name.to_owned(),
+        description: String::new(),
+        generator,
+        params,
+        tree_seed: Some(genome.tree_seed),
+        appearance: Appearance::default(),
+    };
+    files::write_text(path, &species.to_toml(&[]))
+}

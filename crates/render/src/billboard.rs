@@ -1,0 +1,98 @@
+//! The last level of detail: upright cards through the trunk that show pictures of the tree.
+//!
+//! Seen from afar a tree and its mirror image from behind have one silhouette, so each card serves
+//! two sides. The pictures hold the tree's own colours with the crown's own shade and without sun,
+//! since the engine lights them again.
+
+use crate::picture::Picture;
+use crate::preview::{Frame, Preview};
+use glam::{Vec3, vec3};
+use pleach_mesh::Palette;
+use pleach_mesh::card::Card;
+use pleach_tree::Tree;
+use pleach_tree::trig::sin_cos;
+use std::f64::consts::PI;
+
+/// Most cards of a tree.
+pub const MAX_SIDES: u32 = 8;
+/// Height of a card's picture in pixels.
+const HEIGHT: u32 = 256;
+/// Part of a card around the tree that stays empty, so that neighbours in the picture do not bleed.
+const MARGIN: f32 = 0.03;
+
+/// The cards of some trees and the one picture that all of them show.
+#[derive(Clone, Debug)]
+pub struct Billboards {
+    /// A row a tree, a column a side.
+    pub picture: Picture,
+    /// The cards of each tree.
+    pub cards: Vec<Vec<Card>>,
+}
+
+impl Billboards {
+    /// Paints `trees`, each from `sides` (1 to [`MAX_SIDES`]) directions spread over half a turn, the
+    /// first looking along +y.
+    #[must_use]
+    pub fn paint(trees: &[&Tree], palette: &Palette, sides: u32) -> Self {
+        let sides = sides.clamp(1, MAX_SIDES);
+        let painted: Vec<Vec<(Card, Picture)>> =
+            trees.iter().map(|tree| paint(tree, palette, sides)).collect();
+        let widest = painted.iter().flatten().map(|(_, p)| p.width).max().unwrap_or(1);
+        let (width, height) = (widest * sides, HEIGHT * painted.len().max(1) as u32);
+        let mut picture = Picture { width, height, rgba: vec![0; (width * height * 4) as usize] };
+        let mut cards = Vec::new();
+        for (row, views) in (0..).zip(painted) {
+            let place = |column: u32, mut card: Card, view: &Picture, whole: &mut Picture| {
+                let (x, y) = (column * widest, row * HEIGHT);
+                whole.paste(view, x, y);
+                let part = |at: u32, of: u32| at as f32 / of as f32;
+                card.uv =
+                    [part(x, width), part(y, height), part(x + view.width, width), part(y + HEIGHT, height)];
+                card
+            };
+            cards.push(
+                (0..).zip(&views).map(|(i, (card, view))| place(i, *card, view, &mut picture)).collect(),
+            );
+        }
+        bleed(&mut picture);
+        Self { picture, cards }
+    }
+}
+
+fn paint(tree: &Tree, palette: &Palette, sides: u32) -> Vec<(Card, Picture)> {
+    let preview = Preview::new(tree, palette, HEIGHT);
+    let (low, high) = preview.bounds();
+    let (middle, half_height) = ((low.z + high.z) / 2.0, (high.z - low.z) / 2.0 * (1.0 + MARGIN));
+    (0..sides)
+        .map(|side| {
+            let azimuth = PI * f64::from(side) / f64::from(sides);
+            let (sin, cos) = sin_cos(azimuth);
+            let right = vec3(cos as f32, sin as f32, 0.0);
+            let half_width = (preview.reach(right) * (1.0 + MARGIN)).max(0.02 * half_height);
+            let width = (HEIGHT as f32 * half_width / half_height.max(1e-3)).ceil();
+            let frame = Frame {
+                middle: Vec3::Z * middle,
+                azimuth: azimuth as f32,
+                half: [half_width, half_height],
+                pixels: [(width as u32).clamp(8, 4 * HEIGHT), HEIGHT],
+            };
+            let corner = |x: f32, z: f32| right * (x * half_width) + Vec3::Z * (middle + z * half_height);
+            let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+            (Card { corners, uv: [0.0, 0.0, 1.0, 1.0] }, preview.flat(&frame))
+        })
+        .collect()
+}
+
+/// Gives transparent pixels the mean colour of the others: filters mix it into the edges.
+fn bleed(picture: &mut Picture) {
+    let (mut sum, mut weight) = ([0_u64; 3], 0);
+    for pixel in picture.rgba.chunks_exact(4) {
+        let alpha = u64::from(pixel[3]);
+        (0..3).for_each(|c| sum[c] += u64::from(pixel[c]) * alpha);
+        weight += alpha;
+    }
+    let mean = sum.map(|s| (s / weight.max(1)) as u8);
+    for pixel in picture.rgba.chunks_exact_mut(4).filter(|p| p[3] == 0) {
+        pixel[..3].copy_from_slice(&mean);
+    }
+}

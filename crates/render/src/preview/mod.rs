@@ -1,0 +1,74 @@
+//! Shaded pictures of trees, drawn by the processor.
+//!
+//! A depth buffer finds the nearest triangle of each sample, nine samples a pixel; each sample is then
+//! lit by a sun with shadows and by a sky that the crown hides in part. The same tree, palette and
+//! settings give the same picture, for any number of threads.
+
+mod bark;
+mod camera;
+mod crown;
+mod flat;
+mod light;
+mod raster;
+mod scene;
+mod settings;
+mod shade;
+
+use crate::picture::Picture;
+pub(crate) use flat::Frame;
+use glam::Vec3;
+use pleach_mesh::Palette;
+use pleach_tree::Tree;
+use scene::Scene;
+pub use settings::{Background, Ground, PreviewSettings};
+
+/// The shaded picture of `tree`, a square of `size` pixels with the default settings. For many pictures of
+/// one tree make a [`Preview`] once.
+#[must_use]
+pub fn render(tree: &Tree, palette: &Palette, size: u32) -> Picture {
+    let settings = PreviewSettings { width: size, height: size, ..PreviewSettings::default() };
+    Preview::new(tree, palette, size).picture(&settings)
+}
+
+/// A tree ready to be looked at from many sides.
+#[derive(Debug)]
+pub struct Preview {
+    scene: Scene,
+}
+
+impl Preview {
+    /// Meshes `tree` for pictures of about `size` pixels in height.
+    #[must_use]
+    pub fn new(tree: &Tree, palette: &Palette, size: u32) -> Self {
+        Self { scene: Scene::new(tree, palette, size) }
+    }
+
+    /// The smallest and largest coordinates of what is drawn, in metres.
+    pub(crate) fn bounds(&self) -> (Vec3, Vec3) {
+        let points = self.scene.points.iter().copied();
+        let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let (low, high) = points.fold(start, |(low, high), p| (low.min(p), high.max(p)));
+        if low.is_finite() { (low, high) } else { (Vec3::ZERO, Vec3::ZERO) }
+    }
+
+    /// How far the tree reaches from the vertical axis along `right` or against it, in metres.
+    pub(crate) fn reach(&self, right: Vec3) -> f32 {
+        self.scene.points.iter().map(|p| p.dot(right).abs()).fold(0.0, f32::max)
+    }
+
+    /// Takes a picture from afar, in even light.
+    pub(crate) fn flat(&self, frame: &Frame) -> Picture {
+        flat::picture(&self.scene, frame)
+    }
+
+    /// Takes a picture.
+    #[must_use]
+    pub fn picture(&self, settings: &PreviewSettings) -> Picture {
+        let settings = PreviewSettings {
+            width: settings.width.clamp(1, 8192),
+            height: settings.height.clamp(1, 8192),
+            ..*settings
+        };
+        shade::picture(&self.scene, &settings)
+    }
+}

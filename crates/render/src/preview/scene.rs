@@ -1,0 +1,108 @@
+//! A meshed tree as shading wants it.
+
+use super::crown::Crown;
+use glam::Vec3;
+use pleach_mesh::block::{Vertex, position};
+use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, Mesher, Palette, send};
+use pleach_tree::stats::Bounds;
+use pleach_tree::{Parts, Tree};
+
+/// All parts in one run of corners and triangles.
+#[derive(Debug)]
+pub(super) struct Scene {
+    pub(super) palette: Palette,
+    pub(super) vertices: Vec<Vertex>,
+    pub(super) points: Vec<Vec3>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// First triangle of each part, what it is, and how many triangles each of its leaves has.
+    pub(super) parts: Vec<(u32, Material, u32)>,
+    /// First corner of each stem, its radius at the base in metres, its level.
+    pub(super) stems: Vec<(u32, f32, u16)>,
+    pub(super) crown: Crown,
+    pub(super) low: Vec3,
+    pub(super) high: Vec3,
+    /// The middle of the leaves, and how far they reach on average.
+    pub(super) heart: Vec3,
+    pub(super) reach: f32,
+}
+
+impl Scene {
+    pub(super) fn new(tree: &Tree, palette: &Palette, size: u32) -> Self {
+        let bounds = Bounds::new(tree, Parts::LEAFY);
+        let (low, high) = bounds.map_or((Vec3::ZERO, Vec3::ONE), |b| (b.min.as_vec3(), b.max.as_vec3()));
+        let pixel = f64::from((high - low).max_element().max(1e-3)) / f64::from(size.max(1));
+        let settings = MeshSettings {
+            tolerance: (0.2 * pixel).clamp(2e-4, 0.02),
+            min_sides: 5,
+            leaves: LeafStyle::Outline,
+            ..MeshSettings::default()
+        };
+        let mesher = Mesher::new(tree, settings);
+        let mut mesh = Mesh::default();
+        // This sink never fails, and a tree without triangles is an empty picture.
+        let _ = send(std::slice::from_ref(&mesher), &mut mesh);
+        let mut scene = Self {
+            palette: *palette,
+            vertices: Vec::new(),
+            points: Vec::new(),
+            triangles: Vec::new(),
+            parts: Vec::new(),
+            stems: stems(tree, &mesher),
+            crown: Crown::new(low, high, &areas(tree)),
+            low,
+            high,
+            heart: (low + high) / 2.0,
+            reach: 1.0,
+        };
+        for (part, mut block) in mesh.parts {
+            let first = scene.vertices.len() as u32;
+            let placed = if part.material == Material::Blossom { &tree.blossoms } else { &tree.leaves };
+            let each = block.triangles.len() / placed.len().max(1);
+            scene.parts.push((scene.triangles.len() as u32, part.material, each.max(1) as u32));
+            scene.triangles.extend(block.triangles.iter().map(|t| t.map(|i| i + first)));
+            scene.vertices.append(&mut block.vertices);
+        }
+        scene.points = scene.vertices.iter().map(position).collect();
+        if !tree.leaves.is_empty() {
+            let n = tree.leaves.len() as f32;
+            scene.heart = tree.leaves.iter().map(|l| l.position).sum::<Vec3>() / n;
+            let distance = |l: &pleach_tree::Leaf| l.position.distance(scene.heart);
+            scene.reach = (tree.leaves.iter().map(distance).sum::<f32>() / n).max(1e-3);
+        }
+        scene
+    }
+
+    /// Part of a triangle: what it is, and the number of its leaf.
+    pub(super) fn part_of(&self, triangle: u32) -> (Material, u32) {
+        let part = self.parts.partition_point(|p| p.0 <= triangle).max(1) - 1;
+        let (first, material, each) = self.parts[part];
+        (material, (triangle - first) / each)
+    }
+
+    /// Radius in metres and level of the stem with this corner.
+    pub(super) fn stem_of(&self, vertex: u32) -> (f32, u16) {
+        let stem = self.stems.partition_point(|s| s.0 <= vertex).max(1) - 1;
+        (self.stems[stem].1, self.stems[stem].2)
+    }
+}
+
+fn stems(tree: &Tree, mesher: &Mesher<'_>) -> Vec<(u32, f32, u16)> {
+    let radius = |i: usize| tree.knots_of(&tree.stems[i])[0].radius as f32;
+    (0..tree.stems.len()).map(|i| (mesher.first_vertex(i) as u32, radius(i), tree.stems[i].level)).collect()
+}
+
+/// Where area hangs: leaves and blossoms at their middles, stems along their knots.
+fn areas(tree: &Tree) -> Vec<(Vec3, f32)> {
+    let leaf = |l: &pleach_tree::Leaf, unit: f32| (l.position + l.along * 0.5, l.unit_area() * unit);
+    let mut areas: Vec<(Vec3, f32)> =
+        tree.leaves.iter().map(|l| leaf(l, tree.outline_of(l).area())).collect();
+    areas.extend(tree.blossoms.iter().map(|l| leaf(l, 1.5)));
+    for stem in &tree.stems {
+        for pair in tree.knots_of(stem).windows(2) {
+            let length = pair[0].point.distance(pair[1].point);
+            let middle = (pair[0].point + pair[1].point) / 2.0;
+            areas.push((middle.as_vec3(), (length * (pair[0].radius + pair[1].radius)) as f32));
+        }
+    }
+    areas
+}

@@ -1,0 +1,265 @@
+//! From samples to pixels.
+
+use super::bark::{self, smooth};
+use super::camera::Camera;
+use super::light::Sun;
+use super::raster::{DepthBuffer, NONE};
+use super::scene::Scene;
+use super::settings::{Background, Ground, PreviewSettings};
+use crate::picture::Picture;
+use glam::{Vec3, Vec4, vec3};
+use pleach_mesh::Material;
+use pleach_mesh::block::normal;
+use pleach_mesh::palette::{BarkPattern, linear};
+use rayon::prelude::*;
+
+/// Samples across and down a pixel.
+pub(super) const SAMPLES: u32 = 3;
+/// Light of the sun, of the sky overhead, and what the ground sends back.
+const SUN: Vec3 = vec3(3.5, 3.2, 2.65);
+const SKY: Vec3 = vec3(0.66, 0.80, 1.02);
+const BOUNCE: Vec3 = vec3(0.30, 0.29, 0.22);
+/// Everything is divided by this before it is shown.
+const WHITE: f32 = 2.6;
+
+pub(super) fn picture(scene: &Scene, settings: &PreviewSettings) -> Picture {
+    let (width, height) = (settings.width * SAMPLES, settings.height * SAMPLES);
+    let (azimuth, elevation) = (settings.azimuth as f32, settings.elevation as f32);
+    let camera = Camera::around(&outline(scene, settings.all_around), azimuth, elevation, width, height);
+    let projected: Vec<Vec3> = scene.points.par_iter().map(|&p| camera.project(p)).collect();
+    let buffer = DepthBuffer::draw(width, height, &projected, &scene.triangles);
+    drop(projected);
+    // From the viewer's upper left, three quarters to the front.
+    let (turn, rise) = (azimuth - 0.75, 0.87_f32);
+    let towards = vec3(turn.sin() * rise.cos(), -turn.cos() * rise.cos(), rise.sin());
+    let texels = (settings.width.max(settings.height) * 2).clamp(256, 4096);
+    let sun = Sun::new(towards, &scene.points, &scene.triangles, texels);
+    View { scene, settings, camera, sun: Some(sun), buffer }.picture()
+}
+
+/// Points that a picture must show: some of the tree's own, or the rim of all its turns.
+fn outline(scene: &Scene, all_around: bool) -> Vec<Vec3> {
+    let step = (scene.points.len() / 6000).max(1);
+    let some: Vec<Vec3> = scene.points.iter().copied().step_by(step).collect();
+    if some.is_empty() {
+        return vec![scene.low, scene.high];
+    }
+    if !all_around {
+        return some;
+    }
+    let rim = |p: &Vec3| {
+        let reach = p.truncate().length();
+        (0..16).map(move |i| {
+            let (sin, cos) = (i as f32 * std::f32::consts::TAU / 16.0).sin_cos();
+            (reach * cos, reach * sin)
+        })
+    };
+    some.iter().step_by(8).flat_map(|p| rim(p).map(|(x, y)| vec3(x, y, p.z))).collect()
+}
+
+/// A scene from a camera; without a sun, colours are shown as they are, in the crown's shade.
+pub(super) struct View<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) settings: &'a PreviewSettings,
+    pub(super) camera: Camera,
+    pub(super) sun: Option<Sun>,
+    pub(super) buffer: DepthBuffer,
+}
+
+impl View<'_> {
+    pub(super) fn picture(&self) -> Picture {
+        let (width, height) = (self.settings.width, self.settings.height);
+        let mut rgba = vec![0; width as usize * height as usize * 4];
+        rgba.par_chunks_mut(width as usize * 4).enumerate().for_each(|(y, row)| {
+            for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
+                pixel.copy_from_slice(&self.pixel(x as u32, y as u32));
+            }
+        });
+        Picture { width, height, rgba }
+    }
+
+    fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
+        let mut sum = Vec4::ZERO;
+        for j in 0..SAMPLES {
+            for i in 0..SAMPLES {
+                sum += self.sample(x * SAMPLES + i, y * SAMPLES + j);
+            }
+        }
+        let mut color = sum / (SAMPLES * SAMPLES) as f32;
+        if let Some(wall) = self.wall(y) {
+            color += (wall * (1.0 - color.w)).extend(1.0 - color.w);
+        }
+        if color.w <= 0.0 {
+            return [0; 4];
+        }
+        let [r, g, b] = (color.truncate() / color.w).to_array().map(to_srgb);
+        [r, g, b, (color.w * 255.0).round() as u8]
+    }
+
+    /// What is behind the tree in row `y`, in shown light.
+    fn wall(&self, y: u32) -> Option<Vec3> {
+        match self.settings.background {
+            Background::Transparent => None,
+            Background::Plain(color) => Some(linear(color).into()),
+            Background::Studio => {
+                let t = y as f32 / self.settings.height.max(2) as f32;
+                Some(vec3(0.86, 0.88, 0.90).lerp(vec3(0.93, 0.925, 0.91), smooth(0.2, 1.0, t)))
+            }
+        }
+    }
+
+    /// Shown light and coverage of one sample, multiplied.
+    fn sample(&self, x: u32, y: u32) -> Vec4 {
+        let index = y as usize * self.buffer.width as usize + x as usize;
+        let triangle = self.buffer.triangle[index];
+        let ray = self.camera.ray(x as f32 + 0.5, y as f32 + 0.5);
+        if triangle == NONE {
+            return self.ground(ray) * self.margin(x, y);
+        }
+        let corners = self.scene.triangles[triangle as usize];
+        let [a, b, c] = corners.map(|i| self.scene.points[i as usize]);
+        let plane = (b - a).cross(c - a);
+        let slope = ray.dot(plane);
+        let distance = if slope.abs() > 1e-12 { (a - self.camera.eye).dot(plane) / slope } else { 0.0 };
+        let center = (a + b + c) / 3.0;
+        let size = (b - a).length().max((c - a).length());
+        let mut at = self.camera.eye + ray * distance;
+        if at.distance(center) > 2.0 * size {
+            // Seen edge on: rounding has thrown the point off the triangle.
+            at = center;
+        }
+        let whole = plane.length_squared().max(1e-20);
+        let wb = (at - a).cross(c - a).dot(plane) / whole;
+        let wc = (b - a).cross(at - a).dot(plane) / whole;
+        let weights = [1.0 - wb - wc, wb, wc].map(|w| w.clamp(0.0, 1.0));
+        let mix = |pick: &dyn Fn(u32) -> f32| (0..3).map(|k| weights[k] * pick(corners[k])).sum::<f32>();
+        let vertex = |i: u32| &self.scene.vertices[i as usize];
+        let normal = (0..3).map(|k| normal(vertex(corners[k])) * weights[k]).sum::<Vec3>();
+        let normal = normal.try_normalize().unwrap_or(Vec3::Z);
+        let (material, leaf) = self.scene.part_of(triangle);
+        let light = match material {
+            Material::Bark => {
+                let (u, v) = (mix(&|i| vertex(i)[6]), mix(&|i| vertex(i)[7]));
+                self.bark(at, normal, ray, self.scene.stem_of(corners[0]), u, v)
+            }
+            _ => self.leaf(at, normal, ray, material, leaf),
+        };
+        if self.sun.is_some() { shown(light).extend(1.0) } else { light.extend(1.0) }
+    }
+
+    fn bark(&self, at: Vec3, normal: Vec3, ray: Vec3, (radius, level): (f32, u16), u: f32, v: f32) -> Vec3 {
+        let palette = &self.scene.palette;
+        let bark = Vec3::from(linear(palette.bark));
+        // Young wood is darker and browner; palms and bamboo carry green stalks.
+        let young = match palette.pattern {
+            BarkPattern::Ringed if level > 0 => Vec3::from(linear(palette.leaf)) * 0.9,
+            BarkPattern::Banded => vec3(0.115, 0.075, 0.055),
+            _ => bark * vec3(0.62, 0.52, 0.46),
+        };
+        let old = if palette.pattern == BarkPattern::Ringed && level > 0 {
+            0.0
+        } else {
+            smooth(0.006, 0.045, radius)
+        };
+        // Below a pixel or two markings only flicker.
+        let seen = smooth(2.0, 8.0, radius * self.camera.scale_at(at) / SAMPLES as f32);
+        let marks = 1.0 + (bark::shade(palette.pattern, u, v, radius) - 1.0) * seen * old;
+        let albedo = young.lerp(bark, old) * marks;
+        let facing = if normal.dot(ray) > 0.0 { -normal } else { normal };
+        let sky = self.scene.crown.sky_at(at + facing * 0.05);
+        let Some(sun) = &self.sun else { return albedo * even(sky) };
+        let shadow = sun.at(at + facing * 0.01, 1, 1.0);
+        let sunlit = SUN * (facing.dot(sun.towards).max(0.0) * shadow);
+        albedo * (sunlit + self.sky_light(facing, sky))
+    }
+
+    fn leaf(&self, at: Vec3, normal: Vec3, ray: Vec3, material: Material, number: u32) -> Vec3 {
+        let scene = self.scene;
+        let base = Vec3::from(linear(scene.palette.color(material)));
+        // Leaves of one tree differ: evenly spread steps in brightness and warmth.
+        let spread = |step: f32| (number as f32 * step).fract() - 0.5;
+        let varied =
+            base * (1.0 + 0.34 * spread(0.618_034)) * (Vec3::ONE + vec3(0.3, 0.02, -0.2) * spread(0.754_878));
+        let facing = if normal.dot(ray) > 0.0 { -normal } else { normal };
+        // A crown is lit as a body too: its outer leaves stand for what lies behind them.
+        let outward = (at - scene.heart) / scene.reach;
+        let rounded = (facing + outward * 0.55).try_normalize().unwrap_or(facing);
+        let sky = scene.crown.sky_at(at);
+        let Some(sun) = &self.sun else { return varied * even(sky) };
+        let shadow = sun.at(at, 1, 1.0);
+        let flat = facing.dot(sun.towards);
+        let reflected = 0.55 * flat.max(0.0) + 0.45 * (rounded.dot(sun.towards) * 0.75 + 0.25).max(0.0);
+        let through = (-flat).max(0.0) * 0.55;
+        let thin = if material == Material::Leaf { vec3(1.15, 1.25, 0.45) } else { Vec3::ONE };
+        let half = (sun.towards - ray).try_normalize().unwrap_or(facing);
+        let gloss = facing.dot(half).max(0.0).powi(24) * 0.10 * shadow;
+        varied * (SUN * (reflected * shadow) + self.sky_light(rounded, sky))
+            + varied * thin * SUN * (through * shadow)
+            + SUN * gloss * 0.5
+    }
+
+    /// Light from above and from the ground on a face, where this part of the sky is open.
+    fn sky_light(&self, normal: Vec3, open: f32) -> Vec3 {
+        let up = 0.5 + 0.5 * normal.z;
+        (SKY * (0.35 + 0.65 * up) + BOUNCE * (1.0 - up)) * (0.06 + 0.94 * open)
+    }
+
+    /// How much of the ground is shown at a sample: a picture that will stand on a page ends softly,
+    /// where a studio's wall goes on behind the frame.
+    fn margin(&self, x: u32, y: u32) -> f32 {
+        if self.settings.background == Background::Studio {
+            return 1.0;
+        }
+        let (width, height) = (self.buffer.width as f32, self.buffer.height as f32);
+        let (left, above) = (x as f32 + 0.5, y as f32 + 0.5);
+        let edge = left.min(width - left).min(height - above);
+        smooth(0.0, 0.16 * width.min(height), edge)
+    }
+
+    /// The ground where a ray meets it: grass, or its shadow alone.
+    fn ground(&self, ray: Vec3) -> Vec4 {
+        let Some(sun) = self.sun.as_ref().filter(|_| self.settings.ground != Ground::None && ray.z < -1e-4)
+        else {
+            return Vec4::ZERO;
+        };
+        let scene = self.scene;
+        let at = self.camera.eye - ray * (self.camera.eye.z / ray.z);
+        let away = (at - vec3(0.0, 0.0, at.z)).length() / (scene.high - scene.low).max_element().max(1e-3);
+        let open = scene.crown.sky_at(at + Vec3::Z * 0.05);
+        let shadow = sun.at(at, 2, 1.6);
+        let sunlit = SUN * (sun.towards.z * shadow);
+        let light = sunlit + SKY * open;
+        let full = SUN * sun.towards.z + SKY;
+        let fade = 1.0 - smooth(0.9, 2.2, away);
+        match self.settings.ground {
+            Ground::Grass => {
+                let blade = 0.8 + 0.2 * (at.x * 9.0 + (at.y * 7.0).sin() * 2.0).sin() * (at.y * 8.0).cos();
+                let grass = vec3(0.115, 0.155, 0.05) * blade;
+                (shown(grass * light) * fade).extend(fade)
+            }
+            _ => {
+                let dark = 1.0 - (light.element_sum() / full.element_sum()).clamp(0.0, 1.0);
+                let alpha = 0.62 * dark * fade;
+                (vec3(0.10, 0.11, 0.14) * alpha).extend(alpha)
+            }
+        }
+    }
+}
+
+/// Part of its colour that a place shows in even light, where so much of the sky is open.
+fn even(open: f32) -> f32 {
+    0.45 + 0.55 * open
+}
+
+/// Light as it is shown, 0 to 1: straight in the dark, rolling off towards white.
+fn shown(light: Vec3) -> Vec3 {
+    let x = light / WHITE * 1.9;
+    // x·(1 + x/w²) / (1 + x): Reinhard and others 2002, equation 4, with w = 2.6.
+    x * (Vec3::ONE + x / 6.76) / (Vec3::ONE + x)
+}
+
+fn to_srgb(linear: f32) -> u8 {
+    let c = linear.clamp(0.0, 1.0);
+    let s = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+    (s * 255.0).round() as u8
+}
