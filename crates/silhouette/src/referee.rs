@@ -28,7 +28,7 @@ pub struct TooFine {
     pub width: u32,
     /// Height of the frame in pixels.
     pub height: u32,
-    /// Samples a side of a pixel.
+    /// Samples along each side of a pixel.
     pub fineness: u32,
 }
 
@@ -38,7 +38,7 @@ pub const MAX_SIDE: u32 = 16_384;
 /// Farthest that a chord strays from its curve, in pixels.
 const TOLERANCE: f64 = 0.02;
 
-/// Draws `tree` with `fineness` × `fineness` samples a pixel and without anti-aliasing.
+/// Draws `tree` with `fineness` × `fineness` samples per pixel and without anti-aliasing.
 ///
 /// # Errors
 /// If a side of the picture has more than [`MAX_SIDE`] samples.

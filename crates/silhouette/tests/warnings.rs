@@ -194,7 +194,7 @@ fn a_photograph_is_told_from_a_silhouette_in_colours() {
         Rgb([mix(10.0, 250.0), mix(60.0, 245.0), mix(20.0, 220.0)])
     });
     assert_eq!(read(&soft.into(), ImageFormat::Png).warnings, []);
-    // With a mask, nobody looks at the picture's colours.
+    // With a mask, the picture's colours do not matter.
     let dir = tempfile::tempdir().unwrap();
     let mask = GrayImage::from_fn(SIDE, SIDE, |x, y| Luma([if ink.get(x, y) { 255 } else { 0 }]));
     mask.save(dir.path().join("mask.png")).unwrap();

@@ -148,7 +148,7 @@ fn nothing_is_made_up_where_there_is_no_tree() {
     }
     let even = Photo::from_fn(64, 64, |_, _| [90, 120, 60, 255]);
     assert!(matches!(Mask::of(&even, &MaskOptions::default()), Err(MaskError::NoTree { .. })));
-    // What fills the picture up to a thin frame is no tree either, nor is a spot.
+    // What fills the picture up to a thin frame is not a tree either, nor is a spot.
     let filled = Photo::from_fn(200, 200, |x, y| {
         if (5..195).contains(&x) && (5..195).contains(&y) { [20, 60, 20, 255] } else { [200, 220, 250, 255] }
     });

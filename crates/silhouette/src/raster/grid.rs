@@ -1,7 +1,7 @@
-//! The sub-sample grid: eight samples across a pixel and a few down, one bit each.
+//! The sub-sample grid: eight samples across and a few down per pixel, one bit each.
 //!
 //! Shapes set the samples whose centres they cover, which keeps the mean coverage of anything, be it
-//! ever so thin. A pixel is black where at least half its samples are.
+//! however thin. A pixel is black where at least half its samples are.
 //!
 //! A byte of a row is a pixel: counting its bits, and comparing with a half, is done for eight pixels
 //! at once in the bytes of a word.
@@ -9,7 +9,7 @@
 use crate::bitmap::Bitmap;
 use pleach_tree::leaf_shape::Outline;
 
-/// Samples across a pixel: a byte.
+/// Samples across a pixel, one byte of them.
 pub(crate) const ACROSS: u32 = 8;
 
 /// Rows of samples.
@@ -203,11 +203,11 @@ impl Grid {
         }
     }
 
-    /// Reduces the samples to pixels: black from half of them on, ties by turns.
+    /// Reduces the samples to pixels: black from half of them on, ties alternately.
     pub(crate) fn resolve(&self, out: &mut Bitmap) {
         out.reset(self.width, self.height);
         // Adding this to a byte carries into its top bit where it is at least half of the samples, or
-        // more than half for every other pixel: ties go to ink and paper by turns, for with so few
+        // more than half for every other pixel: ties go to ink and paper alternately: with so few
         // samples they are many, and thin twigs would come out thicker by a twentieth.
         let half = u64::from(0x80 - (ACROSS * self.down / 2)) * LOW_BITS;
         let by_turns = [half - EVERY_OTHER, half - (EVERY_OTHER << 8)];
