@@ -83,6 +83,8 @@ pub(super) struct Summary {
     pub(super) height_m: f64,
     /// The fitted tree in metres.
     pub(super) tree_m: Dendrometry,
+    /// The name in `summary.json` is older than the spelling of identifiers.
+    #[serde(rename = "metres_per_pixel")]
     pub(super) meters_per_pixel: f64,
     pub(super) goal_width: u32,
     pub(super) goal_height: u32,
