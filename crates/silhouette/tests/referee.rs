@@ -4,7 +4,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_silhouette::{Bitmap, Frame, Rasterizer, View, referee};
+#[path = "support/referee.rs"]
+mod referee;
+
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Parts, Tree};
 
 /// One comparison, as facts.

@@ -81,7 +81,7 @@ impl Family for WeberPennFamily {
 
 macro_rules! presets {
     ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../../species/weber-penn/", $name, ".toml")))),*]
+        &[$(($name, include_str!(concat!("../species/", $name, ".toml")))),*]
     };
 }
 

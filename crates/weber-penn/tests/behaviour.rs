@@ -285,7 +285,7 @@ fn blossoms_replace_leaves_at_their_rate() {
 #[test]
 fn leaf_bend_turns_leaves_outwards_and_up() {
     let facing = |bend: f64| {
-        let text = include_str!("../../../species/weber-penn/quaking_aspen.toml")
+        let text = include_str!("../species/quaking_aspen.toml")
             .replace("leaf_bend = 0.6", &format!("leaf_bend = {bend}"));
         let tree = grow(&text);
         let up: f32 = tree.leaves.iter().map(|l| l.along.cross(l.across).normalize().z).sum();
@@ -375,7 +375,7 @@ fn monsters_end_in_errors_within_the_limit() {
 #[test]
 fn without_variations_of_size_trunks_of_all_seeds_are_alike() {
     for name in ["quaking_aspen", "balsam_fir"] {
-        let path = format!("{}/../../species/weber-penn/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/species/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let species = read(&std::fs::read_to_string(path).unwrap()).unwrap();
         let space = species.generator.space();
         let lengths = |values: &[f64]| -> Vec<f64> {

@@ -1,6 +1,7 @@
 //! Meshes for `pleach grow`: what was asked for, and the files.
 
 use super::grow::formats::Format;
+use crate::choice::{Choice, one_of};
 use crate::files;
 use anyhow::{Context, bail};
 use clap::ValueEnum;
@@ -34,25 +35,12 @@ pub(crate) enum Leaves {
     None,
 }
 
-/// The time of the year.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SeasonArg {
-    Spring,
-    Summer,
-    Autumn,
-    Winter,
-}
-
-impl From<SeasonArg> for Season {
-    fn from(season: SeasonArg) -> Self {
-        match season {
-            SeasonArg::Spring => Self::Spring,
-            SeasonArg::Summer => Self::Summer,
-            SeasonArg::Autumn => Self::Autumn,
-            SeasonArg::Winter => Self::Winter,
-        }
-    }
-}
+pub(super) const SEASONS: &[Choice<Season>] = &[
+    (Season::Spring.name(), "", Season::Spring),
+    (Season::Summer.name(), "", Season::Summer),
+    (Season::Autumn.name(), "", Season::Autumn),
+    (Season::Winter.name(), "", Season::Winter),
+];
 
 /// Options of mesh files.
 #[derive(Clone, Debug, clap::Args)]
@@ -75,8 +63,8 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_enum, value_name = "HOW", conflicts_with = "no_leaves")]
     pub(super) leaves: Option<Leaves>,
     /// Season; by default the species file's own, or summer with all its blossom
-    #[arg(long, value_enum)]
-    pub(super) season: Option<SeasonArg>,
+    #[arg(long, value_parser = one_of(SEASONS))]
+    pub(super) season: Option<Season>,
     /// Give each vertex the data that shaders need for wind (.glb, .ply)
     #[arg(long)]
     pub(super) wind: bool,
@@ -171,7 +159,7 @@ impl MeshArgs {
         tree: &Tree,
     ) -> anyhow::Result<()> {
         self.check_alone(path, format)?;
-        let palette = Palette::of(species, self.season.map(Season::from));
+        let palette = Palette::of(species, self.season);
         match format {
             Format::Glb => self.write_glb(path, species, seed, tree, palette),
             Format::Obj => self.write_obj(path, species, tree, palette),
@@ -272,7 +260,7 @@ impl MeshArgs {
         let mut used: Vec<u32> = sites.iter().map(|s| s.variant).collect();
         used.sort_unstable();
         used.dedup();
-        let season = self.season.map(Season::from);
+        let season = self.season;
         let mut trees = Vec::new();
         let mut palette = None;
         for &variant in &used {

@@ -1,5 +1,6 @@
 //! Which species a map or a blend is made of, and how they are laid out: shared by `map` and `blend`.
 
+use crate::choice::{Choice, one_of};
 use crate::{input, output};
 use anyhow::{Context, bail};
 use pleach_blend::{BlendError, BlendMap, Features, Point, Settings, looks};
@@ -19,15 +20,10 @@ enum Layout {
     Looks,
 }
 
-/// How numbers are compared.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum Coding {
-    /// By what their declarations say they mean
-    #[default]
-    Declared,
-    /// As the plain list of numbers, the dissertation's way
-    Raw,
-}
+const FEATURES: &[Choice<Features>] = &[
+    ("declared", "By what their declarations say they mean", Features::Declared),
+    ("raw", "As the plain list of numbers, the dissertation's way", Features::Raw),
+];
 
 /// Species and layout of a map.
 #[derive(Clone, Debug, clap::Args)]
@@ -49,8 +45,8 @@ pub(super) struct MapArgs {
     #[arg(long, value_enum, default_value_t)]
     layout: Layout,
     /// How numbers are compared and averaged
-    #[arg(long, value_enum, default_value_t)]
-    features: Coding,
+    #[arg(long, value_parser = one_of(FEATURES), default_value = "declared")]
+    features: Features,
 }
 
 impl MapArgs {
@@ -102,10 +98,7 @@ impl MapArgs {
 
     /// How numbers are compared and averaged.
     pub(super) const fn features(&self) -> Features {
-        match self.features {
-            Coding::Declared => Features::Declared,
-            Coding::Raw => Features::Raw,
-        }
+        self.features
     }
 
     /// Refuses options that choose or place the species of a map, where no map is asked for. Shares may
