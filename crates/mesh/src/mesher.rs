@@ -1,12 +1,11 @@
 //! From a tree to blocks of triangles: sizes first, then any run of stems or leaves.
 
 use crate::block::Block;
-use crate::card::{self, Card};
 use crate::foliage::UnitMesh;
+use crate::part::{Count, Material, Part, Source};
 use crate::rig::Rig;
 use crate::settings::MeshSettings;
-use crate::sink::{Material, Part};
-use crate::tube::{Count, Rings, Tubes};
+use crate::tube::{Rings, Tubes};
 use crate::wind;
 use pleach_tree::{Leaf, StemKind, Tree};
 use rayon::prelude::*;
@@ -29,8 +28,6 @@ pub struct Mesher<'a> {
     bark: Count,
     blocks: Vec<Range<usize>>,
     instanced: bool,
-    cards: Option<&'a [Card]>,
-    welded: Option<&'a Block>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -85,37 +82,6 @@ impl<'a> Mesher<'a> {
             bark,
             blocks,
             instanced: false,
-            cards: None,
-            welded: None,
-        }
-    }
-
-    /// Sends `bark`, from [`crate::weld::surface`] of the same tree, instead of a tube a stem. It has
-    /// neither wind data nor joints.
-    #[must_use]
-    pub fn with_welded_bark(mut self, bark: &'a Block) -> Self {
-        self.bark = Count { vertices: bark.vertices.len() as u64, triangles: bark.triangles.len() as u64 };
-        self.welded = Some(bark);
-        self
-    }
-
-    /// Sends `cards` that show pictures of `tree` instead of the tree itself.
-    #[must_use]
-    pub fn of_cards(tree: &'a Tree, cards: &'a [Card]) -> Self {
-        let settings = MeshSettings::default();
-        Self {
-            tree,
-            settings,
-            rig: None,
-            tubes: Tubes::new(settings),
-            leaf: UnitMesh::default(),
-            blossom: UnitMesh::default(),
-            stems: Vec::new(),
-            bark: Count::default(),
-            blocks: Vec::new(),
-            instanced: false,
-            cards: Some(cards),
-            welded: None,
         }
     }
 
@@ -131,35 +97,6 @@ impl<'a> Mesher<'a> {
     pub fn with_rig(mut self, rig: &'a Rig) -> Self {
         self.rig = Some(rig);
         self
-    }
-
-    /// Its parts that are not empty, as mesh number `mesh`.
-    #[must_use]
-    pub fn parts(&self, mesh: usize) -> Vec<Part> {
-        if let Some(cards) = self.cards {
-            let count = card::count(cards);
-            let plain =
-                Part { mesh, material: Material::Card, count, instances: 0, wind: false, rigged: false };
-            return if cards.is_empty() { Vec::new() } else { vec![plain] };
-        }
-        let part = |material| {
-            let (count, placed) = match self.placed(material) {
-                None => (self.bark, 1),
-                Some((leaves, shape)) => (shape.count(), leaves.len() as u64),
-            };
-            let instanced = self.instanced && material != Material::Bark;
-            let welded = self.welded.is_some() && material == Material::Bark;
-            let times = if instanced { placed.min(1) } else { placed };
-            Part {
-                mesh,
-                material,
-                count: Count { vertices: count.vertices * times, triangles: count.triangles * times },
-                instances: if instanced { placed } else { 0 },
-                wind: self.settings.wind && !instanced && !welded,
-                rigged: self.rig.is_some() && !instanced && !welded,
-            }
-        };
-        Material::ALL.into_iter().map(part).filter(|p| p.count.triangles > 0).collect()
     }
 
     /// Corners and triangles of all parts together.
@@ -187,29 +124,60 @@ impl<'a> Mesher<'a> {
         }
     }
 
+    fn fill_stems(&self, range: Range<usize>, block: &mut Block) {
+        let mut rings = Rings::default();
+        for i in range {
+            let StemStart { vertex, along } = self.stems[i];
+            rings.sample(self.tree, &self.tree.stems[i], self.tubes.tolerance());
+            let first = block.vertices.len();
+            self.tubes.push(&rings, vertex as u32, along, block);
+            let length = rings.rings.last().map_or(1.0, |r| r.along).max(1e-6);
+            if self.settings.wind {
+                let wind = wind::of_stem(self.tree, i);
+                block.wind.extend(block.vertices[first..].iter().map(|v| {
+                    let mut wind = wind;
+                    wind.place = ((f64::from(v.uv.y) - along) / length).clamp(0.0, 1.0) as f32;
+                    wind
+                }));
+            }
+            if let Some(rig) = self.rig {
+                let joint = |v: &crate::Vertex| rig.joint_at(i as u32, f64::from(v.uv.y) - along);
+                block.joints.extend(block.vertices[first..].iter().map(joint));
+            }
+        }
+    }
+}
+
+impl Source for Mesher<'_> {
+    fn parts(&self, mesh: usize) -> Vec<Part> {
+        let part = |material| {
+            let (count, placed) = match self.placed(material) {
+                None => (self.bark, 1),
+                Some((leaves, shape)) => (shape.count(), leaves.len() as u64),
+            };
+            let instanced = self.instanced && material != Material::Bark;
+            let times = if instanced { placed.min(1) } else { placed };
+            Part {
+                mesh,
+                material,
+                count: Count { vertices: count.vertices * times, triangles: count.triangles * times },
+                instances: if instanced { placed } else { 0 },
+                wind: self.settings.wind && !instanced,
+                rigged: self.rig.is_some() && !instanced,
+            }
+        };
+        Material::ALL.into_iter().map(part).filter(|p| p.count.triangles > 0).collect()
+    }
+
     /// The stems or leaves of each block of a part.
-    pub(crate) fn ranges(&self, material: Material) -> Vec<Range<usize>> {
-        if let Some(cards) = self.cards {
-            return std::iter::once(0..cards.len()).collect();
-        }
-        if self.welded.is_some() && material == Material::Bark {
-            return std::iter::once(0..1).collect();
-        }
+    fn ranges(&self, material: Material) -> Vec<Range<usize>> {
         let Some((leaves, shape)) = self.placed(material) else { return self.blocks.clone() };
         let size = (BLOCK_VERTICES / shape.count().vertices.max(1)).max(1) as usize;
         (0..leaves.len()).step_by(size).map(|i| i..(i + size).min(leaves.len())).collect()
     }
 
     /// Appends the stems or leaves of `range` to `block`.
-    pub(crate) fn fill(&self, material: Material, range: Range<usize>, block: &mut Block) {
-        if let Some(cards) = self.cards {
-            return card::push(&cards[range], block);
-        }
-        if let (Some(bark), Material::Bark) = (self.welded, material) {
-            block.vertices.extend_from_slice(&bark.vertices);
-            block.triangles.extend_from_slice(&bark.triangles);
-            return;
-        }
+    fn fill(&self, material: Material, range: Range<usize>, block: &mut Block) {
         let Some((leaves, shape)) = self.placed(material) else {
             return self.fill_stems(range, block);
         };
@@ -230,36 +198,13 @@ impl<'a> Mesher<'a> {
                 block.wind.extend(block.vertices[first..].iter().map(|v| {
                     let mut wind = wind;
                     // The tip, at v = 0, moves most.
-                    wind[wind::PLACE] = 1.0 - v[7];
+                    wind.place = 1.0 - v.uv.y;
                     wind
                 }));
             }
             if let Some(rig) = self.rig {
                 let joint = rig.joint_near(leaf.stem, leaf.position.as_dvec3());
                 block.joints.resize(block.vertices.len(), joint);
-            }
-        }
-    }
-
-    fn fill_stems(&self, range: Range<usize>, block: &mut Block) {
-        let mut rings = Rings::default();
-        for i in range {
-            let StemStart { vertex, along } = self.stems[i];
-            rings.sample(self.tree, &self.tree.stems[i], self.tubes.tolerance());
-            let first = block.vertices.len();
-            self.tubes.push(&rings, vertex as u32, along, block);
-            let length = rings.rings.last().map_or(1.0, |r| r.along).max(1e-6);
-            if self.settings.wind {
-                let wind = wind::of_stem(self.tree, i);
-                block.wind.extend(block.vertices[first..].iter().map(|v| {
-                    let mut wind = wind;
-                    wind[wind::PLACE] = ((f64::from(v[7]) - along) / length).clamp(0.0, 1.0) as f32;
-                    wind
-                }));
-            }
-            if let Some(rig) = self.rig {
-                let joint = |v: &crate::Vertex| rig.joint_at(i as u32, f64::from(v[7]) - along);
-                block.joints.extend(block.vertices[first..].iter().map(joint));
             }
         }
     }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, block, lod};
+use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, lod};
 use pleach_tree::Tree;
 use std::collections::{HashMap, HashSet};
 
@@ -19,7 +19,7 @@ fn bark_is_closed_and_no_face_is_degenerate_or_twice_there() {
         let tree = pleach_generators::preset(name).unwrap().grow_bare(2).unwrap();
         let mesh = Mesh::of(&tree, MeshSettings::default());
         let bark = mesh.part(Material::Bark).unwrap();
-        let bits = |i: u32| block::position(&bark.vertices[i as usize]).to_array().map(f32::to_bits);
+        let bits = |i: u32| bark.vertices[i as usize].position.to_array().map(f32::to_bits);
         let mut edges: HashMap<_, i32> = HashMap::new();
         let mut faces = HashSet::new();
         for t in &bark.triangles {
@@ -28,7 +28,7 @@ fn bark_is_closed_and_no_face_is_degenerate_or_twice_there() {
                 *edges.entry((corners[p], corners[q])).or_default() += 1;
                 *edges.entry((corners[q], corners[p])).or_default() -= 1;
             }
-            let [a, b, c] = t.map(|i| block::position(&bark.vertices[i as usize]).as_dvec3());
+            let [a, b, c] = t.map(|i| bark.vertices[i as usize].position.as_dvec3());
             assert!((b - a).cross(c - a).length() > 0.0, "{name}: a face without area at {a}");
             corners.sort_unstable();
             assert!(faces.insert(corners), "{name}: a face is there twice, at {a}");
@@ -43,11 +43,11 @@ fn corners_are_finite_with_unit_normals_and_textures_in_range() {
         let mesh = Mesh::of(&grow(name, 1), MeshSettings::default());
         for (part, block) in &mesh.parts {
             for v in &block.vertices {
-                assert!(v.iter().all(|x| x.is_finite()), "{name}: {v:?}");
-                assert!((block::normal(v).length() - 1.0).abs() < 1e-3, "{name} {:?}: {v:?}", part.material);
+                assert!(v.to_array().iter().all(|x| x.is_finite()), "{name}: {v:?}");
+                assert!((v.normal.length() - 1.0).abs() < 1e-3, "{name} {:?}: {v:?}", part.material);
                 let top = if part.material == Material::Bark { 1e3 } else { 1.0 + 1e-5 };
                 assert!(
-                    (-1e-5..=1.0 + 1e-5).contains(&v[6]) && (-1e-5..=top).contains(&v[7]),
+                    (-1e-5..=1.0 + 1e-5).contains(&v.uv.x) && (-1e-5..=top).contains(&v.uv.y),
                     "{name}: {v:?}"
                 );
             }
@@ -70,7 +70,7 @@ fn every_leaf_is_there_with_its_area() {
             let each = triangles.unwrap_or(tree.leaf_shapes[0].corners().len() - 2);
             assert_eq!(leaves.triangles.len(), each * tree.leaves.len(), "{name} {style:?}");
             if style == LeafStyle::Outline {
-                let corner = |i: u32| block::position(&leaves.vertices[i as usize]);
+                let corner = |i: u32| leaves.vertices[i as usize].position;
                 let area = |t: &[u32; 3]| {
                     let [a, b, c] = t.map(corner);
                     f64::from((b - a).cross(c - a).length()) / 2.0
@@ -88,8 +88,8 @@ fn leaves_face_the_way_of_their_normals() {
     let mesh = Mesh::of(&grow("quaking_aspen", 1), MeshSettings::default());
     let leaves = mesh.part(Material::Leaf).unwrap();
     for t in &leaves.triangles {
-        let [a, b, c] = t.map(|i| block::position(&leaves.vertices[i as usize]));
-        assert!((b - a).cross(c - a).dot(block::normal(&leaves.vertices[t[0] as usize])) > 0.0);
+        let [a, b, c] = t.map(|i| leaves.vertices[i as usize].position);
+        assert!((b - a).cross(c - a).dot(leaves.vertices[t[0] as usize].normal) > 0.0);
     }
 }
 

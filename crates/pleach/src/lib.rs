@@ -125,7 +125,7 @@ pub use pleach_blend::{Blend, BlendError, BlendMap, Point, Settings as MapSettin
 
 #[cfg(feature = "mesh")]
 pub use pleach_mesh::{
-    LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Sink, send, write::glb::Glb,
+    LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Sink, Source, send, write::glb::Glb,
     write::glb::write as write_glb, write::obj::Obj, write::ply::Ply, write::stl::Stl, write::usda::Usda,
 };
 
