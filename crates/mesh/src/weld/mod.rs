@@ -74,7 +74,7 @@ fn cones(tree: &Tree, cell: f64) -> Result<Vec<Cone>, WeldError> {
         return Err(WeldError::TooFine { cell });
     }
     let mut rings = Rings::default();
-    for stem in &tree.stems {
+    for stem in tree.stems.iter().filter(|stem| Parts::BARE.has_stem(stem.kind)) {
         rings.sample(tree, stem, 0.25 * cell);
         let foot = stem.parent.is_none() && stem.kind != StemKind::Fork;
         for (i, pair) in rings.rings.windows(2).enumerate() {
