@@ -102,8 +102,8 @@ fn no_text_is_wrapped_twice() {
     }
 }
 
-/// A directory with everything that examples name.
-fn furnished() -> Dir {
+/// A directory with everything that examples of `names` mention.
+fn furnished(names: &[&str]) -> Dir {
     let dir = Dir::new();
     let root = pleach_tests::root();
     let acer = root.join("targets/acer.png");
@@ -126,10 +126,11 @@ fn furnished() -> Dir {
     ] {
         std::fs::copy(&acer, dir.path(name)).unwrap();
     }
-    // As large as the pixel that an example points at wants.
-    for (photo, background) in [("oak.jpg", "#a9c8ee"), ("photo.jpg", "#a9c8ee"), ("shed.jpg", "#c8b8a0")] {
-        let args =
-            ["render", "quaking_aspen", "--size", "1600", "--ground", "none", "--background", background];
+    // Photographs as large as the pixel that an example points at wants; they take a while to draw.
+    let photographed = names.iter().any(|name| ["fit", "mask"].contains(name));
+    let photos = [("oak.jpg", "#a9c8ee"), ("photo.jpg", "#a9c8ee"), ("shed.jpg", "#c8b8a0")];
+    for (photo, background) in photos.into_iter().filter(|_| photographed) {
+        let args = ["render", "palm", "--size", "1600", "--ground", "none", "--background", background];
         let _ = dir.run([&args[..], &["-o", "drawn.png"]].concat()).ok();
         std::fs::rename(dir.path("drawn.png"), dir.path(photo)).unwrap();
     }
@@ -156,7 +157,7 @@ fn cut_short(line: &str) -> String {
     match line.split(' ').nth(1) {
         Some("fit") => {
             set("--evaluations", "20");
-            set("--from", "acer");
+            set("--from", "palm");
             if !line.contains("--resume") && !line.contains("--continue") {
                 words.insert(2, "--overwrite".to_owned());
             }
@@ -175,7 +176,7 @@ fn cut_short(line: &str) -> String {
 
 /// Runs every example of some commands.
 fn run_examples_of(names: &[&str]) {
-    let dir = furnished();
+    let dir = furnished(names);
     let home = dir.path("home").display().to_string();
     for folder in [".local/share/bash-completion/completions", ".zfunc", ".config/fish/completions"] {
         std::fs::create_dir_all(dir.path("home").join(folder)).unwrap();

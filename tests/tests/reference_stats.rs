@@ -56,7 +56,7 @@ fn ours(name: &str) -> Figures {
     let species = pleach_generators::species(name).unwrap();
     let mut figures = Figures::new();
     for seed in SEEDS {
-        let stats = TreeStats::of(&species.grow(seed).unwrap());
+        let stats = TreeStats::new(&species.grow(seed).unwrap());
         let mut add = |name: String, value: f64| figures.entry(name).or_default().0.push(value);
         for level in 0..4 {
             let get = |list: &[f64]| list.get(level).copied().unwrap_or(0.0);

@@ -1,7 +1,7 @@
 //! Species as silhouettes: grown and drawn side by side on all threads, results in order.
 
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
-use pleach_tree::{GrowError, Growth, Species, Tree, Workspace};
+use pleach_tree::{GrowError, Growth, Parts, Species, Tree, Workspace};
 use rayon::prelude::*;
 
 /// Memory that one thread reuses from tree to tree.
@@ -44,10 +44,10 @@ pub fn silhouettes(species: &[Species], seed: u64, drawing: Drawing) -> Result<V
 
 /// The silhouette of one tree, as [`silhouettes`] draws it.
 pub fn picture(tree: &Tree, rasterizer: &mut Rasterizer, drawing: Drawing) -> Bitmap {
-    let frame = Frame::automatic(tree, &View::FRONT, true, drawing.pixels, drawing.pixels);
+    let frame = Frame::automatic(tree, &View::FRONT, Parts::LEAFY, drawing.pixels, drawing.pixels);
     let mut bitmap = Bitmap::default();
     rasterizer.detail = drawing.detail;
-    rasterizer.draw(tree, &View::FRONT, &frame, true, &mut bitmap);
+    rasterizer.draw(tree, &View::FRONT, &frame, Parts::LEAFY, &mut bitmap);
     bitmap
 }
 

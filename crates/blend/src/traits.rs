@@ -50,7 +50,7 @@ impl Trait {
     pub fn of(self, tree: &Tree) -> f64 {
         match self {
             Self::HeightToWidth => {
-                let stats = TreeStats::of(tree);
+                let stats = TreeStats::new(tree);
                 stats.height_m / stats.crown_width_x_m.max(stats.crown_width_y_m).max(1e-9)
             }
             Self::Ink => {
@@ -58,7 +58,7 @@ impl Trait {
                 share_of_ink(&picture(tree, &mut Rasterizer::new(), drawing))
             }
             Self::BareTrunk => {
-                let stats = TreeStats::of(tree);
+                let stats = TreeStats::new(tree);
                 stats.lowest_branch_m / stats.height_m.max(1e-9)
             }
             Self::BranchAngle => mean(branches(tree).map(|(leaving, _)| leaving)),

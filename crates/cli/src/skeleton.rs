@@ -23,7 +23,7 @@ pub(crate) fn write(out: &mut impl Write, species: &Species, seed: u64, tree: &T
         let kind = match stem.kind {
             StemKind::Trunk => "trunk",
             StemKind::Branch => "branch",
-            StemKind::Clone => "clone",
+            StemKind::Fork => "clone",
             StemKind::Root => "root",
         };
         let parent = stem.parent.map_or_else(|| "null".to_owned(), |p| p.to_string());
@@ -38,12 +38,18 @@ pub(crate) fn write(out: &mut impl Write, species: &Species, seed: u64, tree: &T
         list(out, "handles_in", knots, |k| point(k.handle_in.to_array()))?;
         list(out, "handles_out", knots, |k| point(k.handle_out.to_array()))?;
         // The lists end in a comma; the last key does not.
-        write!(out, r#""length": {}}}"#, number(stem.length))?;
+        write!(out, r#""length": {}}}"#, number(tree.length_of(stem)))?;
     }
     writeln!(out, "\n],")?;
-    leaves(out, "leaves", tree.leaf_shape.name(), &tree.leaves)?;
+    let shapes: Vec<&str> = tree.leaf_shapes.iter().map(|shape| shape.name()).collect();
+    leaves(out, "leaves", &shapes, &tree.leaves)?;
     writeln!(out, ",")?;
-    leaves(out, "blossoms", tree.blossom_shape.name(), &tree.blossoms)?;
+    let shapes: Vec<&str> = tree.blossom_shapes.iter().map(|shape| shape.name()).collect();
+    leaves(out, "blossoms", &shapes, &tree.blossoms)?;
+    if !tree.blobs.is_empty() {
+        writeln!(out, ",")?;
+        blobs(out, tree)?;
+    }
     writeln!(out, "\n}}")?;
     Ok(())
 }
@@ -61,21 +67,46 @@ fn list<T>(
     write!(out, "], ")
 }
 
-fn leaves(out: &mut impl Write, name: &str, shape: &str, leaves: &[Leaf]) -> std::io::Result<()> {
-    write!(out, r#""{name}": {{"shape": "{shape}", "list": ["#)?;
+/// Leaves of one shape, or, where there are several, a list of shapes and for each leaf the number of
+/// its own.
+fn leaves(out: &mut impl Write, name: &str, shapes: &[&str], leaves: &[Leaf]) -> anyhow::Result<()> {
+    match shapes {
+        [shape] => write!(out, r#""{name}": {{"shape": {}, "list": ["#, serde_json::to_string(shape)?)?,
+        _ => write!(out, r#""{name}": {{"shapes": {}, "list": ["#, serde_json::to_string(shapes)?)?,
+    }
     for (i, leaf) in leaves.iter().enumerate() {
         writeln!(out, "{}", if i == 0 { "" } else { "," })?;
         let wide = |v: [f32; 3]| point(v.map(f64::from));
         write!(
             out,
-            r#"{{"stem": {}, "position": {}, "along": {}, "across": {}}}"#,
+            r#"{{"stem": {}, "position": {}, "along": {}, "across": {}"#,
             leaf.stem,
             wide(leaf.position.to_array()),
             wide(leaf.along.to_array()),
             wide(leaf.across.to_array())
         )?;
+        match shapes.len() {
+            1 => write!(out, "}}")?,
+            _ => write!(out, r#", "shape": {}}}"#, leaf.shape)?,
+        }
     }
-    write!(out, "]}}")
+    Ok(write!(out, "]}}")?)
+}
+
+/// Closed surfaces of foliage, each with vertices and triangles of its own.
+fn blobs(out: &mut impl Write, tree: &Tree) -> std::io::Result<()> {
+    write!(out, r#""blobs": ["#)?;
+    for (i, blob) in tree.blobs.iter().enumerate() {
+        writeln!(out, "{}", if i == 0 { "" } else { "," })?;
+        write!(out, r#"{{"stem": {}, "#, blob.stem)?;
+        let vertices = &tree.blob_vertices[blob.vertices()];
+        list(out, "vertices", vertices, |v| point(v.to_array().map(f64::from)))?;
+        let triangles = &tree.blob_triangles[blob.triangles()];
+        list(out, "triangles", triangles, |[a, b, c]| format!("[{a}, {b}, {c}]"))?;
+        // The lists end in a comma; the last key does not.
+        write!(out, r#""closed": true}}"#)?;
+    }
+    write!(out, "]")
 }
 
 fn point<const N: usize>(values: [f64; N]) -> String {

@@ -6,6 +6,7 @@
 
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View, picture};
+use pleach_tree::Parts;
 use std::error::Error;
 use std::path::Path;
 
@@ -34,9 +35,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn drawn(name: &str, foliage: bool) -> Result<Bitmap, Box<dyn Error>> {
     let tree = pleach_generators::species(name)?.grow(1)?;
-    let frame = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIDE, SIDE);
     let mut bitmap = Bitmap::default();
-    Rasterizer::new().draw(&tree, &View::FRONT, &frame, foliage, &mut bitmap);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::with_foliage(foliage), &mut bitmap);
     Ok(bitmap)
 }
 

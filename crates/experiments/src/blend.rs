@@ -9,7 +9,7 @@ use pleach_blend::{Blend, BlendMap, Features, Point, Settings, map};
 use pleach_console::output;
 use pleach_silhouette::score::blurred_iou;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View, picture as sheets};
-use pleach_tree::{Growth, Key, Kind, Limits, Species, Tree};
+use pleach_tree::{Growth, Key, Kind, Limits, Parts, Species, Tree};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -283,7 +283,7 @@ impl Ranges {
 }
 
 fn figures(tree: &Tree) -> [f64; 3] {
-    let frame = Frame::automatic(tree, &View::FRONT, true, DRAWING.pixels, DRAWING.pixels);
+    let frame = Frame::automatic(tree, &View::FRONT, Parts::LEAFY, DRAWING.pixels, DRAWING.pixels);
     let bitmap = picture(tree, &mut Rasterizer::new(), DRAWING);
     let (left, top, right, bottom) = bitmap.ink_box().unwrap_or_default();
     let height = (frame.ground_row - f64::from(top)) * frame.meters_per_pixel;

@@ -13,7 +13,7 @@ use pleach_fit::{
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::picture;
 use pleach_silhouette::{Bitmap, Rasterizer, View};
-use pleach_tree::Growth;
+use pleach_tree::{Growth, Parts};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -269,7 +269,7 @@ impl FitsSpec {
                 &mut tree,
             )?;
             let mut bitmap = Bitmap::default();
-            Rasterizer::new().draw(&tree, view, frame, true, &mut bitmap);
+            Rasterizer::new().draw(&tree, view, frame, Parts::LEAFY, &mut bitmap);
             Ok(bitmap)
         };
         let mut sheet = vec![("goal".to_owned(), target.clone())];

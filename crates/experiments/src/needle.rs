@@ -14,7 +14,7 @@ use pleach_fit::{
 };
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
-use pleach_tree::Species;
+use pleach_tree::{Parts, Species};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -122,10 +122,10 @@ impl Kind for NeedleSpec {
 
 fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<Vec<Around>> {
     let tree = species.grow(TREE_SEED)?;
-    let frame = Frame::automatic(&tree, &View::FRONT, true, SIZE, SIZE);
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIZE, SIZE);
     let mut goal = Bitmap::default();
     // As searches draw, so that the truth itself is a perfect match.
-    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, true, &mut goal);
+    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
     let ellipse = ScoreCard::of(&goal, &goal)?.best_ellipse_iou;
     let generator = &species.generator;
     let truth = Genome::new(species.params.values().to_vec(), TREE_SEED);

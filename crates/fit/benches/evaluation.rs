@@ -4,15 +4,16 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pleach_fit::settings::LIMITS;
 use pleach_fit::{Evaluate, Evaluator, FitProblem, Genome, GoalView, Objective, Size, Unknown};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::Parts;
 use std::hint::black_box;
 use std::sync::Arc;
 
 fn problem(name: &str) -> FitProblem {
     let species = pleach_generators::preset(name).expect("a known species");
     let tree = species.grow(1).expect("a species grows");
-    let frame = Frame::automatic(&tree, &View::FRONT, true, 256, 256);
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 256, 256);
     let mut goal = Bitmap::default();
-    Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut goal);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
     FitProblem {
         generator: Arc::clone(&species.generator),
         base: species.params.values().to_vec(),

@@ -7,7 +7,7 @@ use crate::search::Evaluate;
 use pleach_silhouette::score::fast::{Overlaps, PreparedGoal, Scratch};
 use pleach_silhouette::score::likeness::{self, Descriptor};
 use pleach_silhouette::{Bitmap, Detail, Frame, Projection, Rasterizer, View};
-use pleach_tree::{CheckedParams, Foliage, Generator, Growth, Leaf, Limits, Tree, Workspace};
+use pleach_tree::{CheckedParams, Foliage, Generator, Growth, Leaf, Limits, Parts, Tree, Workspace};
 use rayon::prelude::*;
 use std::num::NonZeroU32;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -310,7 +310,7 @@ impl Evaluator {
             }
             for view in &self.views {
                 let (from, frame) = view.placed(&genome.nuisances);
-                rasterizer.draw(tree, &from, &frame, self.foliage, bitmap);
+                rasterizer.draw(tree, &from, &frame, Parts::with_foliage(self.foliage), bitmap);
                 let agreement = view.compare(bitmap, self.objective, looks, comparisons);
                 likeness = likeness.zip(agreement.likeness).map(|(sum, here)| sum + here);
                 sum.cost += 1.0 - agreement.value;

@@ -10,6 +10,7 @@ use pleach_fit::{
     first_guess,
 };
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
+use pleach_tree::Parts;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering;
 
@@ -46,7 +47,7 @@ fn trees_of_other_seeds_and_sizes_are_named() {
         let species = pleach_generators::preset(name).unwrap();
         let params = species.generator.space().check(found.nearest[0].values.clone()).unwrap();
         let tree = pleach_tree::Species { params, ..species }.grow(1).unwrap();
-        let height = pleach_tree::stats::Bounds::of(&tree, true).unwrap().max.z;
+        let height = pleach_tree::stats::Bounds::new(&tree, Parts::LEAFY).unwrap().max.z;
         assert!((height / goal_height - 1.0).abs() < 0.02, "{name}: {height} m, the goal {goal_height} m");
     }
 }
@@ -102,9 +103,9 @@ fn bare(name: &str, seed: u64) -> FitProblem {
     let mut problem = goal_of(name, seed, 96);
     let tree = pleach_generators::preset(name).unwrap().grow(seed).unwrap();
     let goal = &mut problem.goals[0];
-    goal.frame = Frame::automatic(&tree, &View::FRONT, false, 96, 96);
+    goal.frame = Frame::automatic(&tree, &View::FRONT, Parts::BARE, 96, 96);
     let mut picture = Bitmap::default();
-    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &goal.frame, false, &mut picture);
+    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &goal.frame, Parts::BARE, &mut picture);
     goal.goal = picture;
     problem
 }

@@ -10,6 +10,7 @@ use pleach_fit::{
     Start, Unknown, fit, placements,
 };
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
+use pleach_tree::Parts;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -22,9 +23,9 @@ fn two_views(azimuth: f64, off: Placement, unknown: Unknown) -> FitProblem {
     let tree = species.grow(1).unwrap();
     let mut problem = goal_of("acer", 1, SIZE);
     let view = View::degrees(azimuth, 0.0);
-    let frame = Frame::automatic(&tree, &view, true, SIZE, SIZE);
+    let frame = Frame::automatic(&tree, &view, Parts::LEAFY, SIZE, SIZE);
     let mut goal = Bitmap::default();
-    Rasterizer::with_detail(Detail::Half).draw(&tree, &view, &off.frame(&frame), true, &mut goal);
+    Rasterizer::with_detail(Detail::Half).draw(&tree, &view, &off.frame(&frame), Parts::LEAFY, &mut goal);
     // What is told of the direction is 10 degrees off.
     let view = View::degrees(azimuth - 10.0, 0.0);
     problem.goals.push(GoalView { goal, view, frame, unknown });

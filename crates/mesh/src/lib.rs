@@ -21,6 +21,7 @@
 //! forest does, by address), nothing here reads the clock or prints, and the number of threads changes
 //! nothing. A mesher knows trees, not generators.
 
+mod blobs;
 pub mod block;
 pub mod card;
 mod foliage;
@@ -30,6 +31,7 @@ pub mod mesh;
 pub mod mesher;
 pub mod palette;
 pub mod part;
+mod placed;
 pub mod rig;
 pub mod settings;
 pub mod stream;

@@ -45,7 +45,7 @@ impl Sway {
     pub fn of(tree: &Tree, index: usize) -> Self {
         let stem = &tree.stems[index];
         let radius = tree.knots_of(stem).iter().map(|k| k.radius).fold(0.0, f64::max).max(1e-4);
-        let length = stem.length.max(0.05);
+        let length = tree.length_of(stem).max(0.05);
         let frequency = 0.28 * 3500.0 / 3.0 * radius / (length * length);
         Self {
             phase: (index as f64 * GOLDEN).fract(),
@@ -70,7 +70,7 @@ pub(crate) fn of_leaf(leaf: &Leaf, index: usize, stem: &Stem) -> Wind {
     wind(leaf.position, sway, stem.level.saturating_add(1))
 }
 
-fn wind(pivot: Vec3, sway: Sway, level: u8) -> Wind {
+fn wind(pivot: Vec3, sway: Sway, level: u16) -> Wind {
     Wind {
         pivot,
         phase: sway.phase as f32,

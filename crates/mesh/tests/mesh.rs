@@ -2,9 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, lod};
-use pleach_tree::Tree;
+use glam::Vec3;
+use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, Mesher, Rig, lod, send};
+use pleach_tree::leaf_shape::LeafShape;
+use pleach_tree::{Blob, Knot, Leaf, Parts, Stem, StemKind, Tree};
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 const SPECIES: [&str; 8] =
     ["quaking_aspen", "bamboo", "palm", "acer", "hill_cherry", "small_pine", "fan_palm", "european_larch"];
@@ -67,7 +70,7 @@ fn every_leaf_is_there_with_its_area() {
                 assert!(tree.leaves.is_empty(), "{name}");
                 continue;
             };
-            let each = triangles.unwrap_or(tree.leaf_shape.outline().len() - 2);
+            let each = triangles.unwrap_or(tree.leaf_shapes[0].corners().len() - 2);
             assert_eq!(leaves.triangles.len(), each * tree.leaves.len(), "{name} {style:?}");
             if style == LeafStyle::Outline {
                 let corner = |i: u32| leaves.vertices[i as usize].position;
@@ -76,7 +79,7 @@ fn every_leaf_is_there_with_its_area() {
                     f64::from((b - a).cross(c - a).length()) / 2.0
                 };
                 let found: f64 = leaves.triangles.iter().map(area).sum();
-                let expected = pleach_tree::TreeStats::of(&tree).leaf_area_m2;
+                let expected = pleach_tree::TreeStats::new(&tree).leaf_area_m2;
                 assert!((found / expected - 1.0).abs() < 1e-3, "{name}: {found} is not {expected}");
             }
         }
@@ -122,4 +125,67 @@ fn settings_out_of_range_are_moved_into_it() {
         MeshSettings { tolerance: f64::NAN, min_sides: 0, max_sides: 0, ..MeshSettings::default() };
     let mesh = Mesh::of(&tree, settings);
     assert!(mesh.triangles() > tree.stems.len() && mesh.triangles() < 100 * tree.knots.len());
+}
+
+/// A pole with a root, leaves of two shapes and a blob: what no Weber–Penn tree has.
+fn mixed() -> Tree {
+    let stem =
+        |kind, first_knot| Stem { parent: None, level: 0, kind, offset: 0.0, first_knot, knot_count: 2 };
+    let knot = |x: f64, z: f64| {
+        let point = glam::dvec3(x, 0.0, z);
+        Knot { point, handle_in: point, handle_out: point, radius: 0.1 }
+    };
+    let leaf = |z: f32, shape| Leaf {
+        position: glam::vec3(0.0, 0.0, z),
+        along: Vec3::Z,
+        across: Vec3::X,
+        stem: 0,
+        shape,
+    };
+    Tree {
+        stems: vec![stem(StemKind::Trunk, 0), stem(StemKind::Root, 2)],
+        knots: vec![knot(0.0, 0.0), knot(0.0, 3.0), knot(0.0, 0.0), knot(2.0, 0.0)],
+        leaves: vec![leaf(1.0, 0), leaf(2.0, 1), leaf(3.0, 0)],
+        leaf_shapes: [LeafShape::Maple, LeafShape::Triangle].map(|s| Arc::clone(s.outline())).to_vec(),
+        blobs: vec![Blob { stem: 0, first_vertex: 0, vertex_count: 4, first_triangle: 0, triangle_count: 4 }],
+        blob_vertices: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z].map(|v| v + Vec3::Z * 3.0).to_vec(),
+        blob_triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+        ..Tree::default()
+    }
+}
+
+#[test]
+fn leaves_of_several_shapes_and_blobs_are_one_part() {
+    let tree = mixed();
+    tree.well_formed().unwrap();
+    let rig = Rig::of(&tree);
+    let settings = MeshSettings { wind: true, ..MeshSettings::default() };
+    let mut mesh = Mesh::default();
+    send(&[Mesher::new(&tree, settings).with_rig(&rig)], &mut mesh).unwrap();
+    let foliage = mesh.part(Material::Leaf).unwrap();
+    assert_eq!(foliage.vertices.len(), 25 + 3 + 25 + 4);
+    assert_eq!((foliage.wind.len(), foliage.joints.len()), (57, 57));
+    assert_eq!(foliage.triangles.len(), 23 + 1 + 23 + 4);
+    assert!(foliage.triangles[47..].iter().flatten().all(|i| (53..57).contains(i)));
+    // Outwards: away from the middle of the blob.
+    let middle = glam::vec3(0.25, 0.25, 3.25);
+    assert!(foliage.vertices[53..].iter().all(|v| (v.position - middle).dot(v.normal) > 0.0));
+    let mut instanced = Mesh::default();
+    send(&[Mesher::new(&tree, settings).with_instanced_leaves()], &mut instanced).unwrap();
+    assert!(instanced.part(Material::Leaf).unwrap().instances.is_empty());
+}
+
+#[test]
+fn roots_are_meshed_where_they_are_asked_for() {
+    let tree = mixed();
+    let width = |parts| {
+        let mesh = Mesh::of(&tree, MeshSettings { parts, ..MeshSettings::default() });
+        mesh.part(Material::Bark).unwrap().vertices.iter().map(|v| v.position.x).fold(0.0, f32::max)
+    };
+    assert!(width(Parts::LEAFY) < 0.2 && width(Parts::ALL) > 1.9);
+    assert!(
+        Mesh::of(&tree, MeshSettings { parts: Parts::BARE, ..MeshSettings::default() })
+            .part(Material::Leaf)
+            .is_none()
+    );
 }

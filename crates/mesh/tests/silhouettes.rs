@@ -7,6 +7,7 @@ mod support;
 
 use pleach_mesh::{Mesh, MeshSettings, lod};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::Parts;
 use support::{iou, silhouette};
 
 /// Species whose meshes take a moment; `experiments/export` has all of them.
@@ -17,9 +18,9 @@ fn meshes_have_the_silhouette_of_their_tree() {
     for name in SPECIES {
         for (view, foliage, least) in [(View::FRONT, true, 0.97), (View::degrees(70.0, 20.0), true, 0.97)] {
             let tree = pleach_generators::preset(name).unwrap().grow(1).unwrap();
-            let frame = Frame::automatic(&tree, &view, foliage, 512, 512);
+            let frame = Frame::automatic(&tree, &view, Parts::with_foliage(foliage), 512, 512);
             let mut direct = Bitmap::new(512, 512);
-            Rasterizer::new().draw(&tree, &view, &frame, foliage, &mut direct);
+            Rasterizer::new().draw(&tree, &view, &frame, Parts::with_foliage(foliage), &mut direct);
             let mesh = Mesh::of(&tree, MeshSettings::default());
             let found = iou(&direct, &silhouette(&mesh, &view, &frame));
             assert!(found >= least, "{name} {view:?}: {found}");
@@ -33,9 +34,9 @@ fn meshes_have_the_silhouette_of_their_tree() {
 fn bare_meshes_have_the_ink_of_their_tree() {
     for name in ["quaking_aspen", "silver_birch", "acer", "hill_cherry", "palm"] {
         let tree = pleach_generators::preset(name).unwrap().grow_bare(1).unwrap();
-        let frame = Frame::automatic(&tree, &View::FRONT, false, 512, 512);
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::BARE, 512, 512);
         let mut direct = Bitmap::new(512, 512);
-        Rasterizer::new().draw(&tree, &View::FRONT, &frame, false, &mut direct);
+        Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::BARE, &mut direct);
         let mesh = silhouette(&Mesh::of(&tree, MeshSettings::default()), &View::FRONT, &frame);
         let ink = mesh.ink() as f64 / direct.ink() as f64;
         assert!((0.92..=1.09).contains(&ink), "{name}: {ink} times the ink");
@@ -74,7 +75,7 @@ fn meshes_have_the_ink_of_the_reference() {
             let ours = (1..=3_u64).map(|seed| {
                 let species = pleach_generators::preset(name).unwrap();
                 let tree = if foliage { species.grow(seed) } else { species.grow_bare(seed) }.unwrap();
-                let frame = Frame::automatic(&tree, &View::FRONT, foliage, 512, 512);
+                let frame = Frame::automatic(&tree, &View::FRONT, Parts::with_foliage(foliage), 512, 512);
                 let seen = silhouette(&Mesh::of(&tree, MeshSettings::default()), &View::FRONT, &frame);
                 ink_in_height(512, 512, |x, y| seen.get(x, y))
             });
@@ -92,7 +93,7 @@ fn meshes_have_the_ink_of_the_reference() {
 fn levels_of_detail_keep_the_silhouette_and_lose_triangles() {
     for name in SPECIES.into_iter().chain(["hill_cherry", "bamboo"]) {
         let tree = pleach_generators::preset(name).unwrap().grow(1).unwrap();
-        let frame = Frame::automatic(&tree, &View::FRONT, true, 256, 256);
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 256, 256);
         let levels = lod::levels(&tree, MeshSettings::default(), lod::MAX_LEVELS);
         let mut last = usize::MAX;
         let mut finest = None;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example says what it has done")]
 
-use pleach::Bounds;
+use pleach::{Bounds, Parts};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let species = pleach::species(&name)?;
     let tree = species.grow(seed)?;
     println!("{name}, seed {seed}: {} stems, {} leaves", tree.stems.len(), tree.leaves.len());
-    if let Some(Bounds { min, max }) = Bounds::of(&tree, true) {
+    if let Some(Bounds { min, max }) = Bounds::new(&tree, Parts::LEAFY) {
         println!("{:.1} m high, {:.1} m wide", max.z, (max.x - min.x).max(max.y - min.y));
     }
     Ok(())

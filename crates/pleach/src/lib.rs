@@ -106,11 +106,12 @@ pub use pleach_silhouette::{
     Bitmap, Detail, Frame, Goal, GoalError, GoalOptions, GoalWarning, Polarity, Projection, Rasterizer, View,
     silhouette,
 };
+pub use pleach_tree::leaf_shape::{BlossomShape, LeafShape, Outline, OutlineError};
 pub use pleach_tree::species::{Appearance, Color, Season};
 pub use pleach_tree::stats::Bounds;
 pub use pleach_tree::{
-    CheckedParams, Family, Foliage, Generator, GrowError, Growth, Knot, Leaf, Limits, Param, ParamSpace,
-    Species, SpeciesError, Stem, StemKind, Tree, TreeStats, Workspace,
+    Blob, CheckedParams, Family, Foliage, Generator, GrowError, Growth, Knot, Leaf, Limits, MalformedTree,
+    Param, ParamSpace, Parts, Species, SpeciesError, Stem, StemKind, Tree, TreeStats, Workspace,
 };
 
 #[cfg(feature = "fit")]

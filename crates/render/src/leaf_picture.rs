@@ -7,7 +7,7 @@
 use crate::picture::Picture;
 use pleach_mesh::{Material, Palette, blossom_spread};
 use pleach_tree::Tree;
-use pleach_tree::leaf_shape::{BlossomShape, LeafShape};
+use pleach_tree::leaf_shape::{BlossomShape, Outline};
 use pleach_tree::species::Color;
 
 /// Height and width in pixels.
@@ -20,16 +20,16 @@ type Point = [f32; 2];
 /// The pictures that the cards of `tree` show.
 #[must_use]
 pub fn of(tree: &Tree, palette: &Palette) -> Vec<(Material, Picture)> {
-    vec![
-        (Material::Leaf, leaf(tree.leaf_shape, palette.leaf)),
-        (Material::Blossom, blossom(tree.blossom_shape, palette.blossom)),
-    ]
+    let leaves = tree.leaf_shapes.iter().map(|shape| (Material::Leaf, leaf(shape, palette.leaf)));
+    let blossoms =
+        tree.blossom_shapes.iter().map(|&shape| (Material::Blossom, blossom(shape, palette.blossom)));
+    leaves.chain(blossoms).collect()
 }
 
 /// A leaf of this shape and colour, with its midrib and veins.
 #[must_use]
-pub fn leaf(shape: LeafShape, color: Color) -> Picture {
-    let outline = shape.outline();
+pub fn leaf(shape: &Outline, color: Color) -> Picture {
+    let outline = shape.corners();
     let widest = outline.iter().map(|p| p[0].abs()).fold(f32::MIN_POSITIVE, f32::max);
     let blade: Vec<Point> = outline.iter().map(|p| [0.5 + 0.5 * p[0] / widest, 1.0 - p[1]]).collect();
     // Needles have no side veins to be seen.
@@ -98,6 +98,7 @@ fn inside(polygon: &[Point], p: Point) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pleach_tree::leaf_shape::LeafShape;
 
     const GREEN: Color = Color([90, 140, 50]);
 
@@ -110,9 +111,8 @@ mod tests {
     fn a_picture_covers_the_leaf_and_no_more() {
         for shape in LeafShape::ALL {
             let outline = shape.outline();
-            let width = 2.0 * outline.iter().map(|p| p[0].abs()).fold(0.0, f32::max);
-            let picture = leaf(shape, GREEN);
-            let wanted = shape.area() / width;
+            let picture = leaf(outline, GREEN);
+            let wanted = outline.area() / outline.width();
             assert!((covered(&picture) - wanted).abs() < 0.01, "{shape:?}: {} {wanted}", covered(&picture));
         }
     }

@@ -5,6 +5,7 @@
 use pleach_mesh::Palette;
 use pleach_render::Billboards;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::Parts;
 
 const SPECIES: [&str; 6] = ["quaking_aspen", "acer", "palm", "small_pine", "apple", "lombardy_poplar"];
 
@@ -18,9 +19,9 @@ fn billboards_show_the_silhouette_of_their_tree() {
         let Billboards { picture, cards } = Billboards::paint(&[&tree], &palette, 2);
         assert_eq!(cards[0].len(), 2);
         for (card, view) in cards[0].iter().zip([View::FRONT, View::degrees(90.0, 0.0)]) {
-            let frame = Frame::automatic(&tree, &view, true, 128, 128);
+            let frame = Frame::automatic(&tree, &view, Parts::LEAFY, 128, 128);
             let mut direct = Bitmap::new(128, 128);
-            Rasterizer::new().draw(&tree, &view, &frame, true, &mut direct);
+            Rasterizer::new().draw(&tree, &view, &frame, Parts::LEAFY, &mut direct);
             let half = card.corners[1].distance(card.corners[0]) / 2.0;
             let (bottom, top) = (card.corners[0].z, card.corners[3].z);
             let seen = Bitmap::from_fn(128, 128, |x, y| {

@@ -7,29 +7,28 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
 use pleach_silhouette::score::likeness::{self, Descriptor};
-use pleach_silhouette::{Bitmap, Detail, Frame, Part, Rasterizer, View};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
+use pleach_tree::Parts;
 use std::hint::black_box;
 use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
-
-const PARTS: &[Part] = &[Part::Stems, Part::Leaves, Part::Blossoms];
 
 fn raster(c: &mut Criterion) {
     let species = pleach_generators::species("quaking_aspen").expect("a built-in species");
     let tree = species.grow(1).expect("it grows");
     for size in [256, 512] {
-        let frame = Frame::automatic(&tree, &View::FRONT, true, size, size);
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, size, size);
         let mut out = Bitmap::default();
         for (name, detail) in [("full", Detail::Full), ("half", Detail::Half), ("draft", Detail::Draft)] {
             let mut rasterizer = Rasterizer::with_detail(detail);
             c.bench_function(&format!("aspen/{size}/{name}"), |b| {
-                b.iter(|| rasterizer.draw(&tree, &View::FRONT, &frame, true, &mut out));
+                b.iter(|| rasterizer.draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut out));
             });
         }
         // The same polygons, once a pixel and without anti-aliasing, as tiny-skia fills them.
         c.bench_function(&format!("aspen/{size}/tiny-skia without anti-aliasing"), |b| {
             b.iter(|| {
                 let mut mask = Mask::new(size, size).expect("a small mask");
-                referee::shapes(&tree, &View::FRONT, &frame, PARTS, |corners| {
+                referee::shapes(&tree, &View::FRONT, &frame, Parts::LEAFY, |corners| {
                     let mut path = PathBuilder::new();
                     for (i, p) in corners.iter().enumerate() {
                         let (x, y) = (p.x as f32, p.y as f32);
@@ -49,9 +48,9 @@ fn raster(c: &mut Criterion) {
 fn score(c: &mut Criterion) {
     let draw = |name: &str| {
         let tree = pleach_generators::species(name).expect("built in").grow(1).expect("it grows");
-        let frame = Frame::automatic(&tree, &View::FRONT, true, 256, 256);
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 256, 256);
         let mut out = Bitmap::default();
-        Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut out);
+        Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut out);
         out
     };
     let (goal, picture) = (draw("quaking_aspen"), draw("black_oak"));

@@ -55,7 +55,7 @@ impl Bitmap {
         &self.words[start..start + self.words_per_row]
     }
 
-    /// The words of row `y`; whoever writes them keeps the bits beyond the width at 0.
+    /// The words of row `y`; a caller that writes them keeps the bits beyond the width at 0.
     pub(crate) fn row_mut(&mut self, y: u32) -> &mut [u64] {
         let start = y as usize * self.words_per_row;
         &mut self.words[start..start + self.words_per_row]
@@ -158,7 +158,7 @@ impl Bitmap {
         bounds
     }
 
-    /// Reads a picture of `#` (ink) and `.` (paper), a line a row; blanks at line ends and blank
+    /// Reads a picture of `#` (ink) and `.` (paper), one line per row; blanks at line ends and blank
     /// lines are skipped. For tests and messages.
     #[must_use]
     pub fn from_ascii(text: &str) -> Self {
@@ -169,7 +169,7 @@ impl Bitmap {
         })
     }
 
-    /// The picture as `#` and `.`, a line a row.
+    /// The picture as `#` and `.`, one line per row.
     #[must_use]
     pub fn to_ascii(&self) -> String {
         let mut text = String::with_capacity((self.width as usize + 1) * self.height as usize);

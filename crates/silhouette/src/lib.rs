@@ -21,5 +21,5 @@ pub mod view;
 
 pub use bitmap::Bitmap;
 pub use goal::{Goal, GoalError, GoalOptions, GoalWarning, Polarity};
-pub use raster::{Detail, Part, Rasterizer, silhouette};
+pub use raster::{Detail, Rasterizer, silhouette};
 pub use view::{Camera, Frame, Projection, View};

@@ -1,10 +1,10 @@
 //! Pictures for people: overlays of fit and goal, and sheets of silhouettes side by side.
 
 use crate::bitmap::Bitmap;
-use crate::raster::{Part, Rasterizer};
+use crate::raster::Rasterizer;
 use crate::view::{Frame, View};
 use font8x8::UnicodeFonts;
-use pleach_tree::Tree;
+use pleach_tree::{Parts, Tree};
 use std::io::{self, Write};
 
 /// Red, green, blue.
@@ -125,27 +125,26 @@ pub fn overlay(fit: &Bitmap, goal: &Bitmap) -> Picture {
     picture
 }
 
-/// A tree in two flat colours, bark below foliage, with soft edges.
+/// `parts` of a tree in two flat colours, bark below foliage, with soft edges.
 ///
 /// Depth is not shown: foliage covers bark wherever both are.
 #[must_use]
-pub fn two_colors(tree: &Tree, view: &View, frame: &Frame, foliage: bool) -> Picture {
+pub fn two_colors(tree: &Tree, view: &View, frame: &Frame, parts: Parts) -> Picture {
     const BARK: Rgb = [92, 70, 52];
-    const LEAVES: Rgb = [86, 125, 62];
+    const GREEN: Rgb = [86, 125, 62];
     const BLOSSOM: Rgb = [222, 160, 178];
+    let layers = [
+        (Parts::ROOTS, BARK),
+        (Parts::STEMS, BARK),
+        (Parts::LEAVES, GREEN),
+        (Parts::BLOBS, GREEN),
+        (Parts::BLOSSOMS, BLOSSOM),
+    ];
     let mut picture = Picture::new(frame.width, frame.height);
     let mut rasterizer = Rasterizer::new();
     let (mut bitmap, mut coverage) = (Bitmap::default(), Vec::new());
-    for part in [Part::Stems, Part::Leaves, Part::Blossoms] {
-        let color = match part {
-            Part::Stems => BARK,
-            Part::Leaves => LEAVES,
-            Part::Blossoms => BLOSSOM,
-        };
-        if part != Part::Stems && !foliage {
-            continue;
-        }
-        rasterizer.draw_parts(tree, view, frame, &[part], &mut bitmap);
+    for (part, color) in layers.into_iter().filter(|(part, _)| parts.contains(*part)) {
+        rasterizer.draw(tree, view, frame, part, &mut bitmap);
         rasterizer.coverage(&mut coverage);
         for (pixel, &samples) in picture.pixels.iter_mut().zip(&coverage) {
             let share = f32::from(samples) / f32::from(rasterizer.samples());

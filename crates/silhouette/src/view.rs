@@ -1,8 +1,8 @@
 //! Where the picture is taken from, and which part of the world it shows.
 
 use glam::DVec3;
-use pleach_tree::Tree;
 use pleach_tree::stats::Bounds;
+use pleach_tree::{Parts, Tree};
 
 /// How depth is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -70,13 +70,13 @@ impl Frame {
     /// Part of the picture that the larger of the tree's height and width fills.
     pub const FILL: f64 = 0.95;
 
-    /// The frame that shows a whole tree: ground at the bottom edge, the trunk's foot in the middle,
+    /// The frame that shows all of `parts` of a tree: ground at the bottom edge, the trunk's foot in the middle,
     /// the larger of height and twice the reach to a side filling 95 % of the picture.
     ///
     /// Seen from above or below the foot moves up as far as the tree reaches below it.
     #[must_use]
-    pub fn automatic(tree: &Tree, view: &View, foliage: bool, width: u32, height: u32) -> Self {
-        let Some(bounds) = Bounds::of(tree, foliage) else {
+    pub fn automatic(tree: &Tree, view: &View, parts: Parts, width: u32, height: u32) -> Self {
+        let Some(bounds) = Bounds::new(tree, parts) else {
             return Self {
                 width,
                 height,

@@ -178,7 +178,7 @@ fn whatever_breaks_off_is_refused() {
             let error = goal(&whole[..length]).expect_err(&length.to_string());
             assert!(matches!(error, GoalError::Damaged { .. }), "{length}: {error}");
         }
-        // What comes after the picture is nobody's business, and nor is a thumbnail with an end of its own.
+        // Bytes after the picture are ignored, and so is a thumbnail's own end marker.
         let trailing = [whole, b"\0\0\0 and more \xff\xd8\xff\xe0"].concat();
         assert_eq!(goal(&trailing).unwrap().bitmap, read.bitmap);
         let thumbnail = encoded(ImageFormat::Jpeg);
@@ -289,7 +289,7 @@ fn readers_are_read_to_their_end_and_no_further_than_may_be() {
     let png = encoded(ImageFormat::Png);
     let read = Goal::from_reader("pipe", Pipe(&png, 0).take(png.len() as u64), &GoalOptions::default());
     assert_eq!(read.unwrap(), goal(&png).unwrap());
-    // What is no picture is not read on.
+    // Reading stops at what is not a picture.
     let mut zeros = Pipe(b"", 0);
     let error = Encoded::read("zeros", &mut zeros).unwrap_err();
     assert!(matches!(error, GoalError::NotAnImage { .. }) && zeros.1 <= 64, "{error}, {} bytes", zeros.1);

@@ -7,11 +7,8 @@
 #[path = "support/referee.rs"]
 mod referee;
 
-use pleach_silhouette::{Bitmap, Frame, Part, Rasterizer, View};
-use pleach_tree::Tree;
-
-const LEAFY: &[Part] = &[Part::Stems, Part::Leaves, Part::Blossoms];
-const BARE: &[Part] = &[Part::Stems];
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::{Parts, Tree};
 
 /// One comparison, as facts.
 struct Case {
@@ -24,17 +21,17 @@ struct Case {
     coverage: f64,
 }
 
-fn compare(name: &str, tree: &Tree, parts: &[Part], size: u32, fineness: u32) -> Case {
-    let frame = Frame::automatic(tree, &View::FRONT, true, size, size);
+fn compare(name: &str, tree: &Tree, parts: Parts, size: u32, fineness: u32) -> Case {
+    let frame = Frame::automatic(tree, &View::FRONT, Parts::LEAFY, size, size);
     let mut rasterizer = Rasterizer::new();
     let (mut ours, mut samples) = (Bitmap::default(), Vec::new());
-    rasterizer.draw_parts(tree, &View::FRONT, &frame, parts, &mut ours);
+    rasterizer.draw(tree, &View::FRONT, &frame, parts, &mut ours);
     rasterizer.coverage(&mut samples);
     let covered = samples.iter().map(|&s| f64::from(s)).sum::<f64>() / f64::from(rasterizer.samples());
     let verdict = referee::draw(tree, &View::FRONT, &frame, parts, fineness).unwrap();
     let both = ours.intersection(&verdict.bitmap) as f64;
     let union = (ours.ink() + verdict.bitmap.ink()) as f64 - both;
-    let leafy = parts.len() > 1;
+    let leafy = parts == Parts::LEAFY;
     Case {
         name: format!("{name} {} at {size}", if leafy { "leafy" } else { "bare" }),
         iou: both / union,
@@ -48,7 +45,7 @@ fn judge(sizes: (u32, u32), names: &[&str]) {
     let mut wrong = Vec::new();
     for name in names {
         let tree = pleach_generators::species(name).unwrap().grow(1).unwrap();
-        for parts in [LEAFY, BARE] {
+        for parts in [Parts::LEAFY, Parts::BARE] {
             let case = compare(name, &tree, parts, sizes.0, sizes.1);
             let Case { name, iou, least_iou, ink, coverage } = case;
             let line = format!("{name}: IoU {iou:.4}, ink {ink:.4}, coverage {coverage:.4}");

@@ -4,9 +4,11 @@
 
 use glam::{DVec3, Vec3, dvec3, vec3};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::leaf_shape::LeafShape;
-use pleach_tree::{Knot, Leaf, Stem, StemKind, Tree};
+use pleach_tree::leaf_shape::{LeafShape, Outline};
+use pleach_tree::stats::Bounds;
+use pleach_tree::{Blob, Knot, Leaf, Parts, Stem, StemKind, Tree};
 use proptest::prelude::*;
+use std::sync::Arc;
 
 fn straight(from: DVec3, to: DVec3, r0: f64, r1: f64) -> [Knot; 2] {
     let third = (to - from) / 3.0;
@@ -16,14 +18,14 @@ fn straight(from: DVec3, to: DVec3, r0: f64, r1: f64) -> [Knot; 2] {
 }
 
 fn tree(stems: &[[Knot; 2]], leaves: Vec<Leaf>) -> Tree {
-    let mut tree = Tree { leaves, leaf_shape: LeafShape::Rectangle, ..Tree::default() };
+    let mut tree =
+        Tree { leaves, leaf_shapes: vec![Arc::clone(LeafShape::Rectangle.outline())], ..Tree::default() };
     for (i, knots) in stems.iter().enumerate() {
         tree.stems.push(Stem {
             parent: None,
             level: 0,
             kind: StemKind::Trunk,
             offset: 0.0,
-            length: 1.0,
             first_knot: 2 * i as u32,
             knot_count: 2,
         });
@@ -45,7 +47,7 @@ fn frame(width: u32, height: u32) -> Frame {
 
 fn drawn(tree: &Tree, view: &View, frame: &Frame) -> Bitmap {
     let mut bitmap = Bitmap::default();
-    Rasterizer::new().draw(tree, view, frame, true, &mut bitmap);
+    Rasterizer::new().draw(tree, view, frame, Parts::LEAFY, &mut bitmap);
     bitmap
 }
 
@@ -95,6 +97,7 @@ fn a_pole_a_fork_and_a_leaf() {
         along: vec3(0.0, 0.0, 3.0),
         across: vec3(2.0, 0.0, 0.0),
         stem: 0,
+        shape: 0,
     };
     let leafy = tree(&[straight(DVec3::ZERO, dvec3(0.0, 0.0, 1.0), 0.5, 0.5)], vec![leaf]);
     let narrow = Frame { axis_column: 4.5, ..frame(9, 6) };
@@ -142,9 +145,14 @@ fn any_tree(reach: f32) -> impl Strategy<Value = Tree> {
         along,
         across,
         stem: 0,
+        shape: 0,
     });
-    (prop::collection::vec(stem, 1..8), prop::collection::vec(leaf, 0..20), 0..10_usize)
-        .prop_map(|(stems, leaves, shape)| Tree { leaf_shape: LeafShape::ALL[shape], ..tree(&stems, leaves) })
+    (prop::collection::vec(stem, 1..8), prop::collection::vec(leaf, 0..20), 0..10_usize).prop_map(
+        |(stems, leaves, shape)| {
+            let leaf_shapes = vec![Arc::clone(LeafShape::ALL[shape].outline())];
+            Tree { leaf_shapes, ..tree(&stems, leaves) }
+        },
+    )
 }
 
 proptest! {
@@ -190,7 +198,7 @@ proptest! {
     /// Ink stays where the tree is.
     #[test]
     fn ink_stays_within_the_bounds(tree in any_tree(15.0)) {
-        let bounds = pleach_tree::stats::Bounds::of(&tree, true).unwrap();
+        let bounds = pleach_tree::stats::Bounds::new(&tree, Parts::LEAFY).unwrap();
         let frame = Frame { axis_column: 32.0, ground_row: 32.0, ..frame(64, 64) };
         if let Some((left, top, right, bottom)) = drawn(&tree, &View::FRONT, &frame).ink_box() {
             let slack = 6.5; // the caps of stems reach a radius beyond their ends
@@ -198,4 +206,87 @@ proptest! {
             prop_assert!(32.0 - f64::from(top) <= bounds.max.z + slack && 31.0 - f64::from(bottom) >= bounds.min.z - slack);
         }
     }
+}
+
+/// A blade 3 m high at `x`, of shape number `shape`.
+fn blade(x: f32, shape: u16) -> Leaf {
+    let (along, across) = (vec3(0.0, 0.0, 3.0), vec3(2.0, 0.0, 0.0));
+    Leaf { position: vec3(x, 0.0, 1.0), along, across, stem: 0, shape }
+}
+
+#[test]
+fn each_leaf_has_its_own_shape() {
+    let mut mixed = tree(&[], vec![blade(-2.5, 0), blade(0.5, 1), blade(3.5, 0)]);
+    // A wedge that leans to the right: no half of it mirrors the other.
+    let wedge = Outline::new("wedge", vec![[-0.5, 0.0], [0.5, 0.0], [0.5, 1.0]]).unwrap();
+    mixed.leaf_shapes.push(Arc::new(wedge));
+    let narrow = Frame { axis_column: 4.5, ..frame(9, 5) };
+    assert_silhouette(
+        &drawn(&mixed, &View::FRONT, &narrow),
+        "
+        .........
+        .##....##
+        .##..#.##
+        .##.##.##
+        .........",
+    );
+}
+
+/// A box with its faces counter-clockwise seen from outside.
+fn boxed(min: Vec3, max: Vec3) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let pick =
+        |bit: u32, i: usize| if i as u32 >> bit & 1 == 0 { min[bit as usize] } else { max[bit as usize] };
+    let corners = (0..8).map(|i| vec3(pick(0, i), pick(1, i), pick(2, i))).collect();
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    (corners, faces.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]).collect())
+}
+
+#[test]
+fn blobs_are_drawn_from_every_side() {
+    let mut bush = tree(&[straight(DVec3::ZERO, dvec3(0.0, 0.0, 3.0), 1.0, 1.0)], Vec::new());
+    (bush.blob_vertices, bush.blob_triangles) = boxed(vec3(-3.0, -2.0, 2.0), vec3(3.0, 2.0, 4.0));
+    bush.blobs =
+        vec![Blob { stem: 0, first_vertex: 0, vertex_count: 8, first_triangle: 0, triangle_count: 12 }];
+    bush.well_formed().unwrap();
+    let frame = Frame { axis_column: 4.5, ..frame(9, 5) };
+    let centered = Frame { axis_column: 4.0, ..frame };
+    assert_silhouette(
+        &drawn(&bush, &View::FRONT, &centered),
+        "
+        .........
+        .######..
+        .######..
+        ...##....
+        ...##....",
+    );
+    for azimuth in [90.0, 180.0, 270.0] {
+        let side = drawn(&bush, &View::degrees(azimuth, 0.0), &centered);
+        let expected = if azimuth == 180.0 { 16 } else { 12 };
+        assert_eq!(side.ink(), expected, "{azimuth}: {}", side.to_ascii());
+    }
+    let mut bitmap = Bitmap::default();
+    Rasterizer::new().draw(&bush, &View::FRONT, &centered, Parts::BARE, &mut bitmap);
+    assert_eq!(bitmap.ink(), 6, "{}", bitmap.to_ascii());
+}
+
+#[test]
+fn roots_are_drawn_where_they_are_asked_for() {
+    let mut rooted = tree(
+        &[
+            straight(DVec3::ZERO, dvec3(0.0, 0.0, 3.0), 0.5, 0.5),
+            straight(DVec3::ZERO, dvec3(3.0, 0.0, 1.0), 0.5, 0.5),
+        ],
+        Vec::new(),
+    );
+    rooted.stems[1].kind = StemKind::Root;
+    let frame = frame(8, 4);
+    let ink = |parts: Parts| {
+        let mut bitmap = Bitmap::default();
+        Rasterizer::new().draw(&rooted, &View::FRONT, &frame, parts, &mut bitmap);
+        bitmap.ink()
+    };
+    assert_eq!(ink(Parts::LEAFY), ink(Parts::BARE));
+    assert!(ink(Parts::ALL) > ink(Parts::LEAFY) && ink(Parts::ROOTS) > 2);
+    let reach = |parts| Bounds::new(&rooted, parts).unwrap().max.x;
+    assert!(reach(Parts::LEAFY) < 0.6 && reach(Parts::ALL) > 3.0);
 }

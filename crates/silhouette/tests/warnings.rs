@@ -6,6 +6,7 @@ use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage};
 use pleach_silhouette::goal::{Goal, GoalOptions, GoalWarning};
 use pleach_silhouette::mask::Touches;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::Parts;
 use std::io::Cursor;
 use std::path::PathBuf;
 
@@ -19,14 +20,14 @@ fn tree() -> Bitmap {
 /// A species that fills `share` of the picture's height, with a margin below.
 fn drawn(species: &str, share: f64) -> Bitmap {
     let tree = pleach_generators::species(species).unwrap().grow(1).unwrap();
-    let upright = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
+    let upright = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIDE, SIDE);
     let frame = Frame {
         meters_per_pixel: upright.meters_per_pixel / share,
         ground_row: 0.95 * f64::from(SIDE),
         ..upright
     };
     let mut bitmap = Bitmap::default();
-    Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut bitmap);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut bitmap);
     bitmap
 }
 
@@ -193,7 +194,7 @@ fn a_photograph_is_told_from_a_silhouette_in_colours() {
         Rgb([mix(10.0, 250.0), mix(60.0, 245.0), mix(20.0, 220.0)])
     });
     assert_eq!(read(&soft.into(), ImageFormat::Png).warnings, []);
-    // With a mask, nobody looks at the picture's colours.
+    // With a mask, the picture's colours do not matter.
     let dir = tempfile::tempdir().unwrap();
     let mask = GrayImage::from_fn(SIDE, SIDE, |x, y| Luma([if ink.get(x, y) { 255 } else { 0 }]));
     mask.save(dir.path().join("mask.png")).unwrap();

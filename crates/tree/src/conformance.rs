@@ -3,6 +3,7 @@
 //! One line a generator: `conformance::check(&species)` for each of its species.
 
 use crate::generator::{Foliage, GrowError, Growth, Limits, Workspace};
+use crate::plant::Parts;
 use crate::plant::Tree;
 use crate::species::{Species, SpeciesDoc};
 use crate::stats::Bounds;
@@ -53,7 +54,7 @@ pub fn check(species: &Species, reread: impl Fn(&SpeciesDoc) -> Species) {
         let params = params.unwrap_or_else(|e| panic!("{name} resized is allowed: {e}"));
         let twice = Species { params, ..species.clone() }.grow(7);
         let twice = twice.unwrap_or_else(|e| panic!("{name} grows at twice the size: {e}"));
-        let height = |tree: &Tree| Bounds::of(tree, true).map_or(0.0, |bounds| bounds.max.z);
+        let height = |tree: &Tree| Bounds::new(tree, Parts::LEAFY).map_or(0.0, |bounds| bounds.max.z);
         let ratio = height(&twice) / height(&tree);
         assert!((1.98..2.02).contains(&ratio), "{name}: twice the size is {ratio} times the height");
     }

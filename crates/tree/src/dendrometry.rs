@@ -1,6 +1,6 @@
 //! What foresters measure of a tree.
 
-use crate::plant::{Stem, StemKind, Tree};
+use crate::plant::{Parts, Stem, StemKind, Tree};
 use crate::stats::Bounds;
 use serde::Serialize;
 
@@ -30,8 +30,8 @@ pub struct Dendrometry {
 impl Dendrometry {
     /// Measures `tree`; all is 0 for a tree without stems.
     #[must_use]
-    pub fn of(tree: &Tree) -> Self {
-        let Some(bounds) = Bounds::of(tree, true) else {
+    pub fn new(tree: &Tree) -> Self {
+        let Some(bounds) = Bounds::new(tree, Parts::LEAFY) else {
             return Self { height: 0.0, crown_width: 0.0, crown_base: 0.0, stem_diameter: None };
         };
         let size = bounds.max - bounds.min;
@@ -75,8 +75,10 @@ fn crown_base(tree: &Tree) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::leaf_shape::LeafShape;
     use crate::plant::{Knot, Leaf};
     use glam::{DVec3, Vec3, dvec3, vec3};
+    use std::sync::Arc;
 
     /// A straight stem from the ground at `x`, 10 m high, of radius 0.3 m that goes to 0.
     fn trunk(tree: &mut Tree, x: f64) {
@@ -93,7 +95,6 @@ mod tests {
             level: 0,
             kind: StemKind::Trunk,
             offset: 0.0,
-            length: 10.0,
             first_knot,
             knot_count: 2,
         });
@@ -103,13 +104,13 @@ mod tests {
     fn a_cone_is_measured_as_computed_by_hand() {
         let mut tree = Tree::default();
         trunk(&mut tree, 0.0);
-        let one = Dendrometry::of(&tree);
+        let one = Dendrometry::new(&tree);
         // 0.6 m at the foot, nothing 10 m above it.
         let expected = 0.6 * (1.0 - 1.3 / 10.0);
         assert!((one.stem_diameter.unwrap() - expected).abs() < 1e-9, "{one:?}");
         assert!((one.height - 10.0).abs() < 1e-9 && (one.crown_width - 0.6).abs() < 1e-9);
         trunk(&mut tree, 2.0);
-        let two = Dendrometry::of(&tree);
+        let two = Dendrometry::new(&tree);
         assert!((two.stem_diameter.unwrap() - expected * 2.0_f64.sqrt()).abs() < 1e-9);
     }
 
@@ -117,16 +118,20 @@ mod tests {
     fn a_leaf_on_the_trunk_does_not_lower_the_crown() {
         let mut tree = Tree::default();
         trunk(&mut tree, 0.0);
-        let leaf = |z: f32| Leaf { position: vec3(0.0, 0.0, z), along: Vec3::Z, across: Vec3::X, stem: 0 };
+        tree.leaf_shapes.push(Arc::clone(LeafShape::Linear.outline()));
+        let leaf = |z: f32| {
+            let position = vec3(0.0, 0.0, z);
+            Leaf { position, along: Vec3::Z, across: Vec3::X, stem: 0, shape: 0 }
+        };
         tree.leaves.extend((0..100).map(|i| leaf(4.0 + i as f32 * 0.05)));
         tree.leaves.push(leaf(0.5));
-        let crown = Dendrometry::of(&tree).crown_base;
+        let crown = Dendrometry::new(&tree).crown_base;
         assert!((4.0..4.2).contains(&crown), "{crown}");
     }
 
     #[test]
     fn what_is_not_there_is_not_measured() {
-        let none = Dendrometry::of(&Tree::default());
+        let none = Dendrometry::new(&Tree::default());
         assert_eq!((none.height, none.stem_diameter), (0.0, None));
         let mut low = Tree::default();
         trunk(&mut low, 0.0);
@@ -135,6 +140,6 @@ mod tests {
                 *point *= DVec3::new(1.0, 1.0, 0.1);
             }
         }
-        assert_eq!(Dendrometry::of(&low).stem_diameter, None);
+        assert_eq!(Dendrometry::new(&low).stem_diameter, None);
     }
 }

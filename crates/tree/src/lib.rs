@@ -40,7 +40,7 @@ pub mod turtle;
 
 pub use generator::{Blame, Family, Foliage, Generator, GrowError, Growth, Limits, Workspace};
 pub use param::{CheckedParams, Kind, Layout, Param, ParamSpace, Unit};
-pub use plant::{Knot, Leaf, Stem, StemKind, Tree};
+pub use plant::{Blob, Knot, Leaf, MalformedTree, Parts, Stem, StemKind, Tree};
 pub use random::Key;
 pub use species::{Species, SpeciesDoc, SpeciesError};
 pub use stats::TreeStats;

@@ -1,6 +1,6 @@
 //! Measurements of a tree, under names that scripts rely on.
 
-use crate::plant::{Leaf, Tree};
+use crate::plant::{Leaf, Parts, Tree};
 use glam::{DVec3, Vec3};
 use serde::Serialize;
 
@@ -51,15 +51,12 @@ impl Bounds {
         self.max = self.max.max(point);
     }
 
-    /// The bounds of `tree`: stems with their radii (a ball at each knot) and, if asked, the corners
-    /// of leaves and blossoms. `None` for a tree without stems.
+    /// The bounds of `parts` of `tree`: stems with their radii (a disc at each knot), the corners of
+    /// leaves and blossoms, the vertices of blobs. `None` where there are no such parts.
     #[must_use]
-    pub fn of(tree: &Tree, foliage: bool) -> Option<Self> {
-        if tree.stems.is_empty() {
-            return None;
-        }
+    pub fn new(tree: &Tree, parts: Parts) -> Option<Self> {
         let mut bounds = Self::EMPTY;
-        for stem in &tree.stems {
+        for stem in tree.stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
             let knots = tree.knots_of(stem);
             let along = |i: usize| {
                 let (a, b) = (knots[i.saturating_sub(1)].point, knots[(i + 1).min(knots.len() - 1)].point);
@@ -73,34 +70,37 @@ impl Bounds {
                 bounds.add(knot.point + reach);
             }
         }
-        if foliage {
-            let outline = tree.leaf_shape.outline();
-            let corners = outline.iter().map(|p| Vec3::new(p[0], p[1], 0.0)).collect::<Vec<_>>();
-            bounds.add_shapes(&tree.leaves, &corners);
-            let corners = tree.blossom_shape.faces().vertices.iter().map(|&v| v.into()).collect::<Vec<_>>();
-            bounds.add_shapes(&tree.blossoms, &corners);
+        if parts.contains(Parts::LEAVES) {
+            for leaf in &tree.leaves {
+                let corners = tree.outline_of(leaf).corners();
+                bounds.add_shape(leaf, corners.iter().map(|p| Vec3::new(p[0], p[1], 0.0)));
+            }
         }
-        Some(bounds)
+        if parts.contains(Parts::BLOSSOMS) {
+            for blossom in &tree.blossoms {
+                let faces = tree.blossom_shapes[usize::from(blossom.shape)].faces();
+                bounds.add_shape(blossom, faces.vertices.iter().map(|&v| v.into()));
+            }
+        }
+        if parts.contains(Parts::BLOBS) {
+            tree.blob_vertices.iter().for_each(|v| bounds.add(v.as_dvec3()));
+        }
+        (bounds.min.x <= bounds.max.x).then_some(bounds)
     }
 
-    fn add_shapes(&mut self, leaves: &[Leaf], corners: &[Vec3]) {
-        for leaf in leaves {
-            let normal = leaf.normal();
-            for corner in corners {
-                let point =
-                    leaf.position + leaf.across * corner.x + leaf.along * corner.y + normal * corner.z;
-                self.add(point.as_dvec3());
-            }
+    fn add_shape(&mut self, leaf: &Leaf, corners: impl Iterator<Item = Vec3>) {
+        let normal = leaf.normal();
+        for corner in corners {
+            let point = leaf.position + leaf.across * corner.x + leaf.along * corner.y + normal * corner.z;
+            self.add(point.as_dvec3());
         }
     }
 }
 
 impl TreeStats {
-    /// Measures `tree`.
+    /// Measures `tree`, its roots left out.
     #[must_use]
-    pub fn of(tree: &Tree) -> Self {
-        /// Chords per piece for lengths: pieces turn by well under a radian, so 8 are good to 0.3 %.
-        const CHORDS: u32 = 8;
+    pub fn new(tree: &Tree) -> Self {
         let levels = tree.level_count();
         let mut stats = Self {
             stems: vec![0; levels],
@@ -113,12 +113,11 @@ impl TreeStats {
             ..Self::default()
         };
         let mut lowest = f64::INFINITY;
-        for stem in &tree.stems {
+        for stem in tree.stems.iter().filter(|stem| Parts::LEAFY.has_stem(stem.kind)) {
             let level = usize::from(stem.level);
             stats.stems[level] += 1;
             stats.bezier_points[level] += stem.knot_count as usize;
-            stats.length_total_m[level] +=
-                tree.pieces_of(stem).map(|(piece, ..)| piece.length(CHORDS)).sum::<f64>();
+            stats.length_total_m[level] += tree.length_of(stem);
             let knots = tree.knots_of(stem);
             stats.radius_mean_m[level] += knots[0].radius;
             if level > 0 {
@@ -130,17 +129,20 @@ impl TreeStats {
             stats.length_mean_m[level] = stats.length_total_m[level] / count;
             stats.radius_mean_m[level] /= count;
         }
-        if let Some(bounds) = Bounds::of(tree, true) {
+        if let Some(bounds) = Bounds::new(tree, Parts::LEAFY) {
             let size = bounds.max - bounds.min;
             stats.height_m = bounds.max.z;
             stats.crown_width_x_m = size.x;
             stats.crown_width_y_m = size.y;
         }
         stats.lowest_branch_m = if lowest.is_finite() { lowest } else { 0.0 };
-        let unit_area = f64::from(tree.leaf_shape.area());
+        let mut areas = vec![0.0; tree.leaf_shapes.len()];
+        for leaf in &tree.leaves {
+            areas[usize::from(leaf.shape)] += f64::from(leaf.unit_area());
+        }
+        let areas = areas.iter().zip(&tree.leaf_shapes).map(|(sum, unit)| sum * f64::from(unit.area()));
         // The sum of no floats at all is -0.
-        let areas = tree.leaves.iter().map(|l| f64::from(l.unit_area()));
-        stats.leaf_area_m2 = unit_area * areas.fold(0.0, |sum, area| sum + area);
+        stats.leaf_area_m2 = areas.fold(0.0, |sum, area| sum + area);
         stats
     }
 }

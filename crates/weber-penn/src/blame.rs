@@ -58,7 +58,7 @@ fn stems(model: &Model, tree: &Tree, waiting: &[Seedling]) -> Blame {
     for stem in &tree.stems {
         let level = usize::from(stem.level);
         stems[level] += 1;
-        clones[level] += usize::from(stem.kind == StemKind::Clone);
+        clones[level] += usize::from(stem.kind == StemKind::Fork);
     }
     waiting.iter().for_each(|stem| stems[stem.depth] += 1);
     let level = most(&stems);

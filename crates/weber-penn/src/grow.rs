@@ -22,6 +22,7 @@ use pleach_tree::turtle::Turtle;
 use pleach_tree::{Foliage, GrowError, Growth, Key, Knot, Stem, StemKind, Tree};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// First-level branches below which threads are not worth their start.
 const PARALLEL_BRANCHES: usize = 16;
@@ -66,8 +67,8 @@ pub(crate) fn grow(
     if let Some(error) = certain::refusal(model, growth) {
         return Err(error);
     }
-    tree.leaf_shape = model.leaf_shape;
-    tree.blossom_shape = model.blossom_shape;
+    tree.leaf_shapes.push(Arc::clone(model.leaf_shape.outline()));
+    tree.blossom_shapes.push(model.blossom_shape);
     let Scratch { path, clones, children, places } = scratch;
     path.clear();
     clones.clear();
@@ -294,16 +295,15 @@ impl Job<'_> {
         let knot_count = knots.len() as u32 - first_knot;
         debug_assert_eq!(knot_count as usize, made, "knots are counted before they are made");
         let kind = match (stem.depth, stem.clone) {
-            (_, Some(_)) => StemKind::Clone,
+            (_, Some(_)) => StemKind::Fork,
             (0, None) => StemKind::Trunk,
             _ => StemKind::Branch,
         };
         bench.tree.stems.push(Stem {
             parent: stem.parent,
-            level: stem.depth as u8,
+            level: stem.depth as u16,
             kind,
             offset: stem.offset,
-            length: stem.length,
             first_knot,
             knot_count,
         });

@@ -105,7 +105,7 @@ impl Kinds<'_> {
         } else {
             (&mut tree.leaves, self.leaf)
         };
-        shapes.push(Leaf { position, along: along * length, across: across * width, stem: index });
+        shapes.push(Leaf { position, along: along * length, across: across * width, stem: index, shape: 0 });
     }
 }
 

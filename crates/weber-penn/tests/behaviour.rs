@@ -19,7 +19,7 @@ fn grow_seed(text: &str, seed: u64) -> Tree {
     tree
 }
 
-fn stems(tree: &Tree, level: u8) -> Vec<&pleach_tree::Stem> {
+fn stems(tree: &Tree, level: u16) -> Vec<&pleach_tree::Stem> {
     tree.stems.iter().filter(|s| s.level == level).collect()
 }
 
@@ -52,7 +52,7 @@ fn with(lines: &str) -> String {
 fn shapes_order_the_branch_lengths_as_their_names_say() {
     let lengths = |shape: &str| -> Vec<f64> {
         let tree = grow(&with(&format!("shape = \"{shape}\"")));
-        stems(&tree, 1).iter().map(|s| s.length).collect()
+        stems(&tree, 1).iter().map(|s| tree.length_of(s)).collect()
     };
     let middle = |l: &[f64]| l[l.len() / 2];
     let conical = lengths("conical");
@@ -60,7 +60,7 @@ fn shapes_order_the_branch_lengths_as_their_names_say() {
     let inverse = lengths("inverse_conical");
     assert!(inverse.windows(2).all(|w| w[0] < w[1]), "longest above");
     let cylindrical = lengths("cylindrical");
-    assert!(cylindrical.iter().all(|l| (l - 3.0).abs() < 1e-9));
+    assert!(cylindrical.iter().all(|l| (l - 3.0).abs() < 1e-6));
     let spherical = lengths("spherical");
     assert!(middle(&spherical) > spherical[0] && middle(&spherical) > *spherical.last().unwrap());
     let hemispherical = lengths("hemispherical");
@@ -76,7 +76,7 @@ fn shapes_order_the_branch_lengths_as_their_names_say() {
     let custom = {
         let text = "shape = \"custom\"\nprune_width_peak = 0.1\nprune_power_high = 1\nprune_power_low = 1";
         let tree = grow(&with(text));
-        stems(&tree, 1).iter().map(|s| s.length).collect::<Vec<_>>()
+        stems(&tree, 1).iter().map(|s| tree.length_of(s)).collect::<Vec<_>>()
     };
     let widest = custom.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).unwrap().0;
     assert!((1..4).contains(&widest), "{custom:?}");
@@ -98,7 +98,7 @@ fn seg_splits_are_diffused_over_segments() {
     let text =
         with("seg_splits = [0.5, 0, 0, 0]\ncurve_res = [11, 3, 1, 1]\nbase_size = [0, 0, 0, 0]\nlevels = 1");
     let tree = grow(&text);
-    let clones: Vec<_> = tree.stems.iter().filter(|s| s.kind == StemKind::Clone).collect();
+    let clones: Vec<_> = tree.stems.iter().filter(|s| s.kind == StemKind::Fork).collect();
     assert!(!clones.is_empty());
     // The first segment after which the carried error reaches one is the second.
     assert!((clones[0].offset - 2.0 * 10.0 / 11.0).abs() < 1e-9, "{}", clones[0].offset);
@@ -222,7 +222,7 @@ fn children_start_inside_the_rim_of_their_parent() {
                     }
                 }
             }
-            let slack = 0.02 * parent.length / f64::from(parent.knot_count) + 0.03;
+            let slack = 0.02 * tree.length_of(parent) / f64::from(parent.knot_count) + 0.03;
             assert!(
                 nearest <= radius_there + slack,
                 "{name}: {nearest} from the axis, radius {radius_there}"
@@ -381,10 +381,12 @@ fn without_variations_of_size_trunks_of_all_seeds_are_alike() {
         let lengths = |values: &[f64]| -> Vec<f64> {
             let params = space.check(values.to_vec()).unwrap();
             let of = |seed| Species { params: params.clone(), ..species.clone() }.grow(seed).unwrap();
-            (1..5).map(|seed| stems(&of(seed), 0)[0].length).collect()
+            let trunk = |tree: &Tree| tree.length_of(stems(tree, 0)[0]);
+            (1..5).map(|seed| trunk(&of(seed))).collect()
         };
         let mut values = species.params.values().to_vec();
-        let spread = |lengths: &[f64]| lengths.iter().any(|l| (l - lengths[0]).abs() > 1e-9);
+        // Lengths of splines are good to 0.3 %.
+        let spread = |lengths: &[f64]| lengths.iter().any(|l| (l / lengths[0] - 1.0).abs() > 0.02);
         assert!(spread(&lengths(&values)), "{name}");
         let slots = species.generator.size_variations(&values);
         assert_eq!(slots.len(), 2, "{name}");

@@ -79,7 +79,7 @@ fn explained_variance_sums_to_one_and_falls() {
 
 #[test]
 fn trees_inside_the_hull_grow_and_are_not_degenerate() {
-    let heights = |species: &Species| TreeStats::of(&species.grow(1).unwrap());
+    let heights = |species: &Species| TreeStats::new(&species.grow(1).unwrap());
     let known: Vec<TreeStats> = map().landmarks().species().iter().map(heights).collect();
     let range = |of: fn(&TreeStats) -> f64| {
         known.iter().map(of).fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)))
@@ -88,7 +88,7 @@ fn trees_inside_the_hull_grow_and_are_not_degenerate() {
     let most_stems = range(|s| s.stems.iter().sum::<usize>() as f64).1;
     inside(200).par_iter().for_each(|&point| {
         let species = map().species_at(&map().at(point).unwrap(), "mix");
-        let stats = TreeStats::of(&species.grow(1).unwrap_or_else(|e| panic!("{point:?}: {e}")));
+        let stats = TreeStats::new(&species.grow(1).unwrap_or_else(|e| panic!("{point:?}: {e}")));
         assert!((0.5 * low..2.0 * high).contains(&stats.height_m), "{point:?}: {} m", stats.height_m);
         let stems = stats.stems.iter().sum::<usize>() as f64;
         assert!((5.0..3.0 * most_stems).contains(&stems), "{point:?}: {stems} stems");

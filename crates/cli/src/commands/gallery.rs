@@ -37,7 +37,7 @@ pub(super) fn sheet(
         let species = pleach_generators::species(name)?;
         let mut tree = grow(&species)?;
         let (x, y) = (gap + i % ACROSS * across, gap / 2 + i / ACROSS * down);
-        let height = TreeStats::of(&tree).height_m;
+        let height = TreeStats::new(&tree).height_m;
         caption(&mut page, name, height, (f64::from(x + size), f64::from(y + size)), f64::from(size));
         for (k, season) in [(0, None), (1, Some(Season::Winter))] {
             let palette = Palette::of(&species, season);

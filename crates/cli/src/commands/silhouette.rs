@@ -4,7 +4,7 @@ use crate::input::LimitArgs;
 use crate::{files, input, output};
 use anyhow::{Context, bail};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Growth};
+use pleach_tree::{Foliage, Growth, Parts};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
@@ -53,9 +53,16 @@ impl Silhouette {
             .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
 
         let draw = |width: u32, height: u32| {
-            let frame = Frame::automatic(&tree, &self.view, !self.no_leaves, width, height);
+            let frame =
+                Frame::automatic(&tree, &self.view, Parts::with_foliage(!self.no_leaves), width, height);
             let mut bitmap = Bitmap::default();
-            Rasterizer::new().draw(&tree, &self.view, &frame, !self.no_leaves, &mut bitmap);
+            Rasterizer::new().draw(
+                &tree,
+                &self.view,
+                &frame,
+                Parts::with_foliage(!self.no_leaves),
+                &mut bitmap,
+            );
             bitmap
         };
         let Some(path) = &self.out else {

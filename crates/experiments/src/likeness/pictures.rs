@@ -5,7 +5,7 @@ use super::{LikenessSpec, SIDE, progress, stop};
 use anyhow::{Context, bail};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Growth, Species, Tree};
+use pleach_tree::{Foliage, Growth, Parts, Species, Tree};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ pub(super) struct Drawn {
 /// size, which is the harder task.
 pub(super) fn draw(species: &[Species], seeds: u64, foliage: bool) -> anyhow::Result<Vec<Drawn>> {
     let look = |tree: &Tree| {
-        let frame = Frame::automatic(tree, &View::FRONT, foliage, SIDE, SIDE);
+        let frame = Frame::automatic(tree, &View::FRONT, Parts::with_foliage(foliage), SIDE, SIDE);
         Seen::new(silhouette(tree, &frame, foliage))
     };
     let trees = grown(species, seeds, foliage, look)?;
@@ -32,7 +32,7 @@ pub(super) fn draw(species: &[Species], seeds: u64, foliage: bool) -> anyhow::Re
 
 pub(super) fn silhouette(tree: &Tree, frame: &Frame, foliage: bool) -> Bitmap {
     let mut bitmap = Bitmap::default();
-    Rasterizer::new().draw(tree, &View::FRONT, frame, foliage, &mut bitmap);
+    Rasterizer::new().draw(tree, &View::FRONT, frame, Parts::with_foliage(foliage), &mut bitmap);
     bitmap
 }
 
@@ -62,7 +62,7 @@ pub(super) fn at_goal_scale(
     seeds: u64,
 ) -> anyhow::Result<(Vec<Drawn>, Vec<Vec<Values>>)> {
     let goals = draw(species, seeds, true)?;
-    let frame = |tree: &Tree| Frame::automatic(tree, &View::FRONT, true, SIDE, SIDE);
+    let frame = |tree: &Tree| Frame::automatic(tree, &View::FRONT, Parts::LEAFY, SIDE, SIDE);
     let frames = grown(species, seeds, true, frame)?;
     // A tree at a time, in every frame: all trees together would take gigabytes.
     let bar = progress("trees", frames.len() as u64);

@@ -4,7 +4,7 @@ use super::measures::{self, MEASURES, Seen, Values};
 use super::pictures::silhouette;
 use super::{LikenessSpec, Rows, SIDE, progress, stop};
 use pleach_silhouette::{Frame, View};
-use pleach_tree::{Growth, Limits, Species};
+use pleach_tree::{Growth, Limits, Parts, Species};
 use rayon::prelude::*;
 
 /// Step of a walk, as a part of the true value.
@@ -70,7 +70,7 @@ struct Goal {
 impl Goal {
     fn of(species: &Species) -> anyhow::Result<Self> {
         let tree = species.grow(SEED)?;
-        let frame = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIDE, SIDE);
         Ok(Self { seen: Seen::new(silhouette(&tree, &frame, true)), frame })
     }
 

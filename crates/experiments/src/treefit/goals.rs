@@ -7,7 +7,7 @@ use pleach_fit::{FitProblem, Genome, GoalView, Objective, Unknown, fresh_seeds};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::score::likeness::Likeness;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Growth, Key, Limits, Tree, Workspace};
+use pleach_tree::{Foliage, Growth, Key, Limits, Parts, Tree, Workspace};
 use std::path::Path;
 
 /// A goal with what is known of it.
@@ -109,9 +109,9 @@ fn problem(goals: Vec<GoalView>, foliage: bool) -> anyhow::Result<FitProblem> {
 
 /// A picture of a whole tree in the frame that suits it.
 fn pictured(tree: &Tree, view: View, foliage: bool) -> GoalView {
-    let frame = Frame::automatic(tree, &view, foliage, SIZE, SIZE);
+    let frame = Frame::automatic(tree, &view, Parts::with_foliage(foliage), SIZE, SIZE);
     let mut goal = Bitmap::default();
-    Rasterizer::new().draw(tree, &view, &frame, foliage, &mut goal);
+    Rasterizer::new().draw(tree, &view, &frame, Parts::with_foliage(foliage), &mut goal);
     GoalView { goal, view, frame, unknown: Unknown::default() }
 }
 
@@ -182,6 +182,6 @@ pub(super) fn draw(problem: &FitProblem, genome: &Genome, view: &GoalView) -> an
     let growth = Growth { foliage, ..Growth::seed(genome.tree_seed) };
     problem.generator.grow(&params, &growth, &mut Workspace::default(), &mut tree)?;
     let mut bitmap = Bitmap::default();
-    Rasterizer::new().draw(&tree, &view.view, &view.frame, problem.foliage, &mut bitmap);
+    Rasterizer::new().draw(&tree, &view.view, &view.frame, Parts::with_foliage(problem.foliage), &mut bitmap);
     Ok(bitmap)
 }

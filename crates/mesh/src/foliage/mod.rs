@@ -7,7 +7,7 @@ use crate::part::Count;
 use crate::settings::LeafStyle;
 use glam::{Vec2, Vec3, vec3};
 use pleach_tree::Leaf;
-use pleach_tree::leaf_shape::{BlossomShape, LeafShape};
+use pleach_tree::leaf_shape::{BlossomShape, Outline};
 
 /// A unit shape as triangles, in the coordinates of [`pleach_tree::plant::Leaf`].
 #[derive(Clone, Debug, Default)]
@@ -25,12 +25,12 @@ struct Corner {
 
 impl UnitMesh {
     /// The leaf in this style.
-    pub(crate) fn leaf(shape: LeafShape, style: LeafStyle) -> Self {
+    pub(crate) fn leaf(shape: &Outline, style: LeafStyle) -> Self {
         match style {
-            LeafStyle::Outline => Self::flat(&shape.outline()),
+            LeafStyle::Outline => Self::flat(shape.corners()),
             LeafStyle::Reduced => Self::flat(&reduced(shape)),
             LeafStyle::Simple => Self::flat(&simple(shape)),
-            LeafStyle::CrossedCards => Self::crossed(width(shape)),
+            LeafStyle::CrossedCards => Self::crossed(shape.width()),
             LeafStyle::None => Self::default(),
         }
     }
@@ -152,29 +152,16 @@ pub fn blossom_spread(shape: BlossomShape) -> (f32, f32) {
     (reach, vertices.iter().map(|v| v[1]).fold(0.0, f32::max))
 }
 
-/// Width of the unit leaf.
-fn width(shape: LeafShape) -> f32 {
-    2.0 * shape.half_outline().iter().map(|p| p[0]).fold(0.0, f32::max)
-}
-
-/// The outline with at most three corners a side, five where there are lobes: those are left out first that change it least
-/// (Visvalingam and Whyatt 1993). What that takes from the area, or adds, the width gives back.
-fn reduced(shape: LeafShape) -> Vec<[f32; 2]> {
-    let mut half = shape.half_outline().to_vec();
+/// The outline with at most three corners on each side, five where there are lobes: those are left out
+/// first that change it least (Visvalingam and Whyatt 1993). What that takes from the area, or adds,
+/// the width gives back.
+fn reduced(shape: &Outline) -> Vec<[f32; 2]> {
     // Lobes need a few more than plain blades.
-    let corners = if shape.area() < 0.5 * width(shape) { 6 } else { 4 };
-    // Stalks are too thin to be seen from where this is used.
-    half[0][0] = if half.len() > corners { 0.0 } else { half[0][0] };
-    let twice_area = |a: [f32; 2], b: [f32; 2], c: [f32; 2]| {
-        ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+    let corners = if shape.area() < 0.5 * shape.width() { 6 } else { 4 };
+    let mut outline = match shape.half() {
+        Some(half) => reduced_half(half, corners),
+        None => reduced_closed(shape.corners(), 2 * (corners - 1)),
     };
-    while half.len() > corners {
-        let cost = |i: &usize| twice_area(half[i - 1], half[*i], half[i + 1]);
-        let least = (1..half.len() - 1).min_by(|i, j| cost(i).total_cmp(&cost(j)));
-        half.remove(least.unwrap_or(1));
-    }
-    let left = half.iter().rev().filter(|p| p[0] > 0.0).map(|p| [-p[0], p[1]]);
-    let mut outline: Vec<[f32; 2]> = half.iter().copied().chain(left).collect();
     let next = outline.iter().cycle().skip(1);
     let area = outline.iter().zip(next).map(|(p, q)| p[0] * q[1] - q[0] * p[1]).sum::<f32>() / 2.0;
     let wider = shape.area() / area;
@@ -182,32 +169,76 @@ fn reduced(shape: LeafShape) -> Vec<[f32; 2]> {
     outline
 }
 
-/// Four corners (three for a triangle) with the area and, nearly, the place of the leaf's outline: a
-/// rectangle for blades that fill theirs, a kite for all others.
-fn simple(shape: LeafShape) -> Vec<[f32; 2]> {
-    let (area, width) = (shape.area(), width(shape));
-    match shape {
-        LeafShape::Triangle => shape.outline(),
-        _ if area > 0.75 * width => {
-            let half = area / 2.0;
-            vec![[half, 0.0], [half, 1.0], [-half, 1.0], [-half, 0.0]]
-        }
-        _ => {
-            // The kite is widest where half of the leaf's area lies below.
-            let half = shape.half_outline();
-            let middle = half
-                .windows(2)
+fn twice_area(a: [f32; 2], b: [f32; 2], c: [f32; 2]) -> f32 {
+    ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+}
+
+/// An outline whose halves mirror each other, from its right half, reduced to `corners`.
+fn reduced_half(half: &[[f32; 2]], corners: usize) -> Vec<[f32; 2]> {
+    let mut half = half.to_vec();
+    // Stalks are too thin to be seen from where this is used.
+    half[0][0] = if half.len() > corners { 0.0 } else { half[0][0] };
+    while half.len() > corners {
+        let cost = |i: &usize| twice_area(half[i - 1], half[*i], half[i + 1]);
+        let least = (1..half.len() - 1).min_by(|i, j| cost(i).total_cmp(&cost(j)));
+        half.remove(least.unwrap_or(1));
+    }
+    let left = half.iter().rev().filter(|p| p[0] > 0.0).map(|p| [-p[0], p[1]]);
+    half.iter().copied().chain(left).collect()
+}
+
+/// Any closed outline reduced to `corners`.
+fn reduced_closed(outline: &[[f32; 2]], corners: usize) -> Vec<[f32; 2]> {
+    let mut outline = outline.to_vec();
+    while outline.len() > corners {
+        let n = outline.len();
+        let cost = |i: &usize| twice_area(outline[(i + n - 1) % n], outline[*i], outline[(i + 1) % n]);
+        let least = (0..n).min_by(|i, j| cost(i).total_cmp(&cost(j)));
+        outline.remove(least.unwrap_or(0));
+    }
+    outline
+}
+
+/// Four corners (three where there are no more) with the area and, nearly, the place of the leaf's
+/// outline: a rectangle for blades that fill theirs, a kite for all others.
+fn simple(shape: &Outline) -> Vec<[f32; 2]> {
+    let (area, width) = (shape.area(), shape.width());
+    let corners = shape.corners();
+    if corners.len() == 3 {
+        return corners.to_vec();
+    }
+    let ends = || corners.iter().map(|p| p[1]);
+    let (low, high) = (ends().fold(f32::INFINITY, f32::min), ends().fold(f32::NEG_INFINITY, f32::max));
+    let length = high - low;
+    if area > 0.75 * width * length {
+        let half = area / (2.0 * length);
+        return vec![[half, low], [half, high], [-half, high], [-half, low]];
+    }
+    // The kite is widest where half of the leaf's area lies below.
+    let middle = match shape.half() {
+        Some(half) => {
+            half.windows(2)
                 .map(|w| (w[1][1] - w[0][1]) * (w[0][0] + w[1][0]) * (w[0][1] + w[1][1]) / 2.0)
                 .sum::<f32>()
-                / area;
-            vec![[0.0, 0.0], [area, middle], [0.0, 1.0], [-area, middle]]
+                / area
         }
-    }
+        None => centroid_height(corners, area),
+    };
+    let half = area / length;
+    vec![[0.0, low], [half, middle], [0.0, high], [-half, middle]]
+}
+
+/// Height of the centroid of a closed outline.
+fn centroid_height(corners: &[[f32; 2]], area: f32) -> f32 {
+    let next = corners.iter().cycle().skip(1);
+    let moment = |(p, q): (&[f32; 2], &[f32; 2])| (p[1] + q[1]) * (p[0] * q[1] - q[0] * p[1]);
+    corners.iter().zip(next).map(moment).sum::<f32>() / (6.0 * area)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pleach_tree::leaf_shape::LeafShape;
 
     fn area(mesh: &UnitMesh) -> f32 {
         let corner = |i: u32| mesh.corners[i as usize].at;
@@ -217,18 +248,22 @@ mod tests {
 
     #[test]
     fn simpler_leaves_keep_the_area() {
-        for shape in LeafShape::ALL {
+        let lopsided = [[0.0, 0.0], [0.4, 0.1], [0.1, 0.3], [0.3, 0.6], [0.0, 1.0], [-0.1, 0.8], [-0.2, 0.2]];
+        let lopsided = Outline::new("lopsided", lopsided.to_vec()).unwrap();
+        let known = LeafShape::ALL.into_iter().map(|shape| shape.outline().as_ref());
+        for shape in known.chain([&lopsided]) {
+            let name = shape.name();
             for (style, most) in [(LeafStyle::Reduced, 9), (LeafStyle::Simple, 2)] {
                 let mesh = UnitMesh::leaf(shape, style);
-                assert!((area(&mesh) - shape.area()).abs() < 1e-5, "{shape:?} {style:?}");
-                assert!(mesh.triangles.len() <= most, "{shape:?} {style:?}");
+                assert!((area(&mesh) - shape.area()).abs() < 1e-5, "{name} {style:?}");
+                assert!(mesh.triangles.len() <= most, "{name} {style:?}");
             }
         }
     }
 
     #[test]
     fn texture_coordinates_fill_the_unit_square() {
-        let all = LeafShape::ALL.into_iter().map(|s| UnitMesh::leaf(s, LeafStyle::Outline));
+        let all = LeafShape::ALL.into_iter().map(|s| UnitMesh::leaf(s.outline(), LeafStyle::Outline));
         let blossoms = BlossomShape::ALL.into_iter().map(|s| UnitMesh::blossom(s, LeafStyle::Outline));
         for mesh in all.chain(blossoms) {
             for corner in &mesh.corners {
@@ -248,10 +283,10 @@ mod tests {
 
     #[test]
     fn a_leaf_stands_where_the_tree_says() {
-        let leaf =
-            Leaf { position: vec3(1.0, 2.0, 3.0), along: Vec3::Z * 2.0, across: Vec3::X * 3.0, stem: 0 };
+        let (along, across) = (Vec3::Z * 2.0, Vec3::X * 3.0);
+        let leaf = Leaf { position: vec3(1.0, 2.0, 3.0), along, across, stem: 0, shape: 0 };
         let mut block = Block::default();
-        UnitMesh::leaf(LeafShape::Rectangle, LeafStyle::Outline).push(&leaf, 10, &mut block);
+        UnitMesh::leaf(LeafShape::Rectangle.outline(), LeafStyle::Outline).push(&leaf, 10, &mut block);
         let corners: Vec<Vec3> = block.vertices.iter().map(|v| v.position).collect();
         assert!(corners.contains(&vec3(2.5, 2.0, 5.0)) && corners.contains(&vec3(-0.5, 2.0, 3.0)));
         assert_eq!(block.vertices[0].normal, vec3(0.0, -1.0, 0.0));

@@ -85,7 +85,7 @@ impl Rings {
         self.untangle();
         // The clones of a fork leave from one ring; turned against each other, their caps are not one
         // face twice.
-        let clone = stem.kind == StemKind::Clone;
+        let clone = stem.kind == StemKind::Fork;
         self.turn_frames(if clone { f64::from(stem.first_knot % 1024) * GOLDEN_ANGLE } else { 0.0 });
     }
 

@@ -13,7 +13,6 @@ fn tree_of(knots: Vec<Knot>) -> Tree {
         level: 0,
         kind: StemKind::Trunk,
         offset: 0.0,
-        length: 1.0,
         first_knot: 0,
         knot_count: knots.len() as u32,
     };

@@ -14,7 +14,7 @@ use cone::Cone;
 use field::Field;
 use glam::{Vec3, vec2};
 use pleach_tree::stats::Bounds;
-use pleach_tree::{StemKind, Tree};
+use pleach_tree::{Parts, StemKind, Tree};
 use tetrahedra::Surface;
 
 /// Why a tree could not be welded.
@@ -69,14 +69,14 @@ const MAX_PIECES: usize = 2_000_000;
 /// The stems in short pieces.
 fn cones(tree: &Tree, cell: f64) -> Result<Vec<Cone>, WeldError> {
     let mut cones = Vec::new();
-    let extent = Bounds::of(tree, false).map_or(0.0, |b| (b.max - b.min).max_element());
+    let extent = Bounds::new(tree, Parts::BARE).map_or(0.0, |b| (b.max - b.min).max_element());
     if extent > cell * f64::from(field::MAX_ALONG) {
         return Err(WeldError::TooFine { cell });
     }
     let mut rings = Rings::default();
-    for stem in &tree.stems {
+    for stem in tree.stems.iter().filter(|stem| Parts::BARE.has_stem(stem.kind)) {
         rings.sample(tree, stem, 0.25 * cell);
-        let foot = stem.parent.is_none() && stem.kind != StemKind::Clone;
+        let foot = stem.parent.is_none() && stem.kind != StemKind::Fork;
         for (i, pair) in rings.rings.windows(2).enumerate() {
             let (a, b) = (&pair[0], &pair[1]);
             let radii = [a.radius, b.radius].map(|r| r.max(cell));

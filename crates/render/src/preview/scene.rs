@@ -3,8 +3,8 @@
 use super::crown::Crown;
 use glam::Vec3;
 use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, Mesher, Palette, Vertex, send};
-use pleach_tree::Tree;
 use pleach_tree::stats::Bounds;
+use pleach_tree::{Parts, Tree};
 
 /// All parts in one run of corners and triangles.
 #[derive(Debug)]
@@ -16,7 +16,7 @@ pub(super) struct Scene {
     /// First triangle of each part, what it is, and how many triangles each of its leaves has.
     pub(super) parts: Vec<(u32, Material, u32)>,
     /// First corner of each stem, its radius at the base in metres, its level.
-    pub(super) stems: Vec<(u32, f32, u8)>,
+    pub(super) stems: Vec<(u32, f32, u16)>,
     pub(super) crown: Crown,
     pub(super) low: Vec3,
     pub(super) high: Vec3,
@@ -27,7 +27,7 @@ pub(super) struct Scene {
 
 impl Scene {
     pub(super) fn new(tree: &Tree, palette: &Palette, size: u32) -> Self {
-        let bounds = Bounds::of(tree, true);
+        let bounds = Bounds::new(tree, Parts::LEAFY);
         let (low, high) = bounds.map_or((Vec3::ZERO, Vec3::ONE), |b| (b.min.as_vec3(), b.max.as_vec3()));
         let pixel = f64::from((high - low).max_element().max(1e-3)) / f64::from(size.max(1));
         let settings = MeshSettings {
@@ -79,22 +79,22 @@ impl Scene {
     }
 
     /// Radius in metres and level of the stem with this corner.
-    pub(super) fn stem_of(&self, vertex: u32) -> (f32, u8) {
+    pub(super) fn stem_of(&self, vertex: u32) -> (f32, u16) {
         let stem = self.stems.partition_point(|s| s.0 <= vertex).max(1) - 1;
         (self.stems[stem].1, self.stems[stem].2)
     }
 }
 
-fn stems(tree: &Tree, mesher: &Mesher<'_>) -> Vec<(u32, f32, u8)> {
+fn stems(tree: &Tree, mesher: &Mesher<'_>) -> Vec<(u32, f32, u16)> {
     let radius = |i: usize| tree.knots_of(&tree.stems[i])[0].radius as f32;
     (0..tree.stems.len()).map(|i| (mesher.first_vertex(i) as u32, radius(i), tree.stems[i].level)).collect()
 }
 
 /// Where area hangs: leaves and blossoms at their middles, stems along their knots.
 fn areas(tree: &Tree) -> Vec<(Vec3, f32)> {
-    let unit = tree.leaf_shape.area();
     let leaf = |l: &pleach_tree::Leaf, unit: f32| (l.position + l.along * 0.5, l.unit_area() * unit);
-    let mut areas: Vec<(Vec3, f32)> = tree.leaves.iter().map(|l| leaf(l, unit)).collect();
+    let mut areas: Vec<(Vec3, f32)> =
+        tree.leaves.iter().map(|l| leaf(l, tree.outline_of(l).area())).collect();
     areas.extend(tree.blossoms.iter().map(|l| leaf(l, 1.5)));
     for stem in &tree.stems {
         for pair in tree.knots_of(stem).windows(2) {

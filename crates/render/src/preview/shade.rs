@@ -146,7 +146,7 @@ impl View<'_> {
         if self.sun.is_some() { shown(light).extend(1.0) } else { light.extend(1.0) }
     }
 
-    fn bark(&self, at: Vec3, normal: Vec3, ray: Vec3, (radius, level): (f32, u8), u: f32, v: f32) -> Vec3 {
+    fn bark(&self, at: Vec3, normal: Vec3, ray: Vec3, (radius, level): (f32, u16), u: f32, v: f32) -> Vec3 {
         let palette = &self.scene.palette;
         let bark = Vec3::from(linear(palette.bark));
         // Young wood is darker and browner; palms and bamboo carry green stalks.

@@ -39,7 +39,7 @@ pub enum GoalError {
         /// What the decoder reports.
         detail: String,
     },
-    /// More pixels to a side than are read.
+    /// Wider or higher than is read.
     #[error(
         "{path} has {width} × {height} pixels, and at most {MAX_SIDE} to a side are read: make it smaller",
         path = path.display()
@@ -77,7 +77,7 @@ pub enum GoalError {
         /// The most that is read.
         limit: u64,
     },
-    /// Fewer pixels to a side than say anything about a tree.
+    /// Too few pixels to say anything about a tree.
     #[error("{name} has {width} × {height} pixels: at least {MIN_SIDE} × {MIN_SIDE} are needed")]
     TooSmall {
         /// The file, or what the picture is.
@@ -112,7 +112,7 @@ pub enum GoalError {
         /// The file, or what the picture is.
         name: String,
     },
-    /// A place set by hand is no place in the picture.
+    /// A place set by hand lies outside the picture.
     #[error("{what} {value} is not in the picture, which reaches from 0 to {limit}")]
     OutsidePicture {
         /// Which place: the ground row or the axis column.

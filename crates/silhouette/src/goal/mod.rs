@@ -1,7 +1,7 @@
 //! Goal images: from a file to ink, with the place where the tree stands.
 //!
 //! 1. The file is read to its end and its structure checked; then it is decoded within limits: at most
-//!    [`MAX_SIDE`] pixels to a side and [`MAX_BYTES`]. Of an animation or of pages, the first is taken.
+//!    [`MAX_SIDE`] pixels wide and high and [`MAX_BYTES`]. Of an animation or of pages, the first is taken.
 //! 2. What is tree is told by opacity where that varies, else by Otsu's threshold on brightness; or
 //!    a mask file says.
 //! 3. Ground row and axis column are read off the ink, unless set by hand.
@@ -10,6 +10,7 @@
 //!
 //! How tall the tree is cannot be seen in a silhouette: [`Goal::frame`] takes it in metres.
 
+mod anchor;
 mod error;
 pub(crate) mod ink;
 mod photograph;
@@ -17,17 +18,16 @@ pub(crate) mod read;
 pub(crate) mod shape;
 mod shrink;
 mod source;
-mod stand;
 mod structure;
 #[cfg(test)]
 mod tests;
 mod warning;
 
+pub use anchor::Origin;
 pub use error::GoalError;
 pub use ink::{Polarity, Split};
 pub use read::{MAX_BYTES, MAX_SIDE, MIN_SIDE};
 pub use source::Encoded;
-pub use stand::Origin;
 pub use warning::GoalWarning;
 
 use crate::bitmap::Bitmap;
@@ -46,7 +46,7 @@ pub struct GoalOptions {
     pub ground_row: Option<f64>,
     /// Where the trunk stands, in pixels of the file from its left edge.
     pub axis_column: Option<f64>,
-    /// Most pixels to a side of the working picture; larger ones are reduced.
+    /// Largest width and height of the working picture in pixels; larger ones are reduced.
     pub max_side: Option<u32>,
 }
 
@@ -88,7 +88,7 @@ impl Goal {
     /// Reads a goal image: PNG, JPEG, WebP or TIFF, told by content, not by name.
     ///
     /// # Errors
-    /// See [`GoalError`]: files that cannot be read, are no pictures, are damaged, too large, too
+    /// See [`GoalError`]: files that cannot be read, are not pictures, are damaged, too large, too
     /// small or of one tone, and places set by hand that are not in the picture.
     pub fn load(path: impl AsRef<Path>, options: &GoalOptions) -> Result<Self, GoalError> {
         Self::from_encoded(&Encoded::load(path)?, options)
@@ -106,7 +106,7 @@ impl Goal {
         Self::from_encoded(&Encoded::new(name, bytes), options)
     }
 
-    /// Reads a goal image from whatever can be read to its end, such as standard input; `name` is what
+    /// Reads a goal image from any stream, such as standard input; `name` is what
     /// errors call it.
     ///
     /// # Errors
@@ -184,15 +184,15 @@ impl Goal {
         }
         let bounds = ink.ink_box().ok_or_else(|| GoalError::NoInk { name: name() })?;
         let top_row = f64::from(bounds.1);
-        let (ground_row, ground) = given("the ground row", options.ground_row, height)?
-            .unwrap_or_else(|| stand::ground(&ink, bounds.3));
+        let (ground_row, ground) = user_value("the ground row", options.ground_row, height)?
+            .unwrap_or_else(|| anchor::ground(&ink, bounds.3));
         if ground_row <= top_row {
             return Err(GoalError::GroundAboveTree { ground_row, top_row });
         }
-        // Ink below a ground set by hand is no trunk.
+        // Ink below a ground set by hand is not the trunk.
         let foot = (ground_row.ceil() as u32).min(bounds.3 + 1);
-        let (axis_column, axis) = given("the axis column", options.axis_column, width)?
-            .unwrap_or_else(|| stand::axis(&ink, bounds, foot));
+        let (axis_column, axis) = user_value("the axis column", options.axis_column, width)?
+            .unwrap_or_else(|| anchor::axis(&ink, bounds, foot));
         warnings.extend(shape::warnings(&ink));
         let reduction = options
             .max_side
@@ -233,7 +233,7 @@ impl Goal {
 }
 
 /// A place set by hand, if it is one in the picture.
-fn given(what: &'static str, value: Option<f64>, size: u32) -> Result<Option<(f64, Origin)>, GoalError> {
+fn user_value(what: &'static str, value: Option<f64>, size: u32) -> Result<Option<(f64, Origin)>, GoalError> {
     let limit = f64::from(size);
     match value {
         None => Ok(None),

@@ -16,7 +16,7 @@ const MIN_EVEN: f64 = 0.5;
 const MIN_SIDE: f64 = 0.005;
 
 /// Whether the pixels on either side of the brightness `threshold` have so many tones, or colours, that
-/// brightness is no good way to tell the tree; `dark_tree` says which side is the tree.
+/// brightness does not tell the tree from its background; `dark_tree` says which side is the tree.
 pub(super) fn is_photograph(tones: &Tones, threshold: u8, dark_tree: bool) -> bool {
     let mut heaps = [[0_u64; 256]; 2];
     for &light in &tones.light {
@@ -49,7 +49,7 @@ fn middle(heap: &[u64; 256]) -> u8 {
         .unwrap_or(255)
 }
 
-/// Part of the coloured pixels that are no mixture of the two sides' median colours.
+/// Part of the coloured pixels that are not a mixture of the two sides' median colours.
 fn off(tones: &Tones, threshold: u8) -> f64 {
     if tones.colors.is_empty() {
         return 0.0;

@@ -7,9 +7,9 @@ use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
-/// Most pixels to a side that are read.
+/// Largest width and height that are read, in pixels.
 pub const MAX_SIDE: u32 = 8192;
-/// Fewest pixels to a side that make a goal.
+/// Smallest width and height of a goal, in pixels.
 pub const MIN_SIDE: u32 = 8;
 /// Most bytes that a file, or a decoded picture, may have: 8192² pixels of four bytes.
 pub const MAX_BYTES: u64 = 4 * MAX_SIDE as u64 * MAX_SIDE as u64;

@@ -46,7 +46,7 @@ impl Encoded {
         Self::read(path, file)
     }
 
-    /// Reads whatever can be read to its end, such as standard input; `name` is what errors call it.
+    /// Reads any stream to its end, such as standard input; `name` is what errors call it.
     ///
     /// # Errors
     /// As [`Encoded::load`].

@@ -22,7 +22,7 @@ const TERMS: usize = 6;
 const MIN_SPREAD: f64 = 0.02;
 /// Rounds of reweighting, after which the surface does not move any more.
 const ROUNDS: usize = 20;
-/// Samples with residuals beyond this many medians are no background.
+/// Samples with residuals beyond this many medians are not background.
 const OUTLYING: f64 = 5.0;
 /// How much a term is damped: so little that it matters only where samples do not determine it.
 const FREE: f64 = 1e-4;

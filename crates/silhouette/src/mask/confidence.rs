@@ -5,7 +5,7 @@
 //! of it; and houses, hills and clouds reach to the picture's edge, as trees that somebody took a picture
 //! of seldom do.
 
-use super::score::Standing;
+use super::score::Foreground;
 use crate::bitmap::Bitmap;
 
 /// What speaks for and against a mask, each in 0..=1.
@@ -28,24 +28,24 @@ const TRUNK: f64 = 0.35;
 const ABOVE: f64 = 0.03;
 
 impl Evidence {
-    /// What there is of a mask that was made of `standing`.
-    pub(super) fn of(mask: &Bitmap, standing: &Standing) -> Self {
+    /// What there is of a mask that was made of `foreground`.
+    pub(super) fn of(mask: &Bitmap, foreground: &Foreground) -> Self {
         let (width, height) = (mask.width(), mask.height());
         let part = |a: u64, b: u64| if b == 0 { 0.0 } else { a as f64 / b as f64 };
         let side = |x| (0..height).filter(|&y| mask.get(x, y)).count();
         let row = |y| mask.ink_in_row(y).count();
         let edge = (side(0) + side(width - 1) + row(0)) as f64 / f64::from(2 * height + width);
-        let rim = standing.horizon.map_or(0, |horizon| {
+        let rim = foreground.horizon.map_or(0, |horizon| {
             let above = |x| (horizon.at(x, width) - ABOVE * f64::from(height)).max(0.0) as u32;
             (0..width).filter(|&x| mask.get(x, above(x))).count()
         });
         let foot = row(height - 1).max(rim) as f64 / f64::from(width);
-        let standing_ink = standing.ink.ink();
+        let standing_ink = foreground.ink.ink();
         Self {
-            firm: part(standing.firm.intersection(mask), standing.loose.ink()),
+            firm: part(foreground.firm.intersection(mask), foreground.loose.ink()),
             edge,
             foot: ((foot - TRUNK) / (1.0 - TRUNK)).max(0.0),
-            dropped: part(standing_ink.saturating_sub(mask.intersection(&standing.ink)), standing_ink),
+            dropped: part(standing_ink.saturating_sub(mask.intersection(&foreground.ink)), standing_ink),
         }
     }
 

@@ -13,7 +13,7 @@ pub enum MaskError {
         /// What was seen instead.
         why: &'static str,
     },
-    /// The seed point is no pixel of the picture.
+    /// The seed point lies outside the picture.
     #[error("the seed point {x},{y} lies outside the picture of {width} × {height} pixels")]
     SeedOutside {
         /// Column from the left, from 0.

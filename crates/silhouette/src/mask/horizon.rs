@@ -4,18 +4,18 @@ use super::oklab::Oklab;
 
 /// How clear a horizon must be to be one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Clear {
+pub(super) struct StepThreshold {
     /// Least step of colour between sky and ground, in Oklab.
     step: f64,
     /// Least ratio of the step to how much colours vary on either side of it.
     ratio: f64,
 }
 
-impl Clear {
+impl StepThreshold {
     /// Well above what light does to a wall.
-    pub(super) const SURELY: Self = Self { step: 0.08, ratio: 4.0 };
+    pub(super) const STRICT: Self = Self { step: 0.08, ratio: 4.0 };
     /// Where a ground is likely: water and mist differ little from the sky.
-    pub(super) const PERHAPS: Self = Self { step: 0.04, ratio: 2.0 };
+    pub(super) const LENIENT: Self = Self { step: 0.04, ratio: 2.0 };
 }
 
 /// Horizons lie below this part of the picture's height.
@@ -36,7 +36,7 @@ impl Horizon {
     /// The line through both sides' horizons. Where they disagree, or one sees none, the lower of the
     /// rows at which both sides change stands for both: a crown that touches a side also ends the sky
     /// there, but only there.
-    pub(super) fn of(left: &[Oklab], right: &[Oklab], clear: Clear) -> Option<Self> {
+    pub(super) fn of(left: &[Oklab], right: &[Oklab], clear: StepThreshold) -> Option<Self> {
         let height = left.len().min(right.len()) as f64;
         let found = [step(left, clear), step(right, clear)];
         if let [Some(left), Some(right)] = found
@@ -96,7 +96,7 @@ impl Sums {
 
 /// The row before which two straight courses of colour, one above and one below, leave the least
 /// of the squares; none if there is no clear step of colour there.
-fn step(rows: &[Oklab], clear: Clear) -> Option<f64> {
+fn step(rows: &[Oklab], clear: StepThreshold) -> Option<f64> {
     let mut below = vec![Sums::default(); rows.len() + 1];
     for (y, &color) in rows.iter().enumerate().rev() {
         below[y] = below[y + 1];
@@ -122,7 +122,7 @@ fn step(rows: &[Oklab], clear: Clear) -> Option<f64> {
 }
 
 /// Whether the colours just above a row differ from those just below.
-fn changes(rows: &[Oklab], row: f64, clear: Clear) -> bool {
+fn changes(rows: &[Oklab], row: f64, clear: StepThreshold) -> bool {
     let (row, reach) = (row as usize, (rows.len() / 20).max(2));
     let mean = |rows: &[Oklab]| -> [f64; 3] {
         std::array::from_fn(|i| rows.iter().map(|c| f64::from(c[i])).sum::<f64>() / rows.len().max(1) as f64)
@@ -150,10 +150,10 @@ mod tests {
     #[test]
     fn the_row_where_lawn_begins_is_found_and_none_is_made_up() {
         for lawn in [80, 150, 190] {
-            assert_eq!(step(&side(lawn), Clear::SURELY), Some(lawn as f64));
+            assert_eq!(step(&side(lawn), StepThreshold::STRICT), Some(lawn as f64));
         }
-        assert_eq!(step(&side(200), Clear::SURELY), None);
-        assert_eq!(step(&[], Clear::SURELY), None);
+        assert_eq!(step(&side(200), StepThreshold::STRICT), None);
+        assert_eq!(step(&[], StepThreshold::STRICT), None);
     }
 
     #[test]
@@ -162,16 +162,16 @@ mod tests {
         for color in &mut left[75..120] {
             *color = [0.2, 0.0, 0.05];
         }
-        let horizon = Horizon::of(&left, &side(160), Clear::SURELY).unwrap();
+        let horizon = Horizon::of(&left, &side(160), StepThreshold::STRICT).unwrap();
         assert!((horizon.at(50, 100) - 160.0).abs() < 1.0, "{horizon:?}");
         // Without a lawn there is none.
         let mut left = side(200);
         for color in &mut left[75..120] {
             *color = [0.2, 0.0, 0.05];
         }
-        assert_eq!(Horizon::of(&left, &side(200), Clear::PERHAPS), None);
-        assert_eq!(Horizon::of(&side(200), &left, Clear::PERHAPS), None);
-        let slope = Horizon::of(&side(140), &side(160), Clear::SURELY).unwrap();
+        assert_eq!(Horizon::of(&left, &side(200), StepThreshold::LENIENT), None);
+        assert_eq!(Horizon::of(&side(200), &left, StepThreshold::LENIENT), None);
+        let slope = Horizon::of(&side(140), &side(160), StepThreshold::STRICT).unwrap();
         assert_eq!((slope.at(0, 100).round(), slope.at(99, 100).round()), (140.0, 160.0));
     }
 }

@@ -124,7 +124,7 @@ const NEAR: f64 = 0.015;
 const SMALLEST: u64 = 1_000;
 /// Trees are at least this part of the picture's height.
 const LOWEST: f64 = 0.1;
-/// What covers more than this part of the picture is no tree on a background.
+/// What covers more than this part of the picture is not a tree before a background.
 const MAX_INK: f64 = 0.9;
 
 impl Mask {
@@ -152,8 +152,8 @@ impl Mask {
                 confidence: 1.0,
             });
         }
-        let standing = score::standing(photo, options.background)?;
-        let ink = pieces::without_specks(&standing.ink, standing.ink.area() / SPECK);
+        let foreground = score::foreground(photo, options.background)?;
+        let ink = pieces::without_specks(&foreground.ink, foreground.ink.area() / SPECK);
         let near = (NEAR * f64::from(width.min(height)) / 2.0).round() as u32;
         let grounds = pieces::widened(&ink, near);
         let tree = pieces::piece(&ink, &grounds, options.seed_point);
@@ -162,16 +162,16 @@ impl Mask {
             (None, Some((x, y))) => return Err(MaskError::SeedOnBackground { x, y }),
             (None, None) => return Err(MaskError::NoTree { why: "nothing stands out from the background" }),
         };
-        let dropped = standing.ink.ink() - bitmap.ink();
+        let dropped = foreground.ink.ink() - bitmap.ink();
         check(&bitmap)?;
         let largest = options.fill_holes.unwrap_or(bitmap.area() / HOLE);
         let filled = pieces::fill_holes(&mut bitmap, largest);
-        let confidence = confidence::Evidence::of(&bitmap, &standing).confidence();
+        let confidence = confidence::Evidence::of(&bitmap, &foreground).confidence();
         Ok(Self {
             touches: touches(&bitmap),
             warnings: warnings(&bitmap, photo, confidence),
             bitmap,
-            means: Means::Color { threshold: standing.threshold, horizon: standing.horizon },
+            means: Means::Color { threshold: foreground.threshold, horizon: foreground.horizon },
             dropped,
             filled,
             confidence,

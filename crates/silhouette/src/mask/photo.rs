@@ -17,7 +17,7 @@ impl Photo {
     /// Reads PNG, JPEG, WebP or TIFF, turned as its note on orientation says.
     ///
     /// # Errors
-    /// As for a goal image: files that cannot be read, are no pictures, are damaged, too large or
+    /// As for a goal image: files that cannot be read, are not pictures, are damaged, too large or
     /// too small.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, GoalError> {
         Self::from_encoded(&Encoded::load(path)?)

@@ -1,7 +1,7 @@
 //! How far each pixel is from the background, and how far is tree.
 
 use super::backdrop::{Backdrop, Sample};
-use super::horizon::{Clear, Horizon};
+use super::horizon::{Horizon, StepThreshold};
 use super::oklab::{Converter, Oklab};
 use super::photo::Photo;
 use super::{Background, MaskError};
@@ -32,7 +32,7 @@ const LOOSE: f64 = 1.0 / 1.5;
 const MAX_LEVEL: u8 = 254;
 
 /// What stands out from the background, before it is tidied up.
-pub(super) struct Standing {
+pub(super) struct Foreground {
     pub(super) ink: Bitmap,
     pub(super) horizon: Option<Horizon>,
     /// Distance, in spreads of the background, from which on pixels are tree.
@@ -44,13 +44,13 @@ pub(super) struct Standing {
 }
 
 /// Tells what stands out from the background.
-pub(super) fn standing(photo: &Photo, background: Background) -> Result<Standing, MaskError> {
+pub(super) fn foreground(photo: &Photo, background: Background) -> Result<Foreground, MaskError> {
     let (width, height) = (photo.width(), photo.height());
     let frame = Frame::of(photo);
     let clear = match background {
         Background::Plain => None,
-        Background::Sky => Some(Clear::PERHAPS),
-        Background::Auto => Some(Clear::SURELY),
+        Background::Sky => Some(StepThreshold::LENIENT),
+        Background::Auto => Some(StepThreshold::STRICT),
     };
     let horizon =
         clear.and_then(|clear| Horizon::of(&frame.side(0), &frame.side(width - frame.width), clear));
@@ -76,7 +76,7 @@ pub(super) fn standing(photo: &Photo, background: Background) -> Result<Standing
                 _ => above.spreads(less(color, above.color(at))),
             };
             let level = (LEVELS * distance).min(255.0) as u8;
-            // Trunk and lawn are no measure for crown and sky.
+            // Trunk and lawn say nothing about crown and sky.
             if depth <= 0.0 {
                 histogram[usize::from(level)] += 1;
             }
@@ -96,7 +96,7 @@ pub(super) fn standing(photo: &Photo, background: Background) -> Result<Standing
         })
     };
     let (ink, firm, loose) = (beyond(1.0), beyond(FIRM), beyond(LOOSE));
-    Ok(Standing { ink, horizon, threshold: f64::from(level) / LEVELS, firm, loose })
+    Ok(Foreground { ink, horizon, threshold: f64::from(level) / LEVELS, firm, loose })
 }
 
 fn less(color: Oklab, other: [f64; 3]) -> [f64; 3] {

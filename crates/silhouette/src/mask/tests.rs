@@ -1,6 +1,7 @@
 use super::*;
-use crate::raster::{Part, Rasterizer};
+use crate::raster::Rasterizer;
 use crate::view::{Frame, View};
+use pleach_tree::Parts;
 
 /// A number from 0 to 1 for a place, without order: what noise looks like.
 pub(super) fn chance(x: u32, y: u32, salt: u32) -> f64 {
@@ -41,7 +42,7 @@ pub(super) const GROUND: f64 = 0.85;
 /// camera noise of `grain` (of 255) over all. The trunk's foot is at 92 % of the height.
 pub(super) fn scene(species: &str, grain: f64, background: impl Fn(u32, u32) -> [f64; 3]) -> Scene {
     let tree = pleach_generators::species(species).unwrap().grow(3).unwrap();
-    let upright = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
+    let upright = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIDE, SIDE);
     let frame = Frame {
         meters_per_pixel: upright.meters_per_pixel / 0.88,
         ground_row: 0.92 * f64::from(SIDE),
@@ -49,15 +50,15 @@ pub(super) fn scene(species: &str, grain: f64, background: impl Fn(u32, u32) -> 
     };
     let mut raster = Rasterizer::new();
     let (mut truth, mut stems, mut all) = (Bitmap::default(), Vec::new(), Vec::new());
-    let mut coverage = |parts: &[Part], out: &mut Vec<u8>| {
+    let mut coverage = |parts: Parts, out: &mut Vec<u8>| {
         let mut bitmap = Bitmap::default();
-        raster.draw_parts(&tree, &View::FRONT, &frame, parts, &mut bitmap);
+        raster.draw(&tree, &View::FRONT, &frame, parts, &mut bitmap);
         raster.coverage(out);
         truth = bitmap;
         f64::from(raster.samples())
     };
-    let whole_stems = coverage(&[Part::Stems], &mut stems);
-    let whole = coverage(&[Part::Stems, Part::Leaves], &mut all);
+    let whole_stems = coverage(Parts::STEMS, &mut stems);
+    let whole = coverage(Parts::STEMS | Parts::LEAVES, &mut all);
     let photo = Photo::from_fn(SIDE, SIDE, |x, y| {
         let i = (y * SIDE + x) as usize;
         let (wood, cover) = (f64::from(stems[i]) / whole_stems, f64::from(all[i]) / whole);
@@ -147,7 +148,7 @@ fn nothing_is_made_up_where_there_is_no_tree() {
     }
     let even = Photo::from_fn(64, 64, |_, _| [90, 120, 60, 255]);
     assert!(matches!(Mask::of(&even, &MaskOptions::default()), Err(MaskError::NoTree { .. })));
-    // What fills the picture up to a thin frame is no tree either, nor is a spot.
+    // What fills the picture up to a thin frame is not a tree either, nor is a spot.
     let filled = Photo::from_fn(200, 200, |x, y| {
         if (5..195).contains(&x) && (5..195).contains(&y) { [20, 60, 20, 255] } else { [200, 220, 250, 255] }
     });

@@ -1,14 +1,15 @@
-//! The sub-sample grid: eight samples across a pixel and a few down, one bit each.
+//! The sub-sample grid: eight samples across and a few down per pixel, one bit each.
 //!
 //! Shapes set the samples whose centres they cover, which keeps the mean coverage of anything, be it
-//! ever so thin. A pixel is black where at least half its samples are.
+//! however thin. A pixel is black where at least half its samples are.
 //!
 //! A byte of a row is a pixel: counting its bits, and comparing with a half, is done for eight pixels
 //! at once in the bytes of a word.
 
 use crate::bitmap::Bitmap;
+use pleach_tree::leaf_shape::Outline;
 
-/// Samples across a pixel: a byte.
+/// Samples across a pixel, one byte of them.
 pub(crate) const ACROSS: u32 = 8;
 
 /// Rows of samples.
@@ -35,8 +36,6 @@ const HIGH: usize = 64;
 /// column: other places in each row, so that upright edges are seen eight times as finely. The mean is
 /// 0.
 const SKEW: [i32; 8] = [-28_672, 4_096, -12_288, 20_480, -20_480, 12_288, -4_096, 28_672];
-/// Crossings of one row that the wide path sorts; more corners than this are no shape of ours.
-const MAX_CROSSINGS: usize = 64;
 
 impl Grid {
     /// Clears the grid for a picture of this size with `down` samples down a pixel.
@@ -60,7 +59,8 @@ impl Grid {
         ((self.width * ACROSS) as f32, (self.height * self.down) as f32)
     }
 
-    /// Fills a simple polygon, convex or not (even-odd). Corners that are not finite draw nothing.
+    /// Fills a polygon of at most [`Outline::MAX_CORNERS`] corners, convex or not (even-odd). Corners
+    /// that are not finite draw nothing.
     #[inline]
     pub(crate) fn fill(&mut self, corners: &[Corner]) {
         let (mut left, mut right) = (f32::INFINITY, f32::NEG_INFINITY);
@@ -179,13 +179,13 @@ impl Grid {
     /// Any polygon: the crossings of each row, sorted, and spans between them.
     fn fill_wide(&mut self, corners: &[Corner], first: usize, last: usize) {
         let (wide, _) = self.extent();
-        let mut crossings = [0.0_f32; MAX_CROSSINGS];
+        let mut crossings = [0.0_f32; Outline::MAX_CORNERS];
         for row in first..last {
             let y = row as f32 + 0.5;
             let mut count = 0;
             let mut p = corners[corners.len() - 1];
             for &q in corners {
-                if (p[1] <= y) != (q[1] <= y) && count < MAX_CROSSINGS {
+                if (p[1] <= y) != (q[1] <= y) {
                     crossings[count] = p[0] + (y - p[1]) * (q[0] - p[0]) / (q[1] - p[1]);
                     count += 1;
                 }
@@ -203,11 +203,11 @@ impl Grid {
         }
     }
 
-    /// Reduces the samples to pixels: black from half of them on, ties by turns.
+    /// Reduces the samples to pixels: black from half of them on, ties alternately.
     pub(crate) fn resolve(&self, out: &mut Bitmap) {
         out.reset(self.width, self.height);
         // Adding this to a byte carries into its top bit where it is at least half of the samples, or
-        // more than half for every other pixel: ties go to ink and paper by turns, for with so few
+        // more than half for every other pixel: ties go to ink and paper alternately: with so few
         // samples they are many, and thin twigs would come out thicker by a twentieth.
         let half = u64::from(0x80 - (ACROSS * self.down / 2)) * LOW_BITS;
         let by_turns = [half - EVERY_OTHER, half - (EVERY_OTHER << 8)];

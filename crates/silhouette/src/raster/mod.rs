@@ -1,7 +1,7 @@
 //! From a tree to a silhouette, without a mesh.
 //!
 //! Stems are tapered strips along their splines, flattened to a tenth of a pixel; leaves and blossoms
-//! are polygons with no more corners than can be seen. Shapes set the bits of a sub-sample grid that
+//! are polygons with no more corners than can be seen; blobs are their triangles. Shapes set the bits of a sub-sample grid that
 //! they cover, and a pixel is black from half coverage: the way in which the reference silhouettes
 //! were drawn, and the one that neither thickens nor loses twigs thinner than a pixel.
 
@@ -13,9 +13,9 @@ use crate::bitmap::Bitmap;
 use crate::view::{Camera, Frame, View};
 use glam::{Vec2, Vec3};
 use grid::{ACROSS, Corner, Grid};
-use outline::OutlineCache;
-use pleach_tree::plant::Leaf;
-use pleach_tree::{StemKind, Tree};
+use outline::{Blade, Outlines};
+use pleach_tree::leaf_shape::Outline;
+use pleach_tree::{Leaf, Parts, Tree};
 
 /// How finely pixels are sampled: always eight samples across.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -44,24 +44,13 @@ impl Detail {
     }
 }
 
-/// A kind of part of a tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Part {
-    /// Trunks, branches, twigs.
-    Stems,
-    /// Leaves.
-    Leaves,
-    /// Blossoms.
-    Blossoms,
-}
-
 /// The silhouette of `tree`, leaves and blossoms included, in a square of `size` pixels that shows all of
 /// it: [`Frame::automatic`] and a [`Rasterizer`] at full detail.
 #[must_use]
 pub fn silhouette(tree: &Tree, view: View, size: u32) -> Bitmap {
     let mut picture = Bitmap::default();
-    let frame = Frame::automatic(tree, &view, true, size, size);
-    Rasterizer::new().draw(tree, &view, &frame, true, &mut picture);
+    let frame = Frame::automatic(tree, &view, Parts::LEAFY, size, size);
+    Rasterizer::new().draw(tree, &view, &frame, Parts::LEAFY, &mut picture);
     picture
 }
 
@@ -71,7 +60,7 @@ pub struct Rasterizer {
     /// How finely pixels are sampled.
     pub detail: Detail,
     grid: Grid,
-    outline: OutlineCache,
+    outlines: Outlines,
 }
 
 impl Rasterizer {
@@ -87,15 +76,9 @@ impl Rasterizer {
         Self { detail, ..Self::default() }
     }
 
-    /// Draws `tree` into `out`, which takes the frame's size; `foliage` says whether leaves and
-    /// blossoms are drawn. Allocates nothing once its memory has grown to the picture's size.
-    pub fn draw(&mut self, tree: &Tree, view: &View, frame: &Frame, foliage: bool, out: &mut Bitmap) {
-        let parts = if foliage { &[Part::Stems, Part::Leaves, Part::Blossoms][..] } else { &[Part::Stems] };
-        self.draw_parts(tree, view, frame, parts, out);
-    }
-
-    /// Draws only some `parts` of `tree`; otherwise as [`Rasterizer::draw`].
-    pub fn draw_parts(&mut self, tree: &Tree, view: &View, frame: &Frame, parts: &[Part], out: &mut Bitmap) {
+    /// Draws `parts` of `tree` into `out`, which takes the frame's size. Allocates nothing once its
+    /// memory has grown to the picture's size.
+    pub fn draw(&mut self, tree: &Tree, view: &View, frame: &Frame, parts: Parts, out: &mut Bitmap) {
         self.sample(tree, view, frame, parts);
         self.grid.resolve(out);
     }
@@ -112,61 +95,65 @@ impl Rasterizer {
         self.grid.samples()
     }
 
-    fn sample(&mut self, tree: &Tree, view: &View, frame: &Frame, parts: &[Part]) {
+    fn sample(&mut self, tree: &Tree, view: &View, frame: &Frame, parts: Parts) {
         let camera = Camera::new(view, frame);
-        let thinnest = if parts.contains(&Part::Leaves) { leaf_width(tree, &camera) } else { f32::INFINITY };
-        let down = self.detail.down(thinnest);
+        let leafy = parts.contains(Parts::LEAVES);
+        let thickness = if leafy { leaf_thickness(tree, &camera) } else { f32::INFINITY };
+        let down = self.detail.down(thickness);
         self.grid.reset(frame.width, frame.height, down);
         let scale = Vec2::new(ACROSS as f32, down as f32);
-        for part in parts {
-            match part {
-                Part::Stems => {
-                    for stem in tree.stems.iter().filter(|s| s.kind != StemKind::Root) {
-                        strip::draw(&mut self.grid, &camera, scale, tree, stem);
-                    }
-                }
-                Part::Leaves => self.leaves(tree, &camera, scale),
-                Part::Blossoms => self.blossoms(tree, &camera, scale),
-            }
+        for stem in tree.stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
+            strip::draw(&mut self.grid, &camera, scale, tree, stem);
+        }
+        if leafy {
+            self.leaves(tree, &camera, scale);
+        }
+        if parts.contains(Parts::BLOSSOMS) {
+            self.blossoms(tree, &camera, scale);
+        }
+        if parts.contains(Parts::BLOBS) {
+            self.blobs(tree, &camera, scale);
         }
     }
 
     fn leaves(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
-        let Some(first) = tree.leaves.first() else { return };
-        let pixels = camera.pixels_per_meter() as f32;
-        let size = [first.across.length() * pixels, first.along.length() * pixels];
-        let outline = self.outline.get(tree.leaf_shape, size);
         let placer = Placer::new(camera, scale);
-        let mut corners = [[0.0; 2]; 48];
-        let (half_width, lowest, highest) = outline.iter().fold((0.0, 0.0, 0.0), |(w, l, h), p| {
-            (f32::max(w, p[0].abs()), f32::min(l, p[1]), f32::max(h, p[1]))
-        });
-        for leaf in &tree.leaves {
-            let Some([at, across, along]) = placer.place(leaf) else { continue };
-            // Most leaves of a dense crown lie before or behind others.
-            let reach = |axis: usize| {
-                let (low, high) = (along[axis] * lowest, along[axis] * highest);
-                let side = across[axis].abs() * half_width;
-                (at[axis] + low.min(high) - side, at[axis] + low.max(high) + side)
-            };
-            let ((left, right), (top, bottom)) = (reach(0), reach(1));
-            if self.grid.is_covered(left, right, top, bottom) {
-                continue;
-            }
+        let pixels = camera.pixels_per_meter() as f32;
+        let mut corners = [[0.0; 2]; Outline::MAX_CORNERS];
+        for run in tree.leaves.chunk_by(outline::look_alike) {
+            let leaf = &run[0];
+            let size = [leaf.across.length() * pixels, leaf.along.length() * pixels];
+            let Blade { outline, half_width, lowest, highest } =
+                self.outlines.get(tree.outline_of(leaf), size);
             let corners = &mut corners[..outline.len()];
-            for (corner, p) in corners.iter_mut().zip(outline) {
-                *corner =
-                    [at[0] + across[0] * p[0] + along[0] * p[1], at[1] + across[1] * p[0] + along[1] * p[1]];
+            for leaf in run {
+                let Some([at, across, along]) = placer.place(leaf) else { continue };
+                // Most leaves of a dense crown lie before or behind others.
+                let reach = |axis: usize| {
+                    let (low, high) = (along[axis] * lowest, along[axis] * highest);
+                    let side = across[axis].abs() * half_width;
+                    (at[axis] + low.min(high) - side, at[axis] + low.max(high) + side)
+                };
+                let ((left, right), (top, bottom)) = (reach(0), reach(1));
+                if self.grid.is_covered(left, right, top, bottom) {
+                    continue;
+                }
+                for (corner, p) in corners.iter_mut().zip(outline) {
+                    *corner = [
+                        at[0] + across[0] * p[0] + along[0] * p[1],
+                        at[1] + across[1] * p[0] + along[1] * p[1],
+                    ];
+                }
+                self.grid.fill(corners);
             }
-            self.grid.fill(corners);
         }
     }
 
     fn blossoms(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
-        let faces = tree.blossom_shape.faces();
         let placer = Placer::new(camera, scale);
-        let mut corners = [[0.0; 2]; 8];
+        let mut corners = [[0.0; 2]; Outline::MAX_CORNERS];
         for blossom in &tree.blossoms {
+            let faces = tree.blossom_shapes[usize::from(blossom.shape)].faces();
             let Some([at, across, along]) = placer.place(blossom) else { continue };
             let normal = placer.normal(blossom);
             for polygon in faces.petals {
@@ -182,12 +169,37 @@ impl Rasterizer {
             }
         }
     }
+
+    /// The sides of each blob that face the viewer: what is behind them has the same outline.
+    fn blobs(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
+        let placer = Placer::new(camera, scale);
+        for blob in &tree.blobs {
+            let vertices = &tree.blob_vertices[blob.vertices()];
+            for triangle in &tree.blob_triangles[blob.triangles()] {
+                let [a, b, c] = triangle.map(|i| placer.point(vertices[i as usize]));
+                let (Some(a), Some(b), Some(c)) = (a, b, c) else { continue };
+                // Rows count downwards, so that what is counter-clockwise in the world is clockwise.
+                let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+                if turn < 0.0 {
+                    self.grid.fill(&[a, b, c]);
+                }
+            }
+        }
+    }
 }
 
-/// Width of the tree's leaves in pixels, seen from the front of the blade; infinite without leaves.
-fn leaf_width(tree: &Tree, camera: &Camera) -> f32 {
-    let unit = 2.0 * tree.leaf_shape.half_outline().iter().map(|p| p[0]).fold(0.0, f32::max);
-    tree.leaves.first().map_or(f32::INFINITY, |l| unit * l.across.length() * camera.pixels_per_meter() as f32)
+/// Every how many leaves one is measured for the mean thickness: an estimate is enough.
+const MEASURED: usize = 64;
+
+/// Mean width of leaves in pixels, seen from the front of the blade; infinite without leaves.
+fn leaf_thickness(tree: &Tree, camera: &Camera) -> f32 {
+    let width = |leaf: &Leaf| tree.outline_of(leaf).width() * leaf.across.length();
+    let measured = tree.leaves.iter().step_by(MEASURED);
+    let count = tree.leaves.len().div_ceil(MEASURED);
+    if count == 0 {
+        return f32::INFINITY;
+    }
+    measured.map(width).sum::<f32>() / count as f32 * camera.pixels_per_meter() as f32
 }
 
 /// Takes the frames of leaves from the world to samples.
@@ -226,6 +238,17 @@ impl<'a> Placer<'a> {
         let (x, y) = self.camera.project(point, magnification);
         let grown = |a: Corner| a.map(|v| v * magnification as f32);
         Some([[x as f32 * self.scale.x, y as f32 * self.scale.y], grown(across), grown(along)])
+    }
+
+    /// A point in samples; none behind the camera.
+    fn point(&self, point: Vec3) -> Option<Corner> {
+        if self.orthographic {
+            let at = self.flat(point);
+            return Some([at[0] + self.origin.x, at[1] + self.origin.y]);
+        }
+        let point = point.as_dvec3();
+        let (x, y) = self.camera.project(point, self.camera.magnification(point)?);
+        Some([x as f32 * self.scale.x, y as f32 * self.scale.y])
     }
 
     /// The third axis, which only blossoms have a use for.

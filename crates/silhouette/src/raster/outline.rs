@@ -1,14 +1,16 @@
 //! Leaf outlines with no more corners than can be seen.
 
-use pleach_tree::leaf_shape::LeafShape;
+use pleach_tree::Leaf;
+use pleach_tree::leaf_shape::Outline;
 
 /// Removes corners of a closed outline while the new edge passes within `tolerance` of the removed
 /// corner, then scales what is left about its centroid so that its area stays the same.
 ///
 /// `scale` is the size of a unit along u and v, in the units of `tolerance`. At least three corners
 /// stay, four where there were more.
-fn simplify(shape: LeafShape, scale: [f32; 2], tolerance: f32, kept: &mut Vec<[f32; 2]>) {
-    fill(shape, kept);
+fn simplify(shape: &Outline, scale: [f32; 2], tolerance: f32, kept: &mut Vec<[f32; 2]>) {
+    kept.clear();
+    kept.extend_from_slice(shape.corners());
     let least = kept.len().min(4);
     let full = area(kept);
     while kept.len() > least {
@@ -31,17 +33,10 @@ fn simplify(shape: LeafShape, scale: [f32; 2], tolerance: f32, kept: &mut Vec<[f
             *p = [center[0] + (p[0] - center[0]) * factor, center[1] + (p[1] - center[1]) * factor];
         }
     } else {
-        // Nothing like the shape is left of it: keep it whole.
-        fill(shape, kept);
+        // Too little is left of the shape: keep it whole.
+        kept.clear();
+        kept.extend_from_slice(shape.corners());
     }
-}
-
-/// The whole outline of `shape`, into memory that is at hand.
-fn fill(shape: LeafShape, corners: &mut Vec<[f32; 2]>) {
-    let half = shape.half_outline();
-    corners.clear();
-    corners.extend_from_slice(half);
-    corners.extend(half.iter().rev().filter(|p| p[0] > 0.0).map(|p| [-p[0], p[1]]));
 }
 
 /// Distance of `b` from the line through `a` and `c`, or from `a` if they coincide.
@@ -57,11 +52,15 @@ fn area(corners: &[[f32; 2]]) -> f32 {
     corners.iter().zip(next).map(|(p, q)| p[0] * q[1] - q[0] * p[1]).sum::<f32>() / 2.0
 }
 
-/// The outline of one leaf shape at one size, kept from one tree to the next.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct OutlineCache {
-    key: Option<(LeafShape, [u32; 2])>,
-    corners: Vec<[f32; 2]>,
+/// By how much the squares of two leaves' measures may differ for both to be drawn with one outline.
+const ALIKE: f32 = 1e-3;
+
+/// Whether one simplified outline serves both leaves: the same shape, nearly the same size.
+pub(crate) fn look_alike(one: &Leaf, other: &Leaf) -> bool {
+    let near = |a: f32, b: f32| (a - b).abs() <= ALIKE * a.abs();
+    one.shape == other.shape
+        && near(one.along.length_squared(), other.along.length_squared())
+        && near(one.across.length_squared(), other.across.length_squared())
 }
 
 /// Tolerance of outlines in pixels: over half a sample's height.
@@ -70,46 +69,119 @@ const TOLERANCE: f32 = 0.15;
 /// ones of the same area would overlap less.
 const RELATIVE_TOLERANCE: f32 = 0.1;
 
-impl OutlineCache {
+/// A simplified outline, and how far it reaches from the stalk in units of the leaf.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Blade<'a> {
+    pub(crate) outline: &'a [[f32; 2]],
+    pub(crate) half_width: f32,
+    pub(crate) lowest: f32,
+    pub(crate) highest: f32,
+}
+
+/// Simplified outlines of the last few shapes and sizes, kept from one tree to the next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Outlines {
+    known: Vec<Known>,
+    /// Which of `known` is replaced next.
+    oldest: usize,
+}
+
+#[derive(Clone, Debug)]
+struct Known {
+    shape: Outline,
+    /// Logarithms of the size in tenths.
+    steps: [f32; 2],
+    corners: Vec<[f32; 2]>,
+}
+
+/// Outlines that are kept: more than the shapes and sizes of most trees.
+const MAX_KNOWN: usize = 32;
+
+impl Outlines {
     /// The outline of `shape` for leaves whose unit measures `scale` pixels across and along.
     ///
     /// Sizes within a tenth share an outline, so that a search over leaf sizes seldom makes one.
-    pub(crate) fn get(&mut self, shape: LeafShape, scale: [f32; 2]) -> &[[f32; 2]] {
-        let step = |s: f32| (s.clamp(1e-4, 1e6).ln() * 10.0).round();
-        let steps = scale.map(step);
-        let key = (shape, steps.map(f32::to_bits));
-        if self.key != Some(key) {
-            self.key = Some(key);
-            let scale = steps.map(|s| (s / 10.0).exp());
-            let width = 2.0 * shape.half_outline().iter().map(|p| p[0]).fold(0.0, f32::max);
-            let least = (width * scale[0]).min(scale[1]);
-            simplify(shape, scale, TOLERANCE.min(RELATIVE_TOLERANCE * least), &mut self.corners);
+    pub(crate) fn get(&mut self, shape: &Outline, scale: [f32; 2]) -> Blade<'_> {
+        let steps = scale.map(|s| (s.clamp(1e-4, 1e6).ln() * 10.0).round());
+        let known = self.known.iter().position(|known| known.steps == steps && known.shape == *shape);
+        let known = match known {
+            Some(known) => known,
+            None => self.add(shape, steps),
+        };
+        let known = &self.known[known];
+        let (half_width, lowest, highest) = known.corners.iter().fold((0.0, 0.0, 0.0), |(w, l, h), p| {
+            (f32::max(w, p[0].abs()), f32::min(l, p[1]), f32::max(h, p[1]))
+        });
+        Blade { outline: &known.corners, half_width, lowest, highest }
+    }
+
+    fn add(&mut self, shape: &Outline, steps: [f32; 2]) -> usize {
+        let scale = steps.map(|s| (s / 10.0).exp());
+        let least = (shape.width() * scale[0]).min(scale[1]);
+        let mut corners = Vec::new();
+        simplify(shape, scale, TOLERANCE.min(RELATIVE_TOLERANCE * least), &mut corners);
+        let known = Known { shape: shape.clone(), steps, corners };
+        if self.known.len() < MAX_KNOWN {
+            self.known.push(known);
+            return self.known.len() - 1;
         }
-        &self.corners
+        let at = self.oldest;
+        self.known[at] = known;
+        self.oldest = (at + 1) % MAX_KNOWN;
+        at
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec3;
+    use pleach_tree::leaf_shape::LeafShape;
 
     #[test]
     fn small_leaves_have_few_corners_and_the_same_area() {
-        for shape in LeafShape::ALL {
-            let full = shape.outline();
-            let mut last = full.len();
+        for leaf in LeafShape::ALL {
+            let shape = leaf.outline();
+            let mut last = shape.corners().len();
             for size in [100.0, 10.0, 3.0, 1.0, 0.1] {
                 let mut outline = Vec::new();
                 simplify(shape, [size, size], TOLERANCE, &mut outline);
-                assert!(outline.len() <= last, "{shape:?} at {size}: {} corners", outline.len());
-                assert!((area(&outline) / shape.area() - 1.0).abs() < 1e-3, "{shape:?} at {size}");
+                assert!(outline.len() <= last, "{leaf:?} at {size}: {} corners", outline.len());
+                assert!((area(&outline) / shape.area() - 1.0).abs() < 1e-3, "{leaf:?} at {size}");
                 last = outline.len();
             }
             // Three lobes of a palmate leaf cannot be had with fewer than six corners.
-            assert!(last <= 7, "{shape:?}: {last}");
+            assert!(last <= 7, "{leaf:?}: {last}");
             let mut outline = Vec::new();
             simplify(shape, [1e5, 1e5], TOLERANCE, &mut outline);
-            assert_eq!(outline.len(), full.len(), "{shape:?}");
+            assert_eq!(outline.len(), shape.corners().len(), "{leaf:?}");
         }
+    }
+
+    #[test]
+    fn leaves_of_one_shape_and_size_share_an_outline() {
+        let leaf = |length: f32, turn: f32, shape| Leaf {
+            position: Vec3::ZERO,
+            along: Vec3::new(turn.cos(), turn.sin(), 0.0) * length,
+            across: Vec3::Z * length,
+            stem: 0,
+            shape,
+        };
+        assert!(look_alike(&leaf(0.3, 0.1, 0), &leaf(0.3, 2.0, 0)));
+        assert!(!look_alike(&leaf(0.3, 0.1, 0), &leaf(0.3, 0.1, 1)));
+        assert!(!look_alike(&leaf(0.3, 0.1, 0), &leaf(0.31, 0.1, 0)));
+    }
+
+    #[test]
+    fn outlines_are_remembered_and_the_oldest_forgotten() {
+        let mut outlines = Outlines::default();
+        let whole = |outlines: &mut Outlines, leaf: LeafShape| {
+            outlines.get(leaf.outline(), [1e3, 1e3]).outline == leaf.outline().corners()
+        };
+        for size in 0..100 {
+            let _ = outlines.get(LeafShape::Maple.outline(), [1.0 + size as f32, 1.0]);
+            assert!(LeafShape::ALL.into_iter().all(|leaf| whole(&mut outlines, leaf)));
+        }
+        assert_eq!(outlines.known.len(), MAX_KNOWN);
     }
 }

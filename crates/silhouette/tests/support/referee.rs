@@ -7,10 +7,9 @@
 #![allow(dead_code, unreachable_pub, reason = "a test and a bench share it, and each uses half")]
 
 use glam::{DVec2, DVec3};
-use pleach_silhouette::{Bitmap, Camera, Frame, Part, View};
-use pleach_tree::plant::Leaf;
+use pleach_silhouette::{Bitmap, Camera, Frame, View};
 use pleach_tree::spline::Cubic;
-use pleach_tree::{StemKind, Tree};
+use pleach_tree::{Leaf, Parts, Tree};
 use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
 
 /// What the referee saw.
@@ -30,7 +29,7 @@ pub struct TooFine {
     pub width: u32,
     /// Height of the frame in pixels.
     pub height: u32,
-    /// Samples a side of a pixel.
+    /// Samples along each side of a pixel.
     pub fineness: u32,
 }
 
@@ -40,7 +39,7 @@ pub const MAX_SIDE: u32 = 16_384;
 /// Farthest that a chord strays from its curve, in pixels.
 const TOLERANCE: f64 = 0.02;
 
-/// Draws `tree` with `fineness` × `fineness` samples a pixel and without anti-aliasing.
+/// Draws `tree` with `fineness` × `fineness` samples per pixel and without anti-aliasing.
 ///
 /// # Errors
 /// If a side of the picture has more than [`MAX_SIDE`] samples.
@@ -48,7 +47,7 @@ pub fn draw(
     tree: &Tree,
     view: &View,
     frame: &Frame,
-    parts: &[Part],
+    parts: Parts,
     fineness: u32,
 ) -> Result<Verdict, TooFine> {
     let Frame { width, height, .. } = *frame;
@@ -93,48 +92,47 @@ struct Eye {
 }
 
 /// Calls `fill` with the corners, in pixels, of every polygon of `parts` of `tree`.
-pub fn shapes(tree: &Tree, view: &View, frame: &Frame, parts: &[Part], mut fill: impl FnMut(&[DVec2])) {
+pub fn shapes(tree: &Tree, view: &View, frame: &Frame, parts: Parts, mut fill: impl FnMut(&[DVec2])) {
     let [right, up, away] = view.axes();
     let eye = &Eye { camera: Camera::new(view, frame), right, down: -up, away };
-    for part in parts {
-        match part {
-            Part::Stems => {
-                for stem in tree.stems.iter().filter(|s| s.kind != StemKind::Root) {
-                    let knots = tree.knots_of(stem);
-                    let straight = knots[knots.len() - 1].point - knots[0].point;
-                    let pieces: Vec<_> = tree.pieces_of(stem).collect();
-                    for (i, (piece, r0, r1)) in pieces.iter().enumerate() {
-                        strip(eye, piece, *r0, *r1, straight, &mut fill);
-                        if i == 0 {
-                            disc(eye, piece, 0.0, *r0, &mut fill);
-                        }
-                        if i + 1 == pieces.len() {
-                            disc(eye, piece, 1.0, *r1, &mut fill);
-                        }
-                    }
-                }
+    for stem in tree.stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
+        let knots = tree.knots_of(stem);
+        let straight = knots[knots.len() - 1].point - knots[0].point;
+        let pieces: Vec<_> = tree.pieces_of(stem).collect();
+        for (i, (piece, r0, r1)) in pieces.iter().enumerate() {
+            strip(eye, piece, *r0, *r1, straight, &mut fill);
+            if i == 0 {
+                disc(eye, piece, 0.0, *r0, &mut fill);
             }
-            Part::Leaves => {
-                let outline: Vec<DVec3> = tree
-                    .leaf_shape
-                    .outline()
-                    .iter()
-                    .map(|p| DVec3::new(f64::from(p[0]), f64::from(p[1]), 0.0))
-                    .collect();
-                for leaf in &tree.leaves {
-                    blade(eye, leaf, &outline, &mut fill);
-                }
+            if i + 1 == pieces.len() {
+                disc(eye, piece, 1.0, *r1, &mut fill);
             }
-            Part::Blossoms => {
-                let faces = tree.blossom_shape.faces();
-                for face in faces.polygons {
-                    let corners: Vec<DVec3> = face
-                        .iter()
-                        .map(|&i| glam::Vec3::from(faces.vertices[usize::from(i)]).as_dvec3())
-                        .collect();
-                    for blossom in &tree.blossoms {
-                        blade(eye, blossom, &corners, &mut fill);
-                    }
+        }
+    }
+    if parts.contains(Parts::LEAVES) {
+        for leaf in &tree.leaves {
+            let corner = |p: &[f32; 2]| DVec3::new(f64::from(p[0]), f64::from(p[1]), 0.0);
+            let outline: Vec<DVec3> = tree.outline_of(leaf).corners().iter().map(corner).collect();
+            blade(eye, leaf, &outline, &mut fill);
+        }
+    }
+    if parts.contains(Parts::BLOSSOMS) {
+        for blossom in &tree.blossoms {
+            let faces = tree.blossom_shapes[usize::from(blossom.shape)].faces();
+            let corner = |&i: &u8| glam::Vec3::from(faces.vertices[usize::from(i)]).as_dvec3();
+            for face in faces.polygons {
+                let corners: Vec<DVec3> = face.iter().map(corner).collect();
+                blade(eye, blossom, &corners, &mut fill);
+            }
+        }
+    }
+    if parts.contains(Parts::BLOBS) {
+        for blob in &tree.blobs {
+            let vertices = &tree.blob_vertices[blob.vertices()];
+            for triangle in &tree.blob_triangles[blob.triangles()] {
+                let corners = triangle.map(|i| seen(eye, vertices[i as usize].as_dvec3()));
+                if let [Some(a), Some(b), Some(c)] = corners {
+                    fill(&[a, b, c]);
                 }
             }
         }

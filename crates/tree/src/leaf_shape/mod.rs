@@ -6,6 +6,11 @@
 
 mod blossom;
 mod leaf;
+mod outline;
+
+pub use outline::{Outline, OutlineError};
+
+use std::sync::{Arc, LazyLock};
 
 /// One of the ten leaf shapes, by their numbers in species files.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -72,11 +77,16 @@ impl LeafShape {
         }
     }
 
-    /// The right half of the outline as (u, v), u ≥ 0, from the base to the tip.
-    ///
-    /// A last point with u = 0 is the tip itself; without one the tip is a straight edge.
+    /// The outline, whose halves mirror each other.
     #[must_use]
-    pub const fn half_outline(self) -> &'static [[f32; 2]] {
+    pub fn outline(self) -> &'static Arc<Outline> {
+        static OUTLINES: LazyLock<[Arc<Outline>; LeafShape::ALL.len()]> = LazyLock::new(|| {
+            LeafShape::ALL.map(|shape| Arc::new(Outline::from_half(shape.name(), shape.half_outline())))
+        });
+        &OUTLINES[self as usize - 1]
+    }
+
+    const fn half_outline(self) -> &'static [[f32; 2]] {
         match self {
             Self::Ovate => leaf::OVATE,
             Self::Linear => leaf::LINEAR,
@@ -89,22 +99,6 @@ impl LeafShape {
             Self::Rectangle => leaf::RECTANGLE,
             Self::Triangle => leaf::TRIANGLE,
         }
-    }
-
-    /// The closed outline as (u, v), counter-clockwise, the first corner at the stalk's right.
-    #[must_use]
-    pub fn outline(self) -> Vec<[f32; 2]> {
-        let half = self.half_outline();
-        let left = half.iter().rev().filter(|p| p[0] > 0.0).map(|p| [-p[0], p[1]]);
-        half.iter().copied().chain(left).collect()
-    }
-
-    /// Area of the unit shape.
-    #[must_use]
-    pub fn area(self) -> f32 {
-        let outline = self.outline();
-        let next = outline.iter().cycle().skip(1);
-        outline.iter().zip(next).map(|(p, q)| p[0] * q[1] - q[0] * p[1]).sum::<f32>() / 2.0
     }
 }
 
@@ -201,10 +195,10 @@ mod tests {
     fn leaves_have_the_reference_figures() {
         for (shape, (corners, area, width)) in LeafShape::ALL.into_iter().zip(LEAVES) {
             let outline = shape.outline();
-            assert_eq!(outline.len(), corners, "{shape:?}");
-            assert!((shape.area() - area).abs() < 1e-4 * area.max(1.0), "{shape:?} {}", shape.area());
-            let widest = outline.iter().map(|p| p[0]).fold(0.0, f32::max);
-            assert!((2.0 * widest - width).abs() < 1e-4, "{shape:?} {widest}");
+            assert_eq!((outline.name(), outline.corners().len()), (shape.name(), corners));
+            assert!((outline.area() - area).abs() < 1e-4 * area.max(1.0), "{shape:?} {}", outline.area());
+            assert!((outline.width() - width).abs() < 1e-4, "{shape:?} {}", outline.width());
+            assert_eq!(outline.half().unwrap(), shape.half_outline());
         }
     }
 

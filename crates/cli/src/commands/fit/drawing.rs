@@ -8,7 +8,7 @@ use pleach_mesh::Palette;
 use pleach_render::{Preview, PreviewSettings, png_file};
 use pleach_silhouette::{Bitmap, Rasterizer, View, picture};
 use pleach_tree::species::{Appearance, safe_name};
-use pleach_tree::{Foliage, Growth, Limits, Species, Tree};
+use pleach_tree::{Foliage, Growth, Limits, Parts, Species, Tree};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -58,7 +58,7 @@ impl Drawing<'_> {
         let tree = species.grow_with(&growth)?;
         let frame = self.goals.full.frame(self.args.height);
         let mut bitmap = Bitmap::default();
-        Rasterizer::new().draw(&tree, &self.view, &frame, foliage, &mut bitmap);
+        Rasterizer::new().draw(&tree, &self.view, &frame, Parts::with_foliage(foliage), &mut bitmap);
         Ok(Drawn { species, tree, bitmap })
     }
 }

@@ -83,6 +83,8 @@ pub(super) struct Summary {
     pub(super) height_m: f64,
     /// The fitted tree in metres.
     pub(super) tree_m: Dendrometry,
+    /// The name in `summary.json` is older than the spelling of identifiers.
+    #[serde(rename = "metres_per_pixel")]
     pub(super) meters_per_pixel: f64,
     pub(super) goal_width: u32,
     pub(super) goal_height: u32,
@@ -197,7 +199,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         free: settings.freedom.free.clone(),
         fix: settings.freedom.fix.clone(),
         height_m: drawing.args.height,
-        tree_m: Dendrometry::of(&drawn.tree),
+        tree_m: Dendrometry::new(&drawn.tree),
         meters_per_pixel: goal.frame(drawing.args.height).meters_per_pixel,
         goal_width: goal.bitmap.width(),
         goal_height: goal.bitmap.height(),

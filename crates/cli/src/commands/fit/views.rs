@@ -7,7 +7,7 @@ use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::picture::{self, Picture as Overlay};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Rasterizer, View};
-use pleach_tree::Tree;
+use pleach_tree::{Parts, Tree};
 use serde::Serialize;
 use std::fmt;
 use std::path::PathBuf;
@@ -163,7 +163,7 @@ impl Picture {
         let goal = Goal::load(&self.file, &GoalOptions::default())?;
         let mut bitmap = Bitmap::default();
         let (view, frame) = (placement.view(&self.view), placement.frame(&goal.frame(height)));
-        Rasterizer::new().draw(tree, &view, &frame, foliage, &mut bitmap);
+        Rasterizer::new().draw(tree, &view, &frame, Parts::with_foliage(foliage), &mut bitmap);
         let card = ScoreCard::of(&bitmap, &goal.bitmap)?;
         let overlay = picture::overlay(&bitmap, &goal.bitmap);
         let score = ViewScore {

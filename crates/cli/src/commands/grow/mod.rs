@@ -10,7 +10,7 @@ use anyhow::{Context, bail};
 use formats::{Format, Goes};
 use indicatif::{ProgressBar, ProgressStyle};
 use pleach_silhouette::{Frame, View, picture};
-use pleach_tree::{Foliage, Growth, Species, Tree, Workspace};
+use pleach_tree::{Foliage, Growth, Parts, Species, Tree, Workspace};
 use rayon::prelude::*;
 use statistics::Report;
 use std::ops::Range;
@@ -251,8 +251,8 @@ impl Grow {
     /// Bark and foliage in two colours, seen from the front.
     fn picture(&self, path: &Path, tree: &Tree) -> anyhow::Result<()> {
         let size = self.size.unwrap_or(SIZE);
-        let frame = Frame::automatic(tree, &View::FRONT, true, size, size);
-        let picture = picture::two_colors(tree, &View::FRONT, &frame, true);
+        let frame = Frame::automatic(tree, &View::FRONT, Parts::LEAFY, size, size);
+        let picture = picture::two_colors(tree, &View::FRONT, &frame, Parts::LEAFY);
         files::write_out(path, |mut out| Ok(picture.write_png(&mut out)?))
     }
 }

@@ -21,7 +21,7 @@ impl<'a> Report<'a> {
             species: &species.name,
             generator: species.generator.family(),
             seed,
-            stats: TreeStats::of(tree),
+            stats: TreeStats::new(tree),
         }
     }
 }

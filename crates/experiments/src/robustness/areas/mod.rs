@@ -15,7 +15,7 @@ pub(super) use species::SpeciesFiles;
 use super::worker::Verdict;
 use pleach_fit::stream::Stream;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::{Growth, Limits, Species};
+use pleach_tree::{Growth, Limits, Parts, Species};
 use std::path::Path;
 
 /// Input of one sort.
@@ -77,7 +77,7 @@ fn grown(species: &Species, seed: u64) -> Verdict {
         _ => return Verdict::Wrong("another tree on one thread than on many".to_owned()),
     };
     if let Err(what) = tree.well_formed() {
-        return Verdict::Wrong(what);
+        return Verdict::Wrong(what.to_string());
     }
     if tree.stems.len() > LIMITS.stems
         || tree.knots.len() > LIMITS.knots
@@ -85,12 +85,12 @@ fn grown(species: &Species, seed: u64) -> Verdict {
     {
         return Verdict::Wrong("more than the limits allow".to_owned());
     }
-    let frame = Frame::automatic(&tree, &View::FRONT, true, 64, 64);
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 64, 64);
     if !(frame.meters_per_pixel.is_finite() && frame.meters_per_pixel > 0.0) {
         return Verdict::Wrong(format!("{} metres to a pixel", frame.meters_per_pixel));
     }
     let mut bitmap = Bitmap::default();
-    Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut bitmap);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut bitmap);
     Verdict::Accepted
 }
 

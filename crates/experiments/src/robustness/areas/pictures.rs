@@ -8,6 +8,7 @@ use image::{DynamicImage, GrayImage, ImageFormat, RgbImage, RgbaImage};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::Parts;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -26,9 +27,9 @@ impl Pictures {
     pub(in super::super) fn new() -> anyhow::Result<Self> {
         let species = pleach_generators::preset("acer").context("a known species")?;
         let tree = species.grow(1)?;
-        let frame = Frame::automatic(&tree, &View::FRONT, true, SIDE, SIDE);
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIDE, SIDE);
         let mut ink = Bitmap::default();
-        Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut ink);
+        Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut ink);
         let tone = |x, y| if ink.get(x, y) { 20 } else { 200 + (x + y) as u8 % 40 };
         let gray = GrayImage::from_fn(SIDE, SIDE, |x, y| image::Luma([tone(x, y)]));
         let color = RgbImage::from_fn(SIDE, SIDE, |x, y| image::Rgb([tone(x, y), 90, tone(x, y)]));

@@ -12,7 +12,7 @@ pub(super) const AMOUNTS: usize = 2 * CELLS * CELLS;
 
 /// Length of the upright outline, then of the level one, in cells of side S / 16 by height and by
 /// distance from the mean column; in parts of S, blurred by one cell. Where the picture's edge cuts
-/// ink off is no outline.
+/// ink off is not an outline.
 pub(super) fn amounts(picture: &Bitmap, transposed: &Bitmap, columns: &mut Columns) -> [f32; AMOUNTS] {
     let side = picture.width().max(picture.height()).max(1) as usize;
     let middle = mean_column(transposed);

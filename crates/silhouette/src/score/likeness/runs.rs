@@ -17,7 +17,7 @@ const LENGTHS: usize = 8;
 pub(super) const AMOUNTS: usize = (2 * LENGTHS + 1).next_multiple_of(LANES);
 
 /// Added to the gaps of both pictures, in units of ink: without it the first pinhole in a solid crown
-/// would cost the whole part, for nothing is no part of something.
+/// would cost the whole part, since no fraction of something is nothing.
 const COMMON: f32 = 0.1;
 
 /// Runs by their length in pixels.
