@@ -81,12 +81,12 @@ impl Journal {
     /// Takes over rows that are not run again, but for those that an unfinished run has left as well.
     pub(super) fn know<R: Record>(
         &mut self,
-        mut rows: Vec<R>,
+        mut rows: Vec<Row>,
         is_same: impl Fn(&R, &R) -> bool,
     ) -> anyhow::Result<()> {
         let known: Vec<R> = self.known.iter().filter_map(|row| self.read(row)).collect();
-        rows.retain(|row| !known.iter().any(|known| is_same(known, row)));
-        let rows = rows.iter().map(record::to_row).collect::<anyhow::Result<Vec<Row>>>()?;
+        // They stay as they are, cell by cell.
+        rows.retain(|row| self.read(row).is_none_or(|row| !known.iter().any(|known| is_same(known, &row))));
         self.keep(&rows)?;
         self.known.extend(rows);
         Ok(())

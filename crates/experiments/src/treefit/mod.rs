@@ -10,7 +10,7 @@ mod spec;
 pub(super) use row::Fit;
 pub(super) use spec::TreefitSpec;
 
-use super::record;
+use super::record::{self, Row};
 use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use anyhow::{Context, bail};
 use attempt::Guesses;
@@ -97,16 +97,17 @@ impl Kind for TreefitSpec {
 
 impl TreefitSpec {
     /// The rows of methods that are not run again.
-    pub(super) fn rows_of_others(&self, folder: &Path, again: &[String]) -> anyhow::Result<Vec<Fit>> {
+    pub(super) fn rows_of_others(&self, folder: &Path, again: &[String]) -> anyhow::Result<Vec<Row>> {
         for name in again {
             if self.methods().all(|method| method.name != *name) {
                 let names: Vec<&str> = self.methods().map(|method| method.name.as_str()).collect();
                 bail!("there is no method `{name}`; the experiment has {}", names.join(", "));
             }
         }
-        let mut rows: Vec<Fit> = Table::read(&folder.join("results.csv"), &self.columns()?)?.records()?;
-        rows.retain(|row| !again.contains(&row.method));
-        Ok(rows)
+        let table = Table::read(&folder.join("results.csv"), &self.columns()?)?;
+        let fits: Vec<Fit> = table.records()?;
+        let others = table.rows.into_iter().zip(fits).filter(|(_, fit)| !again.contains(&fit.method));
+        Ok(others.map(|(row, _)| row).collect())
     }
 }
 
