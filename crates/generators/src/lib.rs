@@ -74,8 +74,7 @@ fn suggestion(nearest: &Option<String>) -> String {
 /// The species called `name` among those that come with pleach.
 #[must_use]
 pub fn preset(name: &str) -> Option<Species> {
-    let text = families().iter().flat_map(|f| f.presets()).find(|(known, _)| *known == name)?.1;
-    read_text(name, text).ok()
+    families().iter().find_map(|family| pleach_tree::species::preset(*family, name))
 }
 
 /// The names of known species that `name` may stand for: a name stands for itself, and a whole word of a
@@ -140,7 +139,7 @@ pub fn read_text(origin: &str, text: &str) -> Result<Species, SpeciesError> {
         };
         return Err(wrong(doc.issue(span, "generator", problem)));
     };
-    family.read(&doc)
+    doc.species(*family)
 }
 
 #[cfg(test)]
