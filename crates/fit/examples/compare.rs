@@ -33,25 +33,6 @@ use std::time::{Duration, Instant};
 const TREE_SEED: u64 = 1;
 const SIZE: u32 = 256;
 
-/// The fifteen species of Hewitt 2017.
-const FIFTEEN: [&str; 15] = [
-    "quaking_aspen",
-    "weeping_willow",
-    "bamboo",
-    "palm",
-    "lombardy_poplar",
-    "small_pine",
-    "acer",
-    "silver_birch",
-    "douglas_fir",
-    "apple",
-    "black_tupelo",
-    "black_oak",
-    "european_larch",
-    "hill_cherry",
-    "balsam_fir",
-];
-
 fn problem(species: &Species, seed: u64) -> Result<FitProblem, Box<dyn Error>> {
     let tree = species.grow(seed)?;
     let frame = Frame::automatic(&tree, &View::FRONT, true, SIZE, SIZE);
@@ -71,7 +52,7 @@ fn known(problem: &FitProblem, settings: &FitSettings, except: &str) -> Result<S
         let values = pleach_generators::preset(name)?.params.values().to_vec();
         Some(Candidate { name: name.to_owned(), values })
     };
-    let names = FIFTEEN.iter().filter(|name| **name != except);
+    let names = pleach_generators::HEWITT_2017.iter().filter(|name| **name != except);
     let candidates: Vec<Candidate> = names.filter_map(|name| candidate(name)).collect();
     let guess = first_guess(
         problem,
@@ -125,7 +106,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err(format!("unknown flag --{unknown}").into());
     }
 
-    let names: Vec<&str> = if species == "all" { FIFTEEN.to_vec() } else { species.split(',').collect() };
+    let names: Vec<&str> =
+        if species == "all" { pleach_generators::HEWITT_2017.to_vec() } else { species.split(',').collect() };
     let mut file = if csv.is_empty() { None } else { Some(fs::File::create(&csv)?) };
     if let Some(file) = &mut file {
         writeln!(file, "species,optimizer,seed,evaluations,empty_accuracy,accuracy,iou,cost,seconds")?;

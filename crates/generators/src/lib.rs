@@ -21,6 +21,9 @@ pub fn names() -> Vec<&'static str> {
     families().iter().flat_map(|family| family.presets().iter().map(|(name, _)| *name)).collect()
 }
 
+/// The fifteen species of Hewitt's dissertation.
+pub use pleach_weber_penn::HEWITT_2017;
+
 /// Why a species could not be had.
 #[derive(Debug, thiserror::Error)]
 pub enum RegistryError {

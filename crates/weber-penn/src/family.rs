@@ -50,14 +50,23 @@ impl Family for WeberPennFamily {
     }
 }
 
-macro_rules! presets {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../../species/weber-penn/", $name, ".toml")))),*]
+/// Declares a set of species and, with the others, all files.
+macro_rules! species {
+    ($(#[$doc:meta])* pub const $set:ident: $($of_set:literal,)* others: $($other:literal,)*) => {
+        $(#[$doc])*
+        pub const $set: &[&str] = &[$($of_set),*];
+
+        /// Name and text of each file.
+        const PRESETS: &[(&str, &str)] = &[
+            $(($of_set, include_str!(concat!("../../../species/weber-penn/", $of_set, ".toml"))),)*
+            $(($other, include_str!(concat!("../../../species/weber-penn/", $other, ".toml"))),)*
+        ];
     };
 }
 
-/// The fifteen species of the dissertation in the order of its figures, then five more.
-const PRESETS: &[(&str, &str)] = presets![
+species! {
+    /// The fifteen species of Hewitt's dissertation, in the order of its figures.
+    pub const HEWITT_2017:
     "quaking_aspen",
     "weeping_willow",
     "bamboo",
@@ -73,12 +82,13 @@ const PRESETS: &[(&str, &str)] = presets![
     "european_larch",
     "hill_cherry",
     "balsam_fir",
+    others:
     "cambridge_oak",
     "fan_palm",
     "sassafras",
     "sphere_tree",
     "weeping_willow_o",
-];
+}
 
 /// A species that comes with pleach.
 #[must_use]
