@@ -245,11 +245,11 @@ impl Landmarks {
                 let arranges = self.arranges[slot.index()] && !moved(slot);
                 let (weights, features) =
                     if arranges { (&whole, whole_features.as_slice()) } else { (weights, features) };
-                let mut readers = weights.present().filter(|(l, _)| self.active[*l][slot.index()]);
-                // What nobody reads is nobody's concern: the number of the nearest species.
-                let Some((one, _)) = readers.next() else { return params.get(slot) };
+                let mut active = weights.present().filter(|(l, _)| self.active[*l][slot.index()]);
+                // Where it matters to none of them, the number of the nearest species will do.
+                let Some((one, _)) = active.next() else { return params.get(slot) };
                 let value = |landmark: usize| self.species[landmark].params.get(slot);
-                if !moved(slot) && readers.all(|(l, _)| value(l).to_bits() == value(one).to_bits()) {
+                if !moved(slot) && active.all(|(l, _)| value(l).to_bits() == value(one).to_bits()) {
                     return value(one);
                 }
                 self.coding.decode(space, slot, features).unwrap_or_else(|| value(dominant))
@@ -398,6 +398,13 @@ mod tests {
             one(vec![species("palm"), species("palm")]),
             BlendError::SameName { name: "palm".to_owned() }
         );
+        let solid =
+            "name = \"cut\"\nprune_obstacles = [{ shape = \"sphere\", center = [0, 0, 9], radius = 1 }]";
+        let cut = pleach_generators::read_text("cut", solid).unwrap();
+        let other = Species { name: "twice".to_owned(), ..cut.clone() };
+        let mixed = one(vec![species("palm"), cut.clone()]);
+        assert!(mixed.to_string().contains("weber-penn and `cut` by another model of weber-penn"), "{mixed}");
+        assert!(matches!(one(vec![cut, other]), BlendError::AllAlike { .. }), "the same solids go together");
         let mut twin = species("palm");
         twin.name = "twin".to_owned();
         let (first, second) = ("palm".to_owned(), "twin".to_owned());

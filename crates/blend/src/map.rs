@@ -157,7 +157,7 @@ impl BlendMap {
     /// its dot. On another layout it is the mean of the dots, those of similar parameters counting
     /// most (Shepard's weights, the fourth power of the inverse distance).
     ///
-    /// Numbers that the species does not read say nothing about it.
+    /// Numbers that are not active in the species say nothing about it.
     #[must_use]
     pub fn locate(&self, species: &Species) -> Point {
         let code = self.landmarks.coding().encode(species.generator.as_ref(), species.params.values()).values;

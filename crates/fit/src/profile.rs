@@ -19,7 +19,7 @@ pub enum Seen {
     Determined,
     /// A fifth of its range does.
     Loosely,
-    /// Neither does, or the tree does not read it.
+    /// Neither does, or the number is not active.
     NotSeen,
 }
 
@@ -185,7 +185,7 @@ impl Back<'_> {
             .collect();
         let costs = stoppable::map(&alone, self.stop, |genome| {
             let slot = genome.values.iter().zip(&kept.genome.values).position(|(a, b)| a != b);
-            // What is not read leaves the tree and its score as they are.
+            // What is not active leaves the tree and its score as they are.
             if slot.is_some_and(|slot| self.is_active(&kept.genome, Slot::new(slot))) {
                 self.evaluator.score(genome).cost
             } else {

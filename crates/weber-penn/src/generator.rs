@@ -70,3 +70,44 @@ fn check(model: &Model) -> Result<(), Conflict> {
     let trunk = &model.levels[0];
     if trunk.length + trunk.length_v > 0.0 { Ok(()) } else { Err(blame::nothing_left(model)) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::table::Id;
+    use pleach_tree::Blame;
+
+    #[test]
+    fn solids_make_another_model() {
+        let plain = WeberPenn::default();
+        let inside = |solids: &[Solid]| {
+            let inside = Some(solids.to_vec());
+            WeberPenn { surroundings: Surroundings { inside, ..Surroundings::default() } }.model()
+        };
+        let sphere = Solid::Sphere { center: glam::DVec3::Z, radius: 1.0 };
+        assert_eq!(plain.model(), WeberPenn::default().model());
+        assert_ne!(plain.model(), inside(&[]), "no bound at all is not the envelope");
+        assert_ne!(inside(&[]), inside(&[sphere]));
+        assert_eq!(inside(&[sphere]), inside(&[sphere]));
+    }
+
+    #[test]
+    fn trunks_without_length_are_told_before_growing() {
+        let mut values = space().defaults();
+        values[Id::length.slot(0).index()] = 0.0;
+        let blame = Blame(vec!["length[0]".to_owned(), "length_v[0]".to_owned()]);
+        let conflict = Conflict::NothingLeft { blame };
+        assert_eq!(WeberPenn::default().check(&values), Err(conflict.clone()));
+        let params = space().check(values.clone()).unwrap();
+        let grown = WeberPenn::default().grow(
+            &params,
+            &Growth::default(),
+            &mut Workspace::default(),
+            &mut Tree::default(),
+        );
+        assert_eq!(grown, Err(GrowError::Conflict(conflict)));
+        // By chance, some trees have a trunk.
+        values[Id::length_v.slot(0).index()] = 1.0;
+        assert_eq!(WeberPenn::default().check(&values), Ok(()));
+    }
+}

@@ -256,7 +256,7 @@ fn switches(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) -> Result<(), Blen
         .collect::<Result<Vec<Option<Vec<f64>>>, BlendError>>()?;
     let grid = Grid { columns: SWITCH_COLUMNS, cells };
     let differing = |a: &Vec<f64>, b: &Vec<f64>| {
-        // Values that are not read are NaN and differ from nothing.
+        // Values that are not active are NaN and differ from nothing.
         a.iter().zip(b).filter(|(a, b)| !a.is_nan() && !b.is_nan() && a != b).count() as f64
     };
     let step = (sheet.high.x - sheet.low.x) / (SWITCH_COLUMNS - 1) as f64;

@@ -29,3 +29,6 @@ pub use kind::Kind;
 pub use shown::shown;
 pub(crate) use shown::{escaped, is_hidden};
 pub use space::{ParamSpace, Slot, SlotInfo};
+
+#[cfg(test)]
+mod tests;

@@ -97,3 +97,6 @@ pub fn preset(family: &dyn Family, name: &str) -> Option<Species> {
     let species = SpeciesDoc::parse(name, text).and_then(|doc| doc.species(family));
     Some(species.unwrap_or_else(|error| panic!("a built-in species is broken:\n{error}")))
 }
+
+#[cfg(test)]
+mod tests;

@@ -36,3 +36,41 @@ impl Id {
         space().slot_name(self.slot(index))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::table::Model;
+    use super::*;
+
+    /// Each field has the numbers of its own row: those before, between and after the levels.
+    #[test]
+    fn values_reach_their_fields() {
+        let mut values = space().defaults();
+        let mut set = |id: Id, index: usize, value: f64| values[id.slot(index).index()] = value;
+        set(Id::g_scale, 0, 7.5);
+        set(Id::level_count, 0, 2.0);
+        set(Id::base_splits, 0, -3.0);
+        set(Id::base_size, 0, 0.25);
+        set(Id::rotate, 3, 180.0);
+        set(Id::curve_res, 2, 0.0);
+        set(Id::radius_mod, 3, 1.5);
+        set(Id::tropism, 2, -2.0);
+        set(Id::leaf_shape, 0, 4.0);
+        set(Id::prune_power_high, 0, 0.125);
+        assert!(space().check_all(&values).is_ok());
+        let model = Model::new(&values);
+        assert_eq!((model.g_scale, model.level_count, model.base_splits), (7.5, 2, -3));
+        assert_eq!((model.levels[0].base_size, model.levels[3].rotate), (0.25, std::f64::consts::PI));
+        assert_eq!((model.levels[2].curve_res, model.levels[3].radius_mod), (1, 1.5));
+        assert_eq!((model.tropism.z, model.leaf_shape as i64, model.prune_power_high), (-2.0, 4, 0.125));
+    }
+
+    #[test]
+    fn every_row_is_called_as_its_field() {
+        assert_eq!(Id::ALL.len(), space().params().len());
+        for (id, param) in Id::ALL.iter().zip(space().params()) {
+            let renamed = *id == Id::level_count && param.name == "levels";
+            assert!(format!("{id:?}") == param.name || renamed, "{id:?} is {}", param.name);
+        }
+    }
+}
