@@ -103,7 +103,12 @@ impl Generator for Bush {
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
         let (value, min) = (values[HIGHEST], values[LOWEST]);
         let (slot, other) = ("highest".to_owned(), "lowest".to_owned());
-        if value < min { Err(Conflict::TooSmall { slot, value, other, min }) } else { Ok(()) }
+        // Where no twig is, none is between.
+        if values[TWIGS] > 0.0 && value < min {
+            Err(Conflict::TooSmall { slot, value, other, min })
+        } else {
+            Ok(())
+        }
     }
 
     fn grow(
