@@ -106,8 +106,9 @@ pub(super) fn of(param: &Param) -> Result<(), Fault> {
         }
     }
     param.neutral.map_or(Ok(()), |value| allowed("neutral", value))?;
-    let rising = param.breakpoints.windows(2).all(|pair| pair[0] < pair[1]);
-    if !param.breakpoints.is_empty() && !(rising && matches!(param.kind, Kind::Real { .. })) {
+    let is_rising = param.breakpoints.windows(2).all(|pair| pair[0] < pair[1]);
+    let can_have_them = param.breakpoints.is_empty() || matches!(param.kind, Kind::Real { .. });
+    if !(is_rising && can_have_them) {
         return Err(Fault::Breakpoints);
     }
     param.breakpoints.iter().try_for_each(|&value| allowed("breakpoints", value))
