@@ -122,7 +122,7 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
     let space = SearchSpace::new(Arc::clone(generator), &truth.values, &Freedom::default(), fixed)?;
     // What is switched off, and what another choice would make another tree, stays as it is.
     let is_moved = |gene: &&pleach_fit::space::Gene| {
-        !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_read(&truth.values, gene)
+        !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_active(&truth.values, gene)
     };
     let moved: Vec<_> = space.genes().iter().filter(is_moved).collect();
     let evaluator = Evaluator::new(&problem, Objective::Iou, LIMITS)?.matching_height();

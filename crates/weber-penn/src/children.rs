@@ -5,7 +5,7 @@
 
 use crate::budget::{Budget, CHILD_STEPS, Cause, Exceeded};
 use crate::grow::{Bench, Job, MIN_LENGTH};
-use crate::model::{Level, Model, shape_ratio};
+use crate::model::{Level, Model};
 use crate::path::PathPoint;
 use crate::purpose;
 use crate::stem::Seedling;
@@ -268,7 +268,7 @@ pub(crate) fn collect(
     };
     let profile = job.profile(stem);
     let Bench { path, children, budget, .. } = bench;
-    let prunes = model.prune.ratio > 0.0;
+    let prunes = model.prune_ratio > 0.0;
     let path = &path[first_point..];
     spacing.places(path, (budget, Cause::Children), |budget, place| {
         let radius_here = profile.at(place.offset / stem.length);
@@ -318,7 +318,7 @@ fn length(model: &Model, stem: &Seedling, child_length: f64, offset: f64) -> f64
         // The bare base keeps its length when the trunk is pruned.
         let base = model.levels[0].base_size * stem.parent_length;
         let q = (stem.length - offset) / (stem.length - base);
-        stem.length * child_length * shape_ratio(model.shape, q, &model.prune)
+        stem.length * child_length * model.shape_ratio(q)
     } else {
         child_length * (stem.length - 0.7 * offset)
     };

@@ -76,14 +76,13 @@ pub(crate) fn grow(
     let job = Job { model, surroundings, growth };
     let root = Key::root(growth.seed);
 
-    let budget = Budget::new(growth.limits, model.prune.ratio > 0.0);
+    let budget = Budget::new(growth.limits, model.prune_ratio > 0.0);
     let mut bench = Bench { tree, path, clones, children, budget };
     if let Err(exceeded) = job.tree(&mut bench, root, places) {
         return Err(blame::error(exceeded, model, &bench.budget, bench.tree, bench.children));
     }
     if bench.tree.stems.is_empty() {
-        let message = "nothing is left of the tree: its trunk has no length, or pruning took it".to_owned();
-        return Err(GrowError::Conflict { message });
+        return Err(blame::nothing_left(model).into());
     }
     let finite = bench.tree.knots.iter().all(|k| k.point.is_finite() && k.radius.is_finite());
     if finite { Ok(()) } else { Err(GrowError::NotFinite { what: "the position of a stem" }) }
@@ -194,7 +193,7 @@ impl Job<'_> {
             || (next.length + stem.key.signed(purpose::CHILD_LENGTH, 0) * next.length_v).max(0.0),
             |clone| clone.child_length,
         );
-        if model.prune.ratio > 0.0 && stem.clone.is_none_or(|_| level.split_angle_v < 0.0) {
+        if model.prune_ratio > 0.0 && stem.clone.is_none_or(|_| level.split_angle_v < 0.0) {
             let Some(length) = self.prune(bench, &stem, *carry)? else { return Ok(()) };
             stem.length = length;
             if stem.depth == 0 {
@@ -251,7 +250,7 @@ impl Job<'_> {
         let points = self.points(stem);
         let judged = if stem.depth == 0 { 1 } else { points };
         let steps = TRIAL_STEPS * points + judged * (solids as u64 / SOLIDS_A_STEP);
-        prune::pruned_length(model.prune.ratio, stem.length, |length| {
+        prune::pruned_length(model.prune_ratio, stem.length, |length| {
             bench.budget.work(Cause::Pruning, stem.depth, steps)?;
             walk(model, stem, length, 1.0, &mut carry.clone(), bench.path, &mut crate::path::NoForks);
             let points = &bench.path[first + 1..];

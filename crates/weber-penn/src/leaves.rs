@@ -11,7 +11,7 @@ use crate::stem::Seedling;
 use glam::{DVec3, Vec3};
 use pleach_tree::trig::{atan2, sin_cos};
 use pleach_tree::turtle::Turtle;
-use pleach_tree::{Foliage, Leaf, Tree};
+use pleach_tree::{Leaf, Tree};
 
 /// Grows the leaves and blossoms of `stem`, whose index in the tree is `index`.
 pub(crate) fn grow(
@@ -31,13 +31,14 @@ pub(crate) fn grow(
         forks_cost: false,
     };
     let profile = job.profile(stem);
-    let coarse = Coarse::new(job.growth.foliage, stem);
-    let scale = relative_scale * coarse.scale;
     let kinds = Kinds {
         stem: (stem, index),
         blossom_rate: model.blossom_rate,
-        leaf: ((model.leaf_scale * scale) as f32, (model.leaf_scale * model.leaf_scale_x * scale) as f32),
-        blossom: (model.blossom_scale * scale) as f32,
+        leaf: (
+            (model.leaf_scale * relative_scale) as f32,
+            (model.leaf_scale * model.leaf_scale_x * relative_scale) as f32,
+        ),
+        blossom: (model.blossom_scale * relative_scale) as f32,
     };
     let helix = spacing.level.is_helix();
 
@@ -46,9 +47,6 @@ pub(crate) fn grow(
     let mut sprig = Sprig::default();
     let mut numbers = [0; LANES];
     spacing.places(path, (budget, Cause::Leaves), |budget, place| {
-        if !coarse.keeps(place.number) {
-            return Ok(());
-        }
         budget.leaf()?;
         let radius = profile.at(place.offset / stem.length);
         if place.fan.is_some() {
@@ -128,31 +126,4 @@ pub(crate) fn face_the_light(leaf_bend: f64, turtle: &mut Turtle) {
     let (sin, cos) = sin_cos(leaf_bend * atan2(level, n.z));
     let lift = |v: DVec3| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos));
     (turtle.direction, turtle.right) = (lift(direction), lift(right));
-}
-
-/// Which leaves of a coarse crown are made, and how much larger.
-struct Coarse {
-    one_in: u32,
-    phase: u32,
-    scale: f64,
-}
-
-impl Coarse {
-    fn new(foliage: Foliage, stem: &Seedling) -> Self {
-        let one_in = match foliage {
-            Foliage::OneIn(n) => n.max(1),
-            Foliage::All | Foliage::None => 1,
-        };
-        // Stems with few leaves must not all keep their first.
-        let phase = if one_in == 1 {
-            0
-        } else {
-            (stem.key.bits(purpose::COARSE_PHASE, 0) % u64::from(one_in)) as u32
-        };
-        Self { one_in, phase, scale: f64::from(one_in).sqrt() }
-    }
-
-    const fn keeps(&self, number: u32) -> bool {
-        self.one_in == 1 || (number + self.phase).is_multiple_of(self.one_in)
-    }
 }

@@ -31,7 +31,7 @@ mod sprig;
 mod stem;
 mod trunks;
 
-pub use family::{WeberPennFamily, preset};
+pub use family::{HEWITT_2017, WeberPennFamily, preset};
 pub use generator::WeberPenn;
 pub use params::space;
 pub use solid::{Solid, Surroundings};

@@ -297,7 +297,7 @@ mod tests {
         let mut all = space().defaults();
         for (name, value) in values {
             for slot in space().select(name).unwrap() {
-                all[slot] = *value;
+                all[slot.index()] = *value;
             }
         }
         (Model::new(&all), Seedling::test_stem())

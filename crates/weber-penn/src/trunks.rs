@@ -23,15 +23,15 @@ pub(crate) fn places(
     budget: &mut Budget<'_>,
 ) -> Result<(), Exceeded> {
     places.clear();
-    if model.trunks <= 1 {
+    if model.trunks() <= 1 {
         places.push(DVec2::ZERO);
         return Ok(());
     }
     let trunk = &model.levels[0];
-    let mut disc = (f64::from(model.trunks) / 2.5 * model.g_scale * model.ratio).sqrt();
+    let mut disc = (f64::from(model.trunks()) / 2.5 * model.g_scale * model.ratio).sqrt();
     let length = trunk.length + key.signed(purpose::DART_SPACING, 0) * trunk.length_v;
     let spacing = 2.5 * model.ratio * trunk.radius_mod * (model.g_scale + model.g_scale_v) * length.max(0.0);
-    for i in 0..model.trunks {
+    for i in 0..model.trunks() {
         let dart_key = key.child(purpose::DART, i);
         for attempt in 0.. {
             budget.work(Cause::Darts, 0, 1 + places.len() as u64 / DARTS_A_STEP)?;

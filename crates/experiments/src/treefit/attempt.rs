@@ -170,7 +170,7 @@ fn number(value: f64) -> String {
 fn candidates(problem: &FitProblem) -> Vec<Candidate> {
     let species = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
     species
-        .filter(|s| s.generator.family() == problem.generator.family() && s.generator.extra_toml().is_empty())
+        .filter(|s| s.generator.model() == problem.generator.model())
         .map(|s| Candidate { name: s.name.clone(), values: s.params.values().to_vec() })
         .collect()
 }

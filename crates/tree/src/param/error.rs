@@ -65,8 +65,8 @@ pub enum Problem {
         nearest: Option<String>,
         /// The groups of parameters.
         groups: Vec<String>,
-        /// The patterns for levels; none where no parameter has levels.
-        levels: Vec<String>,
+        /// What lists are numbered by, and the length of the longest such list.
+        lists: Vec<(String, usize)>,
     },
     /// Something that has to be given is not.
     Missing {
@@ -107,13 +107,14 @@ impl fmt::Display for Problem {
                 suggest(f, nearest.as_deref())
             }
             Self::Misplaced { right } => write!(f, "is not a known name here: {right}"),
-            Self::UnknownPattern { nearest, groups, levels } => {
+            Self::UnknownPattern { nearest, groups, lists } => {
                 write!(f, "is not a known name")?;
                 suggest(f, nearest.as_deref())?;
                 let stop = if nearest.is_some() { "" } else { "." };
                 write!(f, "{stop} Groups are {}", groups.join(", "))?;
-                if !levels.is_empty() {
-                    write!(f, "; levels are {}", levels.join(", "))?;
+                for (word, len) in lists {
+                    let patterns: Vec<String> = (0..*len).map(|n| format!("{word}:{n}")).collect();
+                    write!(f, "; {word}s are {}", patterns.join(", "))?;
                 }
                 Ok(())
             }
