@@ -1,5 +1,6 @@
 //! Blends of species: seed's §4.4.1 remade, and what it could not do counted.
 
+use super::record::{self, Exact};
 use super::spec::{BlendSpec, species_files};
 use super::{Journal, Kind as Experiment, Outputs, Slice, Table, progress, stop};
 use anyhow::Context;
@@ -10,10 +11,19 @@ use pleach_silhouette::score::blurred_iou;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View, picture as sheets};
 use pleach_tree::{Growth, Key, Kind, Limits, Parts, Slot, Species, Tree};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// One number of one question about one blend, or one group of them.
-const COLUMNS: [&str; 6] = ["question", "first", "second", "method", "measure", "value"];
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+struct Answer {
+    question: String,
+    first: String,
+    second: String,
+    method: String,
+    measure: String,
+    value: Exact,
+}
 
 /// How a blend of two species is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +81,7 @@ impl Maps {
 }
 
 /// Collects rows.
-struct Rows(Vec<Vec<String>>);
+struct Rows(Vec<Answer>);
 
 impl Rows {
     fn add(
@@ -82,8 +92,9 @@ impl Rows {
         measure: &str,
         value: f64,
     ) {
-        let value = format!("{}", (value * 1e6).round() / 1e6);
-        self.0.push([question, first, second, method, measure, &value].map(str::to_owned).to_vec());
+        let [question, first, second, method, measure] =
+            [question, first, second, method, measure].map(str::to_owned);
+        self.0.push(Answer { question, first, second, method, measure, value: Exact::millionths(value) });
     }
 }
 
@@ -96,8 +107,8 @@ const FIGURE: &str = "figure-4.8.png";
 const PALM: &str = "palm.png";
 
 impl Experiment for BlendSpec {
-    fn columns(&self) -> Vec<&'static str> {
-        COLUMNS.to_vec()
+    fn columns(&self) -> anyhow::Result<Vec<String>> {
+        record::columns(&Answer::default())
     }
 
     fn files(&self, _: &Path) -> (Vec<String>, Vec<PathBuf>) {
@@ -115,7 +126,7 @@ impl Experiment for BlendSpec {
                 make(&mut rows)?;
                 Ok(rows.0)
             };
-            journal.job(|row| row[0] == question, rows)
+            journal.job(|row: &Answer| row.question == question, rows)
         };
         job("explained variance", &|rows| {
             explained(&maps, rows);
@@ -135,7 +146,7 @@ impl Experiment for BlendSpec {
         let maps = Maps::of(&self.species()?)?;
         figure(&maps, outputs)?;
         with_palm(&maps, outputs)?;
-        Ok(summary(table))
+        Ok(summary(&table.records()?))
     }
 }
 
@@ -496,23 +507,24 @@ fn sheet(cells: Vec<(String, Species)>, columns: usize, pixels: u32) -> sheets::
 }
 
 /// Sums and extremes of the table by question, method and measure.
-fn summary(table: &Table) -> String {
+fn summary(answers: &[Answer]) -> String {
     let mut rows =
         vec![["question", "method", "measure", "rows", "sum", "mean", "least"].map(str::to_owned).to_vec()];
-    let mut seen: Vec<[&str; 3]> = Vec::new();
-    for row in table.rows.iter().filter(|r| r[0] != "explained variance") {
-        let key = [row[0].as_str(), row[3].as_str(), row[4].as_str()];
+    let mut seen: Vec<[String; 3]> = Vec::new();
+    let key_of = |row: &'_ Answer| [row.question.clone(), row.method.clone(), row.measure.clone()];
+    for row in answers.iter().filter(|row| row.question != "explained variance") {
+        let key = key_of(row);
         if !seen.contains(&key) {
             seen.push(key);
         }
     }
     for key in seen {
-        let of = table.rows.iter().filter(|r| [r[0].as_str(), r[3].as_str(), r[4].as_str()] == key);
-        let values: Vec<f64> = of.filter_map(|r| r[5].parse().ok()).collect();
+        let of = answers.iter().filter(|row| key_of(row) == key);
+        let values: Vec<f64> = of.map(|row| row.value.0).collect();
         let sum: f64 = values.iter().sum();
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let numbers = [sum, sum / values.len().max(1) as f64, least].map(|v| format!("{v:.3}"));
-        let head = key.map(str::to_owned).into_iter().chain([values.len().to_string()]);
+        let head = key.into_iter().chain([values.len().to_string()]);
         rows.push(head.chain(numbers).collect());
     }
     output::table(&rows, &[3, 4, 5, 6])
