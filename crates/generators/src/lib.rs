@@ -132,7 +132,7 @@ pub fn read_text(origin: &str, text: &str) -> Result<Species, SpeciesError> {
     use pleach_tree::param::Problem;
     let doc = SpeciesDoc::parse(origin, text)?;
     let wrong = |issue| SpeciesError { issues: vec![issue] };
-    let name = doc.text("generator").map_err(wrong)?.unwrap_or("weber-penn");
+    let name = doc.text("generator").map_err(wrong)?.unwrap_or_else(|| families()[0].name());
     let Some(family) = families().iter().find(|family| family.name() == name) else {
         let span = doc.get("generator").map_or(0..0, |node| node.span.clone());
         let problem = Problem::UnknownChoice {

@@ -112,6 +112,12 @@ pub trait Family: Send + Sync + fmt::Debug {
         &[]
     }
 
+    /// Names that people try in its files, each with what would be right, as a clause: `the height of
+    /// the tree is …`. None of them is a key or a parameter.
+    fn misplaced(&self) -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
+
     /// Builds the generator that a species file describes: everything but its numbers, and but what
     /// [`SpeciesDoc::species`] reads for all families.
     ///

@@ -39,6 +39,13 @@ impl Family for WeberPennFamily {
         KEYS
     }
 
+    fn misplaced(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("height", "the height of the tree is `g_scale`"),
+            ("leaves", "the number of leaves on a stem is `leaf_blos_num`"),
+        ]
+    }
+
     fn read(&self, doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Option<Arc<dyn Generator>> {
         let inside = Solid::read_list(doc, "prune_inside", issues);
         let obstacles = Solid::read_list(doc, "prune_obstacles", issues).unwrap_or_default();

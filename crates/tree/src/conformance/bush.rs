@@ -39,6 +39,10 @@ impl Family for Bushes {
         &[Key { name: "pairs", form: Form::Text, default: "no", doc: "\"yes\" for twigs in pairs" }]
     }
 
+    fn misplaced(&self) -> &'static [(&'static str, &'static str)] {
+        &[("tall", "the height of the bush is `height`")]
+    }
+
     fn read(&self, doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Option<Arc<dyn Generator>> {
         let pairs = doc.text("pairs").unwrap_or_else(|issue| {
             issues.push(issue);

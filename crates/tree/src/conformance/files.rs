@@ -34,6 +34,24 @@ pub fn one_mistake_is_one_issue(family: &dyn Family) {
     }
 }
 
+/// Names that are known to be wrong name nothing, and are told with what would be right.
+///
+/// # Panics
+/// If the promise is broken.
+pub fn misplaced_names_are_told(family: &dyn Family) {
+    for (name, right) in family.misplaced() {
+        assert!(family.keys().iter().all(|key| key.name != *name), "{name} is a key");
+        for species in all(family) {
+            assert!(species.generator.space().find(name).is_none(), "{name} is a parameter");
+        }
+        for (preset, text) in family.presets() {
+            let wrong = SpeciesDoc::parse(preset, &format!("{name} = 1\n{text}"));
+            let told = wrong.and_then(|doc| doc.species(family)).map(|s| s.name).map_err(|e| e.to_string());
+            assert!(told.as_ref().is_err_and(|told| told.contains(right)), "{name} in {preset}: {told:?}");
+        }
+    }
+}
+
 /// Written and read back, a species is the same.
 ///
 /// # Panics

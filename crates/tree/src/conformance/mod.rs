@@ -15,8 +15,8 @@ mod growth;
 mod numbers;
 
 pub use files::{
-    files_name_their_family, models_are_told_apart_by_structure, one_mistake_is_one_issue,
-    written_files_are_read_back,
+    files_name_their_family, misplaced_names_are_told, models_are_told_apart_by_structure,
+    one_mistake_is_one_issue, written_files_are_read_back,
 };
 pub use growth::{
     limits_are_errors, stems_do_not_depend_on_leaves, the_same_seed_is_the_same_tree, trees_are_well_formed,
@@ -42,6 +42,7 @@ macro_rules! conformance {
         $crate::conformance! { @tests $family;
             files_name_their_family,
             one_mistake_is_one_issue,
+            misplaced_names_are_told,
             written_files_are_read_back,
             models_are_told_apart_by_structure,
             trees_are_well_formed,

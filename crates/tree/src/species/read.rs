@@ -9,13 +9,9 @@ use super::name::check_name;
 use crate::generator::Family;
 use crate::param::{Kind, ParamSpace, Problem, Shape, Slot, is_hidden, nearest};
 
-/// Names that are wrong at the top level, and what would be right.
-const MISPLACED: [(&str, &str); 4] = [
-    ("seed", "the seed of the tree is `tree_seed`"),
-    ("height", "the height of the tree is `g_scale`"),
-    ("leaves", "the number of leaves on a stem is `leaf_blos_num`"),
-    ("species", "the species is called by `name`"),
-];
+/// Names that are wrong at the top level of every file, and what would be right.
+const MISPLACED: [(&str, &str); 2] =
+    [("seed", "the seed of the tree is `tree_seed`"), ("species", "the species is called by `name`")];
 
 impl SpeciesDoc {
     /// The species that the file describes: its generator as `family` reads it, its numbers, and what
@@ -27,7 +23,7 @@ impl SpeciesDoc {
         let mut issues = Vec::new();
         let generator = family.read(self, &mut issues);
         let values = generator.as_ref().map(|generator| {
-            let (values, wrong) = self.numbers(generator.space(), family.keys());
+            let (values, wrong) = self.numbers(generator.space(), family);
             issues.extend(wrong);
             values
         });
@@ -94,22 +90,23 @@ impl SpeciesDoc {
         }
     }
 
-    /// Reads every parameter of `space`; `own_keys` are the generator's own ([`Family::keys`]).
+    /// Reads every parameter of `space`, beside the keys of `family`.
     ///
     /// Returns one value for each slot (the default where the file is silent or wrong) and every
     /// issue: unknown names, wrong types and lengths, values that are not allowed.
-    pub(super) fn numbers(&self, space: &ParamSpace, own_keys: &[Key]) -> (Vec<f64>, Vec<Issue>) {
+    pub(super) fn numbers(&self, space: &ParamSpace, family: &dyn Family) -> (Vec<f64>, Vec<Issue>) {
         let mut values = space.defaults();
         let mut issues = Vec::new();
         for entry in self.entries() {
             let key = entry.key.as_str();
-            let keys = || KEYS.iter().chain(own_keys);
+            let keys = || KEYS.iter().chain(family.keys());
             if keys().any(|known| known.name == key) {
                 continue;
             }
             let Some((number, param)) = space.find(key) else {
                 let known = space.params().iter().map(|p| p.name.as_ref());
-                let problem = match MISPLACED.iter().find(|(name, _)| *name == key) {
+                let problem = match MISPLACED.iter().chain(family.misplaced()).find(|(name, _)| *name == key)
+                {
                     Some((_, right)) => Problem::Misplaced { right },
                     None => Problem::UnknownName {
                         nearest: inside_a_table(key, keys())

@@ -52,6 +52,8 @@ fn mistakes_are_told_with_their_places() {
         ),
         ("hieght = 2", "1:1: `hieght` is not a known name, did you mean `height`?"),
         ("pair = \"no\"", "1:1: `pair` is not a known name, did you mean `pairs`?"),
+        ("tall = 3", "1:1: `tall` is not a known name here: the height of the bush is `height`"),
+        ("seed = 3", "1:1: `seed` is not a known name here: the seed of the tree is `tree_seed`"),
         ("bark = \"#000000\"", "1:1: `bark` is not a known name, did you mean `appearance.bark`?"),
         (
             "tree_seed = -1",
@@ -77,7 +79,7 @@ fn a_list_of_one_number_is_a_list() {
     use crate::param::{Kind, Param, ParamSpace};
     let one = Param::list("one", "year", Kind::real(0.0, 9.0), [1.0]);
     let space = std::sync::Arc::new(ParamSpace::new(vec![one]).unwrap());
-    let numbers = |text: &str| SpeciesDoc::parse("t", text).unwrap().numbers(&space, &[]);
+    let numbers = |text: &str| SpeciesDoc::parse("t", text).unwrap().numbers(&space, &Bushes);
     assert_eq!(numbers("one = [3]").0, [3.0]);
     let (values, issues) = numbers("one = 3");
     assert_eq!((values, issues.len()), (vec![1.0], 1));
