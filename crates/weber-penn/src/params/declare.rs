@@ -40,8 +40,8 @@ macro_rules! name {
 ///
 /// where the name is left out if the field is called by it, `reader` makes the field of the numbers
 /// in the file, `active` tells of `Facts` whether the numbers matter, and `declaration` is all the
-/// rest. Rows of `tree` are fields of `Model`, those of `level` of `Level`. From the same rows follow the parameter space, the
-/// order in which values are read, and `Id`.
+/// rest. Rows of `tree` are fields of `Model`, those of `level` of `Level`. From the same rows follow
+/// the parameter space, the order in which values are read, and `Id`.
 macro_rules! parameters {
     (
         tree { $($f1:ident $(= $n1:literal)?: $t1:ty [$r1:expr] when $a1:expr => $d1:expr;)* }

@@ -2,7 +2,7 @@
 
 mod many;
 
-use super::fit::places;
+use super::describe::{cannot, means, places};
 use crate::choice::{Choice, one_of};
 use crate::{files, input, output};
 use anyhow::{Context, bail, ensure};
@@ -207,32 +207,9 @@ fn is_folder(path: &Path) -> bool {
     path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/")
 }
 
-/// What could not be done.
-pub(super) fn cannot(photo: &Path) -> String {
-    format!("cannot make a mask of {}", photo.display())
-}
-
 /// Whether both paths lead to one file that is there.
 fn same_file(a: &Path, b: &Path) -> bool {
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-}
-
-/// How the tree was told from the background.
-pub(super) fn means(mask: &Mask) -> String {
-    match mask.means {
-        Means::Opacity => "the picture has an alpha channel: the tree is what is opaque".to_owned(),
-        Means::Color { threshold, horizon } => {
-            let behind = horizon.map_or_else(
-                || "one background".to_owned(),
-                |h| format!("sky down to row {:.0}, ground below", (h.left + h.right) / 2.0),
-            );
-            format!(
-                "{behind}; the tree is what is more than {threshold:.1} spreads away in colour\n\
-                 {} other pixels dropped, {} in small holes filled",
-                mask.dropped, mask.filled
-            )
-        }
-    }
 }
 
 fn edges(mask: &Mask) -> String {
