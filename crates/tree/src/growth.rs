@@ -49,7 +49,7 @@ pub enum Foliage {
 pub struct Growth {
     /// Seed of the tree.
     pub seed: u64,
-    /// Bounds that turn monsters into errors.
+    /// Bounds that turn runaway trees into errors.
     pub limits: Limits,
     /// Which leaves are made; stems do not depend on it.
     pub foliage: Foliage,

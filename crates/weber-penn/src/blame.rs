@@ -3,7 +3,7 @@
 use crate::budget::{Budget, Cause, Exceeded};
 use crate::model::Model;
 use crate::params::table::Id;
-use crate::stem::Seedling;
+use crate::stem::StemSpec;
 use pleach_tree::{Blame, Conflict, GrowError, StemKind, Tree};
 
 /// The error of a tree that passed a limit, of which `tree` and `waiting` stems had been made.
@@ -12,7 +12,7 @@ pub(crate) fn error(
     model: &Model,
     budget: &Budget<'_>,
     tree: &Tree,
-    waiting: &[Seedling],
+    waiting: &[StemSpec],
 ) -> GrowError {
     let limits = budget.limits();
     match exceeded {
@@ -50,17 +50,17 @@ pub(crate) fn leaves(model: &Model) -> Blame {
     Blame(std::iter::once(Id::leaf_blos_num.slot_name(0)).chain(stems).collect())
 }
 
-fn stems(model: &Model, tree: &Tree, waiting: &[Seedling]) -> Blame {
-    let (mut stems, mut clones) = ([0_usize; 4], [0_usize; 4]);
+fn stems(model: &Model, tree: &Tree, waiting: &[StemSpec]) -> Blame {
+    let (mut stems, mut forked_stems) = ([0_usize; 4], [0_usize; 4]);
     for stem in &tree.stems {
         let level = usize::from(stem.level);
         stems[level] += 1;
-        clones[level] += usize::from(stem.kind == StemKind::Fork);
+        forked_stems[level] += usize::from(stem.kind == StemKind::Fork);
     }
-    waiting.iter().for_each(|stem| stems[stem.depth] += 1);
+    waiting.iter().for_each(|stem| stems[stem.level] += 1);
     let level = most(&stems);
     let mut names = counts(model, level);
-    if 2 * clones[level] > stems[level] {
+    if 2 * forked_stems[level] > stems[level] {
         names.insert(0, Id::seg_splits.slot_name(level));
     }
     Blame(names)

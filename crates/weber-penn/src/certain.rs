@@ -1,6 +1,6 @@
 //! How many stems and leaves a tree has for certain, by its numbers alone.
 //!
-//! A bound from below, so that monsters are refused before anything is grown and nothing else is.
+//! A lower bound: trees that are certain to be too large are refused before anything grows, and no others.
 //! It counts children on the lower parts of stems that cannot fork, be pruned or run out of
 //! thickness; where it knows nothing it says zero.
 
@@ -80,21 +80,21 @@ impl Certain {
             if length < SAFE_SIZE {
                 return certain;
             }
-            certain.stems[depth + 1] = certain.stems[depth] * places(children, level, next);
+            certain.stems[depth + 1] = certain.stems[depth] * sites(children, level, next);
         }
         let deepest = model.level_count - 1;
         if deepest > 0 {
             let (level, next) = (&model.levels[deepest], model.child_level(deepest));
             let count = model.leaf_blos_num * scale / model.g_scale * relative;
             let count = if count < 0.0 { count } else { count * (1.0 - level.base_size) };
-            certain.leaves = certain.stems[deepest] * places(count, level, next);
+            certain.leaves = certain.stems[deepest] * sites(count, level, next);
         }
         certain
     }
 }
 
 /// Places that are left of `count` after all rounding; a negative count is a fan.
-fn places(count: f64, level: &Level, next: &Level) -> f64 {
+fn sites(count: f64, level: &Level, next: &Level) -> f64 {
     if count < 0.0 {
         return (-count * (1.0 - 1e-9)).floor();
     }

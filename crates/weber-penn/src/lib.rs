@@ -19,6 +19,7 @@ mod children;
 mod family;
 mod generator;
 mod grow;
+mod leaf_batch;
 mod leaves;
 mod model;
 mod params;
@@ -27,7 +28,6 @@ mod prune;
 mod purpose;
 mod radius;
 mod solid;
-mod sprig;
 mod stem;
 mod trunks;
 

@@ -15,9 +15,9 @@ impl Model {
         if self.floor_splits > 0 { self.floor_splits } else { (self.levels[0].branches.abs() as u32).max(1) }
     }
 
-    /// The parameters of the children, or the leaves, of a stem of level `depth`.
-    pub(crate) const fn child_level(&self, depth: usize) -> &Level {
-        &self.levels[if depth + 1 < 4 { depth + 1 } else { 3 }]
+    /// The parameters of the children, or the leaves, of a stem of level `level`.
+    pub(crate) const fn child_level(&self, level: usize) -> &Level {
+        &self.levels[if level + 1 < 4 { level + 1 } else { 3 }]
     }
 
     /// Radius of the pruning envelope over its largest (Weber and Penn 1995, §4.6) at `q`, 0 at its

@@ -57,7 +57,7 @@ pub fn stems_do_not_depend_on_leaves(family: &dyn Family) {
     }
 }
 
-/// What would have more parts, or take more work, than is allowed is an error that tells the limit.
+/// What would have more parts, or take more work, than is allowed is an error that names the limit.
 ///
 /// # Panics
 /// If the promise is broken.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// Random lists that are tried with each species.
 const LISTS: u64 = 20;
-/// What their trees may take: a test is not for monsters.
+/// Limits of the trees that tests grow: tests should be quick.
 const LIMITS: Limits = Limits { stems: 20_000, leaves: 50_000, knots: 100_000, work: 1_000_000 };
 
 /// A list of allowed values, some of them the species' own.

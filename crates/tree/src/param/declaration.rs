@@ -62,7 +62,7 @@ pub enum Effect {
     /// Says how much larger or smaller trees of other seeds are; 0 is always allowed and means not at
     /// all. A single tree does not show it. Where its unit is metres, it is a size too.
     SizeJitter,
-    /// Arranges the parts of a tree anew: counts, what counts are computed from, angles that add up
+    /// Reshuffles the random layout of a tree: counts, what counts are computed from, angles that add up
     /// from part to part. Blends change such numbers together and in few steps.
     Layout,
 }

@@ -152,7 +152,7 @@ pub struct SlotError {
     pub problem: Problem,
 }
 
-/// Names longer than this are no misspelling of anything, and comparing them takes time.
+/// Names longer than this are not misspellings, and comparing them takes time.
 const MAX_NAME_CHARS: usize = 100;
 
 /// The known name that `name` most likely stands for, if any is near enough: a few letters are wrong, or
@@ -170,7 +170,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, candidate)| candidate.to_owned())
 }
 
-/// How alike two names are, 0 to 1; `None` where nobody would take one for the other.
+/// How alike two names are, 0 to 1; `None` where they are too different to be confused.
 fn likeness(name: &str, candidate: &str) -> Option<f64> {
     const MIN: f64 = 0.75;
     /// Alike enough whatever the number of letters that differ.

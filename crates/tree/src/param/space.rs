@@ -83,7 +83,7 @@ impl ParamSpace {
         self.slots.len()
     }
 
-    /// Whether there is no parameter at all.
+    /// Whether the space is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.slots.is_empty()

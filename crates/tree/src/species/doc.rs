@@ -134,7 +134,7 @@ impl SpeciesDoc {
     /// The string in `node`.
     ///
     /// # Errors
-    /// If it is no string.
+    /// If it is not a string.
     pub fn text_of<'a>(&self, name: &str, node: &'a Node) -> Result<&'a str, Issue> {
         match &node.value {
             Value::Text(text) => Ok(text),
@@ -145,7 +145,7 @@ impl SpeciesDoc {
     /// The number in `node`.
     ///
     /// # Errors
-    /// If it is no number.
+    /// If it is not a number.
     pub fn number_of(&self, name: &str, node: &Node) -> Result<f64, Issue> {
         match &node.value {
             Value::Number(number) => Ok(*number),
@@ -156,7 +156,7 @@ impl SpeciesDoc {
     /// Three finite numbers in `node`, such as a position in metres.
     ///
     /// # Errors
-    /// If it is no array of three finite numbers.
+    /// If it is not an array of three finite numbers.
     pub fn vector_of(&self, name: &str, node: &Node) -> Result<[f64; 3], Issue> {
         let Value::List(list) = &node.value else {
             return Err(self.wrong_type(name, node, "an array of 3 numbers", &node.value));

@@ -37,7 +37,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Species {
     /// Short name, such as `quaking_aspen`. Names that are read from files pass [`check_name`];
-    /// whoever makes a species of other text asks [`safe_name`], or [`Species::file_stem`] later.
+    /// code that makes a species from other text uses [`safe_name`], or [`Species::file_stem`] later.
     pub name: String,
     /// One line about it, possibly empty.
     pub description: String,

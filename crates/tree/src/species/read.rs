@@ -46,7 +46,7 @@ impl SpeciesDoc {
     /// The name of the species, if the file says one.
     ///
     /// # Errors
-    /// If it is no string, or cannot be a name: see [`check_name`].
+    /// If it is not a string, or cannot be a name: see [`check_name`].
     fn said_name(&self) -> Result<Option<&str>, Issue> {
         let Some(node) = self.get("name") else { return Ok(None) };
         let name = self.text_of("name", node)?;
@@ -58,7 +58,7 @@ impl SpeciesDoc {
     /// The description of the species, if the file has one; it may have several lines.
     ///
     /// # Errors
-    /// If it is no string, or has control characters.
+    /// If it is not a string, or has control characters.
     fn said_description(&self) -> Result<Option<&str>, Issue> {
         let Some(node) = self.get("description") else { return Ok(None) };
         let text = self.text_of("description", node)?;
