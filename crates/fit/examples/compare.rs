@@ -17,7 +17,7 @@
 
 use pleach_fit::{
     Budget, Candidate, Control, FitProblem, FitSettings, GoalView, GuessSettings, Objective, Optimizer,
-    Start, TreeSeed, Unknown, first_guess, fit,
+    Start, TreeSeed, first_guess, fit,
 };
 use pleach_silhouette::score::best_ellipse_iou;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
@@ -27,7 +27,7 @@ use std::error::Error;
 use std::fs;
 use std::io::Write as _;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, LazyLock};
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 const TREE_SEED: u64 = 1;
@@ -57,20 +57,13 @@ fn problem(species: &Species, seed: u64) -> Result<FitProblem, Box<dyn Error>> {
     let frame = Frame::automatic(&tree, &View::FRONT, true, SIZE, SIZE);
     let mut goal = Bitmap::default();
     Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut goal);
-    Ok(FitProblem {
-        generator: Arc::clone(&species.generator),
-        base: species.generator.space().defaults(),
-        goals: vec![GoalView { goal, view: View::FRONT, frame, unknown: Unknown::default() }],
-        foliage: true,
-    })
+    let problem = FitProblem::new(species.clone(), GoalView::new(goal, View::FRONT, frame));
+    Ok(problem.with_values(species.generator.space().defaults())?)
 }
 
 /// The nearest of the known species, without the one called `except`.
 fn known(problem: &FitProblem, settings: &FitSettings, except: &str) -> Result<Start, Box<dyn Error>> {
-    let candidate = |name: &str| {
-        let values = pleach_generators::preset(name)?.params.values().to_vec();
-        Some(Candidate { name: name.to_owned(), values })
-    };
+    let candidate = |name: &str| Some(Candidate { species: pleach_generators::preset(name)? });
     let names = FIFTEEN.iter().filter(|name| **name != except);
     let candidates: Vec<Candidate> = names.filter_map(|name| candidate(name)).collect();
     let guess = first_guess(
@@ -81,7 +74,7 @@ fn known(problem: &FitProblem, settings: &FitSettings, except: &str) -> Result<S
         &AtomicBool::new(false),
         |_, _| (),
     )?;
-    Ok(Start::Lists(guess.nearest.into_iter().map(|guess| guess.values).collect()))
+    Ok(guess.start())
 }
 
 fn wall_time() -> Duration {

@@ -22,10 +22,9 @@
 mod lane;
 mod moves;
 
-pub use moves::Move;
 
 use super::first::first;
-use super::{Method, Start};
+use super::{Method, MethodSettings, Start, is_individual};
 use crate::genome::{Genome, Score, Scored};
 use crate::space::{PRIOR, SearchSpace};
 use crate::stream::Stream;
@@ -117,6 +116,26 @@ impl Evolution {
     }
 }
 
+impl MethodSettings for EvolutionSettings {
+    type Method = Evolution;
+
+    fn begin(&self, seed: u64, start: Start) -> Evolution {
+        Evolution::new(self.clone(), seed, start)
+    }
+
+    fn has_begun(&self, method: &Evolution, seed: u64, start: &Start) -> bool {
+        (&method.settings, method.seed, &method.start) == (self, seed, start)
+    }
+
+    fn matches_height(&self) -> bool {
+        self.match_height
+    }
+
+    fn prior(&self) -> f64 {
+        self.prior
+    }
+}
+
 impl Method for Evolution {
     fn name(&self) -> &'static str {
         "evolution"
@@ -148,5 +167,13 @@ impl Method for Evolution {
         if self.lane.idle() * members.len() as u64 > patience {
             self.change_lanes();
         }
+    }
+
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+        self.round <= generations
+            && self.lanes_begun <= generations
+            && self.champions.len() <= self.settings.lanes.max(1)
+            && self.champions.iter().all(|champion| is_individual(&champion.genome, space))
+            && self.lane.suits(space, &self.settings, generations, pending)
     }
 }

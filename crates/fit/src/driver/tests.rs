@@ -1,10 +1,13 @@
 //! The driver on functions whose minimum is known.
 
 use super::*;
-use crate::settings::Optimizer;
+use crate::budget::Clock;
+use crate::control::CheckpointSettings;
+use crate::optimizer::Optimizer;
 use crate::space::{Freedom, TreeSeed};
 use crate::testing::{Function, choice, flagged, integer, params, real};
 use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
 
 /// Distance from a needle in a mixed space.
 fn needle(values: &[f64]) -> f64 {
