@@ -135,8 +135,9 @@ fn without_a_guess_the_problem_is_as_it_is() {
 
     let nothing = Limits { stems: 0, ..Limits::DEFAULT };
     let search = FitSettings { limits: nothing, ..plain.search.clone() };
-    let control = Control::new(&still, &AtomicBool::new(false));
-    let error = fit_goal(&problem, &GoalSettings { search, ..plain }, control).unwrap_err();
+    let stop = AtomicBool::new(false);
+    let plain = GoalSettings { search, ..plain };
+    let error = fit_goal(&problem, &plain, Control::new(&still, &stop)).unwrap_err();
     assert!(matches!(error, FitError::NothingGrew { evaluations: 60 }), "{error}");
 }
 
