@@ -26,8 +26,8 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::fs;
 use std::io::Write as _;
-use std::sync::atomic::AtomicBool;
 use std::sync::LazyLock;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 const TREE_SEED: u64 = 1;

@@ -52,7 +52,11 @@ impl<'a> Control<'a> {
         Control {
             clock: self.clock,
             stop: self.stop,
-            observers: self.observers.iter_mut().map(|observer| &mut **observer as &mut dyn Observer).collect(),
+            observers: self
+                .observers
+                .iter_mut()
+                .map(|observer| &mut **observer as &mut dyn Observer)
+                .collect(),
             checkpoint: self.checkpoint.clone(),
         }
     }

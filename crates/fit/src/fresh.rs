@@ -1,10 +1,10 @@
 //! What parameters are worth with other seeds than the one that was fitted.
 
+use crate::error::FitError;
 use crate::evaluator::Evaluator;
-use crate::problem::FitProblem;
 use crate::genome::{Genome, Score};
 use crate::objective::Objective;
-use crate::error::FitError;
+use crate::problem::FitProblem;
 use crate::stoppable;
 use pleach_tree::Limits;
 use serde::Serialize;

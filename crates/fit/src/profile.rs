@@ -1,9 +1,9 @@
 //! What a picture cannot tell: how far each number can move before anyone sees it.
 
-use crate::evaluator::Evaluator;
-use crate::problem::FitProblem;
-use crate::genome::{Genome, Scored};
 use crate::error::FitError;
+use crate::evaluator::Evaluator;
+use crate::genome::{Genome, Scored};
+use crate::problem::FitProblem;
 use crate::run::search_space;
 use crate::settings::FitSettings;
 use crate::space::{Gene, SearchSpace};

@@ -81,7 +81,11 @@ impl<M> SearchState<M> {
     {
         self.members.len() >= self.scores.len()
             && (self.members.is_empty() || self.scores.len() < self.members.len())
-            && self.members.iter().chain(self.best.iter().map(|best| &best.genome)).all(|g| is_individual(g, space))
+            && self
+                .members
+                .iter()
+                .chain(self.best.iter().map(|best| &best.genome))
+                .all(|g| is_individual(g, space))
             && self.method.suits(space, self.generation, self.members.len())
     }
 }
@@ -201,9 +205,9 @@ impl<M: Method> AskTell for Search<M> {
 mod tests {
     use super::*;
     use crate::method::{Random, RandomSettings};
+    use crate::solver::{ArgminSolver, FitState};
     use crate::space::{Freedom, TreeSeed};
     use crate::testing::{Function, cube};
-    use crate::solver::{ArgminSolver, FitState};
     use argmin::core::{Executor, State};
 
     fn search() -> Search<Random> {
@@ -215,7 +219,8 @@ mod tests {
 
     fn run(search: Search<Random>) -> (SearchState<Random>, FitState) {
         let sphere = Function(argmin_testfunctions::sphere);
-        let result = Executor::new(sphere, ArgminSolver(search)).configure(|s| s.counting(true)).run().unwrap();
+        let result =
+            Executor::new(sphere, ArgminSolver(search)).configure(|s| s.counting(true)).run().unwrap();
         (result.solver.0.state, result.state)
     }
 

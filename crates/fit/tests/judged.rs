@@ -6,8 +6,9 @@ mod common;
 
 use common::goal_of;
 use pleach_fit::{
-    Budget, Control, EvalWorkspace, Evaluator, FIT_LIMITS, FitError, FitProblem, FitSettings, Freedom, Genome, Objective,
-    Score, Scored, Seen, Start, TreeSeed, fit, fresh_seeds, profile, put_back_unseen, settled,
+    Budget, Control, EvalWorkspace, Evaluator, FIT_LIMITS, FitError, FitProblem, FitSettings, Freedom,
+    Genome, Objective, Score, Scored, Seen, Start, TreeSeed, fit, fresh_seeds, profile, put_back_unseen,
+    settled,
 };
 use std::num::NonZeroU32;
 use std::sync::atomic::AtomicBool;
@@ -106,7 +107,8 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
     let unseen = |slot| profiles.iter().any(|p| p.slot == slot && p.seen == Seen::NotSeen);
     assert!(slots.iter().all(|&slot| unseen(slot)));
     // Nor do they go back to the start.
-    let (kept, _) = put_back_unseen(&problem, &settings, &best, &profiles, base(&problem), 0.01, &GO).unwrap();
+    let (kept, _) =
+        put_back_unseen(&problem, &settings, &best, &profiles, base(&problem), 0.01, &GO).unwrap();
     assert!(slots.iter().all(|&slot| kept.genome.values[slot] == 0.0));
 
     // The dissertation's algorithm searches them, and what is fixed stays.

@@ -6,7 +6,8 @@ mod common;
 
 use common::goal_of;
 use pleach_fit::{
-    Budget, Control, Evaluator, FIT_LIMITS, FitError, FitSettings, Freedom, Objective, ProblemError, Start, fit,
+    Budget, Control, Evaluator, FIT_LIMITS, FitError, FitSettings, Freedom, Objective, ProblemError, Start,
+    fit,
 };
 use pleach_silhouette::Bitmap;
 use pleach_tree::Limits;

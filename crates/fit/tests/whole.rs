@@ -108,7 +108,8 @@ fn the_search_is_the_same_as_by_hand_and_the_library_changes_nothing() {
     let problem = goal_of("palm", 4, 64);
     let settings = settings(150);
     let whole = run(&problem, &settings);
-    let by_hand = fit(&whole.problem, &whole.settings, Control::new(&still, &AtomicBool::new(false))).unwrap();
+    let by_hand =
+        fit(&whole.problem, &whole.settings, Control::new(&still, &AtomicBool::new(false))).unwrap();
     assert_eq!(by_hand, whole.outcome);
     assert!(matches!(&whole.settings.start, Start::Lists(lists) if lists.len() > 1));
     assert_eq!(whole.species().unwrap().name, "palm");

@@ -1,16 +1,16 @@
 //! The line of text before a checkpoint's body, and its checksum.
 
-use super::CheckpointError;
+use super::error::CheckpointError;
 use std::path::Path;
 
 /// The number in the header; files of other formats are refused.
-pub(super) const FORMAT: u32 = 4;
+const FORMAT: u32 = 4;
 const MAGIC: &str = "pleach-checkpoint";
 /// Longest header in bytes: names of generators and optimisers are short.
 const MAX_HEADER: usize = 200;
 
 /// Header and body; `of` is the word that says what the state belongs to.
-pub(super) fn sealed(of: &str, body: &[u8]) -> Vec<u8> {
+pub(crate) fn sealed(of: &str, body: &[u8]) -> Vec<u8> {
     let start = format!("{MAGIC} {FORMAT} {of} {} ", body.len());
     let checksum = checksum(start.as_bytes(), body);
     [format!("{start}{checksum:08x}\n").as_bytes(), body].concat()
@@ -27,7 +27,11 @@ pub(super) fn opened<'a>(path: &Path, bytes: &'a [u8]) -> Result<&'a [u8], Check
         return Err(not_one());
     }
     if format != FORMAT.to_string() {
-        return Err(CheckpointError::OtherFormat { path: path.to_owned(), found: format.to_owned() });
+        return Err(CheckpointError::OtherFormat {
+            path: path.to_owned(),
+            found: format.to_owned(),
+            expected: FORMAT,
+        });
     }
     let [_, _, length, digits] = rest.split(' ').collect::<Vec<_>>()[..] else {
         return Err(not_one());

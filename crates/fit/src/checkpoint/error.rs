@@ -1,6 +1,5 @@
 //! Why a checkpoint was not read or written.
 
-use super::envelope::FORMAT;
 use pleach_tree::param::SlotError;
 use std::io;
 use std::path::PathBuf;
@@ -26,7 +25,7 @@ pub enum CheckpointError {
     },
     /// A checkpoint of another version of pleach.
     #[error(
-        "{path} is a checkpoint of format {found}, and this pleach reads format {FORMAT}: finish the fit with \
+        "{path} is a checkpoint of format {found}, and this pleach reads format {expected}: finish the fit with \
          the version of pleach that began it, or start anew"
     )]
     OtherFormat {
@@ -34,6 +33,8 @@ pub enum CheckpointError {
         path: PathBuf,
         /// The format in its header.
         found: String,
+        /// The format that this version reads and writes.
+        expected: u32,
     },
     /// The file ends too early, or goes on too long.
     #[error("{path} is damaged: the header promises {expected} bytes, there are {found}")]

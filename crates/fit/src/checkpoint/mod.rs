@@ -27,6 +27,9 @@ use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::Path;
 
+#[cfg(test)]
+pub(crate) use envelope::sealed;
+
 /// What a checkpoint holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Checkpoint<M> {
@@ -91,8 +94,8 @@ impl<M: DeserializeOwned> Checkpoint<M> {
         if !differences.is_empty() {
             return Err(CheckpointError::OtherRun { path: path_buf(), differences });
         }
-        let (checkpoint, rest) = postcard::take_from_bytes::<Self>(body)
-            .map_err(|error| wrong(BodyProblem::Form(error)))?;
+        let (checkpoint, rest) =
+            postcard::take_from_bytes::<Self>(body).map_err(|error| wrong(BodyProblem::Form(error)))?;
         if !rest.is_empty() {
             return Err(wrong(BodyProblem::Trailing { bytes: rest.len() }));
         }

@@ -23,10 +23,12 @@ impl Candidate {
     pub fn among(known: impl IntoIterator<Item = Species>) -> Vec<Self> {
         let known: Vec<Species> = known.into_iter().collect();
         let is_plain = |species: &Species| species.generator.extra_toml().is_empty();
-        let plain: BTreeSet<&'static str> =
-            known.iter().filter(|species| is_plain(species)).map(|species| species.generator.family()).collect();
-        let takes_part =
-            |species: &Species| is_plain(species) || !plain.contains(species.generator.family());
+        let plain: BTreeSet<&'static str> = known
+            .iter()
+            .filter(|species| is_plain(species))
+            .map(|species| species.generator.family())
+            .collect();
+        let takes_part = |species: &Species| is_plain(species) || !plain.contains(species.generator.family());
         known.into_iter().filter(takes_part).map(|species| Self { species }).collect()
     }
 

@@ -1,8 +1,10 @@
 //! Trees of the known species, grown once and compared with many goals.
 
+use super::candidate::Candidate;
 use super::plate::{Plate, side_for};
+use super::settings::GuessSettings;
+use super::shown::Shown;
 use super::tries::{Try, tries};
-use super::{BATCH, Candidate, GuessSettings, Shown};
 use crate::error::FitError;
 use crate::evaluator::{Evaluator, height_of};
 use crate::problem::{FitProblem, identity};
@@ -11,6 +13,8 @@ use crate::stoppable;
 use pleach_silhouette::{Bitmap, Frame, View};
 use pleach_tree::{Foliage, Limits};
 
+/// Trees between two calls of the observer: enough to keep the threads busy.
+const BATCH: usize = 32;
 /// The trees that goals are compared with, kept from goal to goal.
 ///
 /// What is kept does not depend on a goal but for the side from which it was taken and, roughly, its

@@ -14,11 +14,14 @@ mod candidate;
 mod library;
 mod plate;
 mod references;
+mod settings;
+mod shown;
 mod tries;
 
 pub use candidate::Candidate;
 pub use library::GuessLibrary;
 pub use references::{Reference, References};
+pub use settings::GuessSettings;
 
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
@@ -34,30 +37,9 @@ use candidate::Models;
 use library::{Entry, Resemblance, compare};
 use pleach_silhouette::Bitmap;
 use pleach_tree::{Foliage, Species};
+use shown::Shown;
 use std::sync::atomic::AtomicBool;
 use tries::trees_of;
-
-/// How much is tried for a first guess.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GuessSettings {
-    /// Varied copies of each candidate.
-    pub variants: u32,
-    /// Standard deviation of a varied number, as a part of the number itself.
-    pub spread: f64,
-    /// Trees of each candidate as it is, of different seeds: what names are decided by.
-    pub seeds: u32,
-    /// Lists that are returned, at most.
-    pub keep: usize,
-    /// Whether the goal is looked at with leaves and without, and taken for what it is more like; if
-    /// not, `FitProblem::foliage` says it.
-    pub detect_leaves: bool,
-}
-
-impl Default for GuessSettings {
-    fn default() -> Self {
-        Self { variants: 8, spread: 0.15, seeds: 3, keep: 10, detect_leaves: false }
-    }
-}
 
 /// What a goal looks like before any search.
 #[derive(Clone, Debug)]
@@ -102,8 +84,6 @@ pub struct Guess {
     pub score: Score,
 }
 
-/// Trees between two calls of the observer: enough to keep the threads busy.
-const BATCH: usize = 32;
 /// Of the trees that look most like the goal, this many times those that are kept are scored by what
 /// the search makes small.
 const ALIKE: usize = 3;
@@ -206,33 +186,6 @@ impl GuessLibrary {
     }
 }
 
-/// Goals, what they are compared with, and how.
-struct Shown<'a> {
-    /// The goals whose views are known.
-    problem: &'a FitProblem,
-    candidates: &'a [Candidate],
-    models: Models,
-    settings: &'a FitSettings,
-    stop: &'a AtomicBool,
-}
-
-impl<'a> Shown<'a> {
-    fn new(
-        problem: &'a FitProblem,
-        candidates: &'a [Candidate],
-        looks: &Evaluator,
-        settings: &'a FitSettings,
-        stop: &'a AtomicBool,
-    ) -> Self {
-        Self { problem, candidates, models: Models::new(candidates, looks), settings, stop }
-    }
-
-    /// Makes the tree of `values` larger by `factor`, if the candidate's generator can.
-    fn resize(&self, candidate: usize, values: &mut [f64], factor: f64) -> bool {
-        self.candidates[candidate].species.generator.resize(values, factor)
-    }
-}
-
 /// Whether the goals have leaves, if that is to be `detected`, and how trees like that compare with them.
 fn leaves(
     shown: &Shown<'_>,
@@ -246,10 +199,8 @@ fn leaves(
     }
     let other = if given == Foliage::None { Foliage::All } else { Foliage::None };
     let found_other = compare(shown, entries, other)?;
-    let [leafy, bare] =
-        if given == Foliage::None { [&found_other, &found] } else { [&found, &found_other] };
-    let foliage =
-        if has_leaves(most_alike(leafy), most_alike(bare)) { Foliage::All } else { Foliage::None };
+    let [leafy, bare] = if given == Foliage::None { [&found_other, &found] } else { [&found, &found_other] };
+    let foliage = if has_leaves(most_alike(leafy), most_alike(bare)) { Foliage::All } else { Foliage::None };
     Ok(if foliage == given { (given, found) } else { (other, found_other) })
 }
 
@@ -315,7 +266,8 @@ fn pictures_of(
     let is_one = |entry: &Entry| entry.attempt.is_species && entry.attempt.candidate == named;
     let there = entries.iter().filter(|entry| is_one(entry)).count() as u64;
     let seeds = there..TREES_OF_SPECIES.max(there);
-    let more = library::shown_once(shown, trees_of(shown.settings, shown.candidates, named, seeds)?, foliage)?;
+    let more =
+        library::shown_once(shown, trees_of(shown.settings, shown.candidates, named, seeds)?, foliage)?;
     let known =
         entries.iter().zip(found).filter(|(entry, _)| is_one(entry)).filter_map(|(_, found)| found.as_ref());
     Ok(known.map(|found| found.pictures.clone()).chain(more.into_iter().map(|one| one.pictures)).collect())

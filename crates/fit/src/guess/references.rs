@@ -1,6 +1,6 @@
 //! What a likeness is worth: what other trees, and no tree at all, would have for the same goal.
 
-use super::Candidate;
+use super::candidate::Candidate;
 use super::library::{Entry, Resemblance};
 use crate::problem::FitProblem;
 use pleach_silhouette::Bitmap;

@@ -1,6 +1,7 @@
 //! The trees that a goal is compared with: candidates as they are, and varied.
 
-use super::{Candidate, GuessSettings};
+use super::candidate::Candidate;
+use super::settings::GuessSettings;
 use crate::error::FitError;
 use crate::genome::Genome;
 use crate::settings::FitSettings;

@@ -6,7 +6,8 @@ use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use crate::output;
 use anyhow::Context;
 use pleach_fit::{
-    Budget, Control, FitProblem, FitSettings, Genome, GoalView, Objective, Optimizer, Outcome, Start, TreeSeed,
+    Budget, Control, FitProblem, FitSettings, Genome, GoalView, Objective, Optimizer, Outcome, Start,
+    TreeSeed,
 };
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::picture;

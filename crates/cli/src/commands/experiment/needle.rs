@@ -6,8 +6,8 @@ use super::within::{List, Part, Real, SpeciesName, Whole};
 use super::{Journal, Kind, Outputs, Slice, Table, progress};
 use crate::{input, output};
 use pleach_fit::{
-    Evaluate, Evaluator, FIT_LIMITS, FitProblem, Freedom, Gene, Genome, GoalView, Objective, SearchSpace, Size,
-    Stream, TreeSeed,
+    Evaluate, Evaluator, FIT_LIMITS, FitProblem, Freedom, Gene, Genome, GoalView, Objective, SearchSpace,
+    Size, Stream, TreeSeed,
 };
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
@@ -114,9 +114,8 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
     let fixed = TreeSeed::Fixed(TREE_SEED);
     let space = SearchSpace::new(Arc::clone(generator), &truth.values, &Freedom::default(), fixed)?;
     // What is switched off, and what another choice would make another tree, stays as it is.
-    let is_moved = |gene: &&Gene| {
-        !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_read(&truth.values, gene)
-    };
+    let is_moved =
+        |gene: &&Gene| !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_read(&truth.values, gene);
     let moved: Vec<_> = space.genes().iter().filter(is_moved).collect();
     let evaluator = Evaluator::new(&problem, Objective::Iou, FIT_LIMITS)?.matching_height();
     let mut rows = Vec::new();

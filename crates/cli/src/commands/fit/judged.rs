@@ -40,11 +40,8 @@ pub(super) fn table(judged: &Judged, best: &Genome, space: &ParamSpace) -> Vec<V
             Seen::Loosely => "loosely",
             Seen::NotSeen => "not-seen",
         };
-        let mut row = vec![
-            space.slot_name(profile.slot),
-            best.values[profile.slot].to_string(),
-            seen.to_owned(),
-        ];
+        let mut row =
+            vec![space.slot_name(profile.slot), best.values[profile.slot].to_string(), seen.to_owned()];
         row.extend(profile.rises.iter().flatten().map(|rise| {
             rise.filter(|rise| rise.is_finite()).map_or_else(String::new, |rise| format!("{rise:.5}"))
         }));

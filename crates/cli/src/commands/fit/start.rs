@@ -175,9 +175,8 @@ impl From {
         start: &Species,
         search: &FitSettings,
     ) -> anyhow::Result<GoalSettings> {
-        let check = |species: &Species| {
-            check_freedom(species.generator.space(), &search.freedom, search.tree_seed)
-        };
+        let check =
+            |species: &Species| check_freedom(species.generator.space(), &search.freedom, search.tree_seed);
         let mut search = search.clone();
         let mut candidates = Candidate::among(generator.known());
         let guess = match self {
@@ -220,7 +219,10 @@ mod tests {
         let from: From = "palm".parse().unwrap();
         assert!(from.species(&GeneratorChoice::Family("weber-penn")).is_ok());
         let error = from.species(&GeneratorChoice::Family("lsystem")).unwrap_err().to_string();
-        assert!(error.contains("palm") && error.contains("weber-penn") && error.contains("lsystem"), "{error}");
+        assert!(
+            error.contains("palm") && error.contains("weber-penn") && error.contains("lsystem"),
+            "{error}"
+        );
     }
 
     #[test]
@@ -251,7 +253,8 @@ mod tests {
         for from in ["auto", "random", "palm"] {
             let from: From = from.parse().unwrap();
             let start = from.species(&GeneratorChoice::Auto).unwrap();
-            let error = from.plan(&GeneratorChoice::Auto, Leaves::Auto, &start, &search).unwrap_err().to_string();
+            let error =
+                from.plan(&GeneratorChoice::Auto, Leaves::Auto, &start, &search).unwrap_err().to_string();
             assert!(error.contains("lenght"), "{error}");
         }
     }

@@ -11,8 +11,8 @@ use pleach_fit::{COLUMNS, Fitted, FreshSeeds, References, Row, StopReason, Verdi
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::picture::Picture;
 use pleach_silhouette::score::ScoreCard;
-use pleach_tree::{Foliage, Species};
 use pleach_tree::dendrometry::Dendrometry;
+use pleach_tree::{Foliage, Species};
 use serde::Serialize;
 use serde_json::Value;
 use std::path::Path;

@@ -1,7 +1,8 @@
 //! One population and what it has learnt.
 
-use super::{EvolutionSettings, is_individual};
+use super::super::is_individual;
 use super::moves::{Birth, Breeder, Move};
+use super::settings::EvolutionSettings;
 use crate::genome::{Genome, Score, Scored};
 use crate::space::SearchSpace;
 use crate::stream::Stream;

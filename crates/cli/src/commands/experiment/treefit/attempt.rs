@@ -5,7 +5,7 @@ use super::spec::{From, MethodSpec};
 use super::{FRESH, stop};
 use pleach_fit::{
     Budget, Candidate, Control, FirstGuess, FitProblem, FitSettings, FreshSeeds, GoalSettings, GoalView,
-    Guessing, GuessSettings, Objective, TreeSeed, first_guess, fit_goal, fresh_seeds,
+    GuessSettings, Guessing, Objective, TreeSeed, first_guess, fit_goal, fresh_seeds,
 };
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::score::likeness::Likeness;
