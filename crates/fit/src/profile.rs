@@ -1,8 +1,10 @@
 //! What a picture cannot tell: how far each number can move before anyone sees it.
 
-use crate::evaluator::{Evaluator, FitProblem};
+use crate::error::FitError;
+use crate::evaluator::Evaluator;
 use crate::genome::{Genome, Scored};
-use crate::run::{FitError, search_space};
+use crate::problem::FitProblem;
+use crate::run::search_space;
 use crate::settings::FitSettings;
 use crate::space::{Gene, SearchSpace};
 use crate::stoppable;
@@ -30,13 +32,13 @@ pub struct Profile {
     pub slot: Slot,
     /// How well it is determined.
     pub seen: Seen,
-    /// By how much the cost rises when the number goes down, and up, by [`STEPS`] of its search range;
+    /// By how much the cost rises when the number goes down, and up, by [`PROFILE_STEPS`] of its search range;
     /// for a choice only the least of all other choices. None beyond the range.
     pub rises: [[Option<f64>; 2]; 2],
 }
 
 /// The two moves, as parts of the search range.
-pub const STEPS: [f64; 2] = [0.05, 0.2];
+pub const PROFILE_STEPS: [f64; 2] = [0.05, 0.2];
 
 /// How much of the tolerance may be spent on putting numbers back that are not seen.
 const SPENT_ON_RETURN: f64 = 0.1;
@@ -93,7 +95,7 @@ pub fn profile(
         .collect())
 }
 
-/// One trial: which of [`STEPS`] and which side, and its number among all trials.
+/// One trial: which of [`PROFILE_STEPS`] and which side, and its number among all trials.
 struct Move {
     place: (usize, usize),
     number: usize,
@@ -107,7 +109,7 @@ fn alternatives(gene: &Gene, value: f64) -> Vec<((usize, usize), f64)> {
     }
     let unit = gene.to_unit(value);
     let mut list = Vec::new();
-    for (step, size) in STEPS.iter().enumerate() {
+    for (step, size) in PROFILE_STEPS.iter().enumerate() {
         for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
             let there = unit + sign * size;
             let other = gene.from_unit(there.clamp(0.0, 1.0));

@@ -113,7 +113,7 @@ impl fmt::Display for SettingKind {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::Optimizer;
+    use crate::optimizer::Optimizer;
     use serde_json::Value;
 
     /// As the JSON of an optimiser's settings has them.

@@ -2,14 +2,14 @@
 
 mod gene;
 mod prior;
+mod unknown;
 
 pub use gene::{Gene, Place};
 pub use prior::PRIOR;
 use prior::Prior;
 
-use crate::evaluator::FitProblem;
 use crate::genome::Genome;
-use crate::nuisance;
+use crate::problem::FitProblem;
 use crate::stream::Stream;
 use pleach_tree::param::Problem;
 use pleach_tree::{Generator, ParamSpace, Slot};
@@ -129,10 +129,11 @@ impl SearchSpace {
         freedom: &Freedom,
         tree_seed: TreeSeed,
     ) -> Result<Self, SpaceError> {
-        let params = Arc::clone(problem.generator.space());
-        let unknown = nuisance::genes(&problem.goals);
-        let mut space = Self::build(params, &problem.base, freedom, tree_seed, unknown)?;
-        space.generator = Some(Arc::clone(&problem.generator));
+        let start = &problem.start;
+        let params = start.generator.space().clone();
+        let unknown = unknown::genes(&problem.goals);
+        let mut space = Self::build(params, start.params.values(), freedom, tree_seed, unknown)?;
+        space.generator = Some(Arc::clone(&start.generator));
         Ok(space)
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Area, draws, grown};
 use crate::robustness::worker::Verdict;
-use pleach_fit::stream::Stream;
+use pleach_fit::Stream;
 use pleach_tree::Species;
 use std::path::Path;
 

@@ -1,6 +1,5 @@
 //! How children differ from their parents.
 
-use crate::exact;
 use crate::genome::{Genome, Scored};
 use crate::space::{Gene, SearchSpace, TreeSeed};
 use crate::stream::Stream;
@@ -9,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// A way to make a child.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Move {
+pub(super) enum Move {
     /// One number by its step.
     One,
     /// Two to seven numbers by their steps.
@@ -30,7 +29,7 @@ pub enum Move {
 
 impl Move {
     /// All moves, in the order of their numbers.
-    pub const ALL: [Self; 8] = [
+    pub(super) const ALL: [Self; 8] = [
         Self::One,
         Self::Few,
         Self::Cross,
@@ -46,7 +45,6 @@ impl Move {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Birth {
     pub(super) by: Move,
-    #[serde(with = "exact::number")]
     pub(super) parent_cost: f64,
     /// Genes that were changed by their steps.
     pub(super) genes: Vec<usize>,

@@ -1,0 +1,75 @@
+//! The species that a goal may be of, and the models that grow them.
+
+use crate::evaluator::Evaluator;
+use crate::problem::identity;
+use pleach_tree::Species;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// A species that a goal may be of, of any family of generators.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// The species; its name is what a goal is said to look like.
+    pub species: Species,
+}
+
+impl Candidate {
+    /// The candidates among the species that are known.
+    ///
+    /// In a family some of whose species have nothing but numbers, those that have more (solids that
+    /// prune them) are shapes for special places, and are left out. Where every species has more (a
+    /// grammar), all of them take part.
+    #[must_use]
+    pub fn among(known: impl IntoIterator<Item = Species>) -> Vec<Self> {
+        let known: Vec<Species> = known.into_iter().collect();
+        let is_plain = |species: &Species| species.generator.extra_toml().is_empty();
+        let plain: BTreeSet<&'static str> = known
+            .iter()
+            .filter(|species| is_plain(species))
+            .map(|species| species.generator.family())
+            .collect();
+        let takes_part = |species: &Species| is_plain(species) || !plain.contains(species.generator.family());
+        known.into_iter().filter(takes_part).map(|species| Self { species }).collect()
+    }
+
+    pub(super) fn values(&self) -> &[f64] {
+        self.species.params.values()
+    }
+}
+
+/// The models of candidates, each once.
+#[derive(Debug)]
+pub(super) struct Models {
+    /// An evaluator of each.
+    evaluators: Vec<Evaluator>,
+    /// The number of each candidate's model.
+    of_candidate: Vec<usize>,
+}
+
+impl Models {
+    /// Those of `candidates`, with evaluators that are like `base`.
+    pub(super) fn new(candidates: &[Candidate], base: &Evaluator) -> Self {
+        let mut known: Vec<String> = Vec::new();
+        let mut models = Self { evaluators: Vec::new(), of_candidate: Vec::new() };
+        for Candidate { species } in candidates {
+            let identity = identity(species);
+            let model = known.iter().position(|one| *one == identity).unwrap_or_else(|| {
+                known.push(identity);
+                models.evaluators.push(base.with_generator(Arc::clone(&species.generator)));
+                known.len() - 1
+            });
+            models.of_candidate.push(model);
+        }
+        models
+    }
+
+    /// The number of the model of candidate number `candidate`.
+    pub(super) fn number(&self, candidate: usize) -> usize {
+        self.of_candidate[candidate]
+    }
+
+    /// Its evaluator.
+    pub(super) fn evaluator(&self, candidate: usize) -> &Evaluator {
+        &self.evaluators[self.of_candidate[candidate]]
+    }
+}
