@@ -48,7 +48,7 @@ impl Guesses {
                 let found = first_guess(
                     problem,
                     settings,
-                    &Candidate::among(known),
+                    &known.map(Candidate::from).collect::<Vec<_>>(),
                     &GuessSettings::default(),
                     stop::flag(),
                     |_, _| (),
