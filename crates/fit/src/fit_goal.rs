@@ -116,7 +116,7 @@ impl Fitted {
 ///
 /// let problem = FitProblem::new(known[0].clone(), GoalView::new(picture, View::FRONT, frame));
 /// let search = FitSettings { budget: Budget::evaluations(100), ..FitSettings::default() };
-/// let settings = GoalSettings { search, ..GoalSettings::new(Candidate::among(known)) };
+/// let settings = GoalSettings { search, ..GoalSettings::new(known.map(Candidate::from).into()) };
 /// let started = std::time::Instant::now();
 /// let (clock, stop) = (|| started.elapsed(), std::sync::atomic::AtomicBool::new(false));
 /// let fitted = fit_goal(&problem, &settings, Control::new(&clock, &stop))?;

@@ -10,7 +10,7 @@ pub struct Genome {
     /// One value for every slot of the generator's [`pleach_tree::ParamSpace`], free or not, as in
     /// species files (degrees, metres).
     pub values: Vec<f64>,
-    /// What is not known of the views, goal by goal: see [`crate::nuisance`]. Empty if all is.
+    /// What is not known of the views, goal by goal: see [`crate::Unknown`]. Empty if all is.
     pub nuisances: Vec<f64>,
     /// Seed of the tree.
     pub tree_seed: u64,

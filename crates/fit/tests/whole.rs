@@ -17,7 +17,7 @@ use std::time::Duration;
 fn settings(evaluations: u64) -> GoalSettings {
     let known = ["palm", "bamboo", "small_pine"].map(|name| pleach_generators::preset(name).unwrap());
     let search = FitSettings { budget: Budget::evaluations(evaluations), ..FitSettings::default() };
-    GoalSettings { search, ..GoalSettings::new(Candidate::among(known)) }
+    GoalSettings { search, ..GoalSettings::new(known.map(Candidate::from).into()) }
 }
 
 fn still() -> Duration {

@@ -3,7 +3,6 @@
 use crate::evaluator::Evaluator;
 use crate::problem::identity;
 use pleach_tree::Species;
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// A species that a goal may be of, of any family of generators.
@@ -13,25 +12,13 @@ pub struct Candidate {
     pub species: Species,
 }
 
-impl Candidate {
-    /// The candidates among the species that are known.
-    ///
-    /// In a family some of whose species have nothing but numbers, those that have more (solids that
-    /// prune them) are shapes for special places, and are left out. Where every species has more (a
-    /// grammar), all of them take part.
-    #[must_use]
-    pub fn among(known: impl IntoIterator<Item = Species>) -> Vec<Self> {
-        let known: Vec<Species> = known.into_iter().collect();
-        let is_plain = |species: &Species| species.generator.extra_toml().is_empty();
-        let plain: BTreeSet<&'static str> = known
-            .iter()
-            .filter(|species| is_plain(species))
-            .map(|species| species.generator.family())
-            .collect();
-        let takes_part = |species: &Species| is_plain(species) || !plain.contains(species.generator.family());
-        known.into_iter().filter(takes_part).map(|species| Self { species }).collect()
+impl From<Species> for Candidate {
+    fn from(species: Species) -> Self {
+        Self { species }
     }
+}
 
+impl Candidate {
     pub(super) fn values(&self) -> &[f64] {
         self.species.params.values()
     }

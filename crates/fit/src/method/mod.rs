@@ -2,7 +2,7 @@
 //!
 //! A [`Method`] only asks and tells. Evaluating is the caller's: through [`crate::Search`], which argmin
 //! runs, or by hand in a loop. Every method is a plain value: its whole state is written
-//! to checkpoints, and its draws are those of [`crate::stream::Stream`], addressed by generation.
+//! to checkpoints, and its draws are those of [`crate::Stream`], addressed by generation.
 //!
 //! | method | idea | source |
 //! | --- | --- | --- |

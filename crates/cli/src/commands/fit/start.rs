@@ -178,7 +178,7 @@ impl From {
         let check =
             |species: &Species| check_freedom(species.generator.space(), &search.freedom, search.tree_seed);
         let mut search = search.clone();
-        let mut candidates = Candidate::among(generator.known());
+        let mut candidates: Vec<Candidate> = generator.known().map(Candidate::from).collect();
         let guess = match self {
             Self::Auto => {
                 candidates.retain(|candidate| check(&candidate.species).is_ok());
@@ -235,9 +235,8 @@ mod tests {
         };
         let (auto, _) = plan("auto");
         assert!(matches!(auto.guess, Guessing::Compare(how) if how.detect_leaves));
-        // Those with solids to be pruned by are left out.
         assert_eq!(auto.candidates[0].species.name, "quaking_aspen");
-        assert!(auto.candidates.iter().all(|one| one.species.generator.extra_toml().is_empty()));
+        assert_eq!(auto.candidates.len(), pleach_generators::names().len());
         let (random, start) = plan("random");
         assert_eq!((random.search.start, start.name.as_str()), (Start::Random, "quaking_aspen"));
         let (palm, start) = plan("palm");

@@ -2,8 +2,8 @@
 //! the population when it stagnates (IPOP: Auger and Hansen 2005).
 //!
 //! A normal distribution over the free numbers, each in the units of
-//! [`crate::space::Gene::to_unit`], is drawn from and moved to what was good. What a coordinate stands
-//! for is said in [`coding`]; [`margin`] keeps whole numbers and choices moving.
+//! [`crate::Gene::to_unit`], is drawn from and moved to what was good. What a coordinate stands
+//! for is said in `coding.rs`; `margin.rs` keeps whole numbers and choices moving.
 //!
 //! Individuals come back changed: resized to the goal's height, variations of size set to zero
 //! ([`crate::Search`]). The distribution learns from the numbers *as it drew them*. To it, that change

@@ -8,7 +8,7 @@
 //!   more often the more it has helped;
 //! - other children cross two parents, go along the difference of two others (Storn and Price 1997),
 //!   move everything a little, draw a number anew from its whole range, or set one to zero. How often
-//!   each move is tried follows from what it has brought ([`moves`]);
+//!   each move is tried follows from what it has brought (`moves.rs`);
 //! - reals, whole numbers, switches and choices are changed each in its own way, and numbers that the
 //!   tree does not depend on ([`pleach_tree::Generator::is_active`]) are left alone;
 //! - the population begins with the best of a batch of random lists, in which numbers that may be

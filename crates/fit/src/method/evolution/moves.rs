@@ -80,7 +80,6 @@ impl Breeder<'_> {
             child.tree_seed = SearchSpace::random_seed(draws);
             return (child, birth);
         }
-        let other = |draws: &mut Stream| &self.population[draws.below(self.population.len())].genome;
         match birth.by {
             Move::One | Move::Seed => {
                 birth.by = Move::One;
@@ -91,27 +90,8 @@ impl Breeder<'_> {
                     birth.genes.push(self.step(&read, &mut child, draws));
                 }
             }
-            Move::Cross => {
-                let from = other(draws);
-                let share = if draws.chance(0.5) { 0.1 } else { 0.5 };
-                for gene in read.iter().map(|&g| self.gene(g)) {
-                    if draws.chance(share) {
-                        gene.set(&mut child, gene.of(from));
-                    }
-                }
-                self.step(&read, &mut child, draws);
-            }
-            Move::Difference => {
-                let (to, from) = (other(draws), other(draws));
-                let share = draws.unit().powi(2);
-                let factor = 0.2 + 0.8 * draws.unit();
-                for gene in read.iter().map(|&g| self.gene(g)) {
-                    if draws.chance(share) {
-                        along(gene, &mut child, to, from, factor);
-                    }
-                }
-                self.step(&read, &mut child, draws);
-            }
+            Move::Cross => self.cross(&read, &mut child, draws),
+            Move::Difference => self.follow_difference(&read, &mut child, draws),
             Move::All => {
                 let scale = 1.0 / (read.len() as f64).sqrt();
                 for &g in read.iter().filter(|&&g| !self.gene(g).is_choice()) {
@@ -144,6 +124,36 @@ impl Breeder<'_> {
             }
         }
         (child, birth)
+    }
+
+    /// Takes numbers of another parent, and one step.
+    fn cross(&self, read: &[usize], child: &mut Genome, draws: &mut Stream) {
+        let from = self.other(draws);
+        let share = if draws.chance(0.5) { 0.1 } else { 0.5 };
+        for gene in read.iter().map(|&g| self.gene(g)) {
+            if draws.chance(share) {
+                gene.set(child, gene.of(from));
+            }
+        }
+        self.step(read, child, draws);
+    }
+
+    /// Moves numbers along the difference of two others, and one step.
+    fn follow_difference(&self, read: &[usize], child: &mut Genome, draws: &mut Stream) {
+        let (to, from) = (self.other(draws), self.other(draws));
+        let share = draws.unit().powi(2);
+        let factor = 0.2 + 0.8 * draws.unit();
+        for gene in read.iter().map(|&g| self.gene(g)) {
+            if draws.chance(share) {
+                along(gene, child, to, from, factor);
+            }
+        }
+        self.step(read, child, draws);
+    }
+
+    /// Any of the population.
+    fn other(&self, draws: &mut Stream) -> &Genome {
+        &self.population[draws.below(self.population.len())].genome
     }
 
     fn gene(&self, number: usize) -> &Gene {

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! where x is the target, b one of the best, r another individual, and s another or one of the
-//! archive, which keeps targets that were beaten; all in the units of [`crate::space::Gene::to_unit`].
+//! archive, which keeps targets that were beaten; all in the units of [`crate::Gene::to_unit`].
 //! It takes the target's place if it is no worse. F and CR are drawn around what has served
 //! (§III of the paper, [`memory`]). Beyond the range a number goes half the way to its end.
 //!
