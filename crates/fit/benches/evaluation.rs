@@ -11,7 +11,7 @@ fn problem(name: &str) -> FitProblem {
     let tree = species.grow(1).expect("a species grows");
     let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 256, 256);
     let mut goal = Bitmap::default();
-    Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut goal);
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
     FitProblem::new(species, GoalView::new(goal, View::FRONT, frame))
 }
 

@@ -1,6 +1,6 @@
 //! What makes two runs the same run.
 
-use crate::problem::{FitProblem, GoalView, identity};
+use crate::problem::{FitProblem, GoalView};
 use crate::settings::FitSettings;
 use pleach_tree::Foliage;
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ impl Fingerprint {
         goal_parts(problem)
             .into_iter()
             .fold(Self::named(&of), |parts, (name, bytes)| parts.with_bytes(name, bytes))
-            .with_bytes("generator", identity(&problem.start))
+            .with_bytes("generator", problem.start.generator.model().to_string())
             .with("fixed values", problem.start.params.values())
             .with("free parameters", &settings.freedom)
             .with("optimizer", &settings.optimizer)
@@ -31,7 +31,7 @@ impl Fingerprint {
             .with("robust", &settings.robust)
             .with("objective", &settings.objective)
             .with("start", &settings.start)
-            .with("limits", &(limits.stems, limits.leaves, limits.knots))
+            .with("limits", &(limits.stems, limits.leaves, limits.knots, limits.work))
     }
 
     /// Without parts, of a run that is called `of`.

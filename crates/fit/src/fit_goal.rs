@@ -106,13 +106,14 @@ impl Fitted {
 /// ```
 /// use pleach_fit::{Budget, Candidate, Control, FitProblem, FitSettings, GoalSettings, GoalView, fit_goal};
 /// use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+/// use pleach_tree::Parts;
 ///
 /// let known = ["palm", "lombardy_poplar"].map(|name| pleach_generators::preset(name).unwrap());
 /// // A goal: the picture of a tree. Those of photographs come from `pleach_silhouette::goal::Goal`.
 /// let tree = known[1].grow(7)?;
-/// let frame = Frame::automatic(&tree, &View::FRONT, true, 64, 64);
+/// let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 64, 64);
 /// let mut picture = Bitmap::default();
-/// Rasterizer::new().draw(&tree, &View::FRONT, &frame, true, &mut picture);
+/// Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut picture);
 ///
 /// let problem = FitProblem::new(known[0].clone(), GoalView::new(picture, View::FRONT, frame));
 /// let search = FitSettings { budget: Budget::evaluations(100), ..FitSettings::default() };

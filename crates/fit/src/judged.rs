@@ -11,7 +11,7 @@ use crate::method::Start;
 use crate::problem::FitProblem;
 use crate::profile::{Profile, profile, put_back_unseen};
 use crate::run::settled;
-use pleach_tree::Limits;
+use pleach_tree::{Limits, Slot};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -37,9 +37,9 @@ pub struct Judged {
     /// How well the goal determines each free number.
     pub profiles: Vec<Profile>,
     /// Slots that the goal does not show and that went back to the start's value.
-    pub put_back: Vec<usize>,
+    pub put_back: Vec<Slot>,
     /// Slots of variations of size, which are 0 because one tree does not show them.
-    pub settled: Vec<usize>,
+    pub settled: Vec<Slot>,
     /// What its likeness stands beside.
     pub references: References,
     /// What judging took, by the caller's clock.
@@ -104,11 +104,11 @@ impl Judge<'_> {
 }
 
 /// Whether lists that differ in `slots` only, one after the other, grow the same trees from any seed.
-fn same_trees(problem: &FitProblem, before: &[f64], after: &[f64], slots: &[usize]) -> bool {
+fn same_trees(problem: &FitProblem, before: &[f64], after: &[f64], slots: &[Slot]) -> bool {
     let mut values = before.to_vec();
     slots.iter().all(|&slot| {
-        let is_read = problem.start.generator.reads(&values, slot);
-        values[slot] = after[slot];
-        !is_read
+        let is_active = problem.start.generator.is_active(&values, slot);
+        values[slot.index()] = after[slot.index()];
+        !is_active
     })
 }

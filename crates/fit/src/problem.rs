@@ -125,11 +125,6 @@ pub(crate) fn with_values(species: &Species, values: Vec<f64>) -> Result<Species
     Ok(Species { params: species.generator.space().check(values)?, ..species.clone() })
 }
 
-/// Which growth model a species has: species of one identity differ in nothing but numbers.
-pub(crate) fn identity(species: &Species) -> String {
-    format!("{} {:?}", species.generator.family(), species.generator)
-}
-
 /// The placement of each goal in an individual with these nuisances.
 #[must_use]
 pub fn placements(goals: &[GoalView], nuisances: &[f64]) -> Vec<Placement> {

@@ -10,6 +10,7 @@ use crate::method::Start;
 use crate::problem::FitProblem;
 use crate::settings::FitSettings;
 use crate::space::SearchSpace;
+use pleach_tree::Slot;
 
 /// Finds parameters that grow `problem`'s goals.
 ///

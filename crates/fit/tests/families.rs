@@ -12,7 +12,7 @@ use pleach_fit::{
     GuessSettings, Start, first_guess, fit_goal,
 };
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
-use pleach_tree::Species;
+use pleach_tree::{Parts, Species};
 use pole::pole;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -27,9 +27,9 @@ fn candidates() -> Vec<Candidate> {
 /// The front of a pole, as a goal of a fit that would begin with a palm.
 fn goal_of_pole(species: &Species) -> FitProblem {
     let tree = species.grow(1).unwrap();
-    let frame = Frame::automatic(&tree, &View::FRONT, true, 64, 64);
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 64, 64);
     let mut goal = Bitmap::default();
-    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, true, &mut goal);
+    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
     FitProblem::new(pleach_generators::preset("palm").unwrap(), GoalView::new(goal, View::FRONT, frame))
 }
 
@@ -76,7 +76,7 @@ fn the_search_is_over_the_generator_that_was_chosen() {
     let judged = judged.unwrap();
     assert_eq!(judged.held_out.unwrap().cost.sd, 0.0);
     assert!(judged.references.same_species.is_some() && judged.references.other_species.is_some());
-    assert!(judged.profiles.iter().all(|profile| profile.slot < 2));
+    assert!(judged.profiles.iter().all(|profile| profile.slot.index() < 2));
 }
 
 #[test]

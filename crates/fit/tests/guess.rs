@@ -10,7 +10,7 @@ use pleach_fit::{
     first_guess,
 };
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
-use pleach_tree::Foliage;
+use pleach_tree::{Foliage, Parts};
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering;
 

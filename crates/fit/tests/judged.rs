@@ -78,16 +78,16 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     start[slot("g_scale").index()] = 5.0;
     let (kept, slots) = put_back_unseen(&problem, &settings, &best, &profiles, &start, 0.05, &GO).unwrap();
     assert_eq!(slots, [slot("length[3]")]);
-    assert_eq!(kept.genome.values[slot("length[3]")], 0.123);
-    assert_eq!(kept.genome.values[slot("g_scale")], base(&problem)[slot("g_scale")]);
+    assert_eq!(kept.genome.values[slot("length[3]").index()], 0.123);
+    assert_eq!(kept.genome.values[slot("g_scale").index()], base(&problem)[slot("g_scale").index()]);
     assert_eq!(kept.score.cost, 0.0);
 }
 
 #[test]
 fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
     let problem = goal_of("acer", 2, 64);
-    let slots = problem.start.generator.size_variations(base(&problem));
-    assert!(slots.iter().any(|&slot| base(&problem)[slot] != 0.0), "the species has them");
+    let slots: Vec<Slot> = problem.start.generator.space().size_jitters().collect();
+    assert!(slots.iter().any(|&slot| base(&problem)[slot.index()] != 0.0), "the species has them");
     let result = |freedom: Freedom, optimizer: &str| {
         let settings = FitSettings {
             optimizer: optimizer.parse().unwrap(),
@@ -110,13 +110,13 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
     // Nor do they go back to the start.
     let (kept, _) =
         put_back_unseen(&problem, &settings, &best, &profiles, base(&problem), 0.01, &GO).unwrap();
-    assert!(slots.iter().all(|&slot| kept.genome.values[slot] == 0.0));
+    assert!(slots.iter().all(|&slot| kept.genome.values[slot.index()] == 0.0));
 
     // The dissertation's algorithm searches them, and what is fixed stays.
     assert!(result(Freedom::default(), "hewitt").1.is_empty());
     let fixed = Freedom { free: Vec::new(), fix: vec!["g_scale_v".to_owned()] };
     let (kept, told, ..) = result(fixed, "evolution");
-    assert_eq!(kept[0], base(&problem)[slots[0]]);
+    assert_eq!(kept[0], base(&problem)[slots[0].index()]);
     assert!(!told.contains(&slots[0]), "{told:?}");
 }
 
@@ -146,7 +146,8 @@ fn going_back_step_by_step_is_the_same_on_any_number_of_threads() {
     let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
     let best = Scored { genome: truth(&problem), score: Score::of_cost(0.0) };
     let space = problem.start.generator.space();
-    let all: Vec<_> = (0..space.len())
+    let all: Vec<_> = space
+        .slots()
         .map(|slot| pleach_fit::Profile { slot, seen: Seen::NotSeen, rises: [[None; 2]; 2] })
         .collect();
     let start = pleach_generators::preset("hill_cherry").unwrap().params.values().to_vec();
@@ -171,7 +172,9 @@ fn nothing_is_searched_that_nobody_would_draw() {
     let space = problem.start.generator.space();
     let slot = |name: &str| space.select(name).unwrap()[0];
     // A palm's trunk has rings and its fronds are long: fits that start there keep both.
-    assert!(base(&problem)[slot("taper[0]")] > 2.0 && base(&problem)[slot("leaf_scale")] > 0.5);
+    assert!(
+        base(&problem)[slot("taper[0]").index()] > 2.0 && base(&problem)[slot("leaf_scale").index()] > 0.5
+    );
     let acer = pleach_generators::preset("acer").unwrap().params.values().to_vec();
     let most = |start: &[f64], optimizer: &str| {
         let settings = FitSettings {
@@ -192,6 +195,6 @@ fn nothing_is_searched_that_nobody_would_draw() {
     };
     for optimizer in ["evolution", "cma", "de"] {
         assert!(most(&acer, optimizer) <= 1.0, "{optimizer}");
-        assert!(most(base(&problem), optimizer) <= base(&problem)[slot("taper[0]")], "{optimizer}");
+        assert!(most(base(&problem), optimizer) <= base(&problem)[slot("taper[0]").index()], "{optimizer}");
     }
 }

@@ -7,7 +7,7 @@ use pleach_fit::{FitProblem, Genome, GoalView, Objective, fresh_seeds};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::score::likeness::Likeness;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Growth, Key, Limits, Species, Tree};
+use pleach_tree::{Foliage, Growth, Key, Limits, Parts, Species, Tree};
 use std::path::Path;
 
 /// A goal with what is known of it.
@@ -111,7 +111,7 @@ fn problem(goals: Vec<GoalView>, foliage: bool) -> anyhow::Result<FitProblem> {
 fn pictured(tree: &Tree, view: View, foliage: bool) -> GoalView {
     let frame = Frame::automatic(tree, &view, Parts::with_foliage(foliage), SIZE, SIZE);
     let mut goal = Bitmap::default();
-    Rasterizer::new().draw(tree, &view, &frame, foliage, &mut goal);
+    Rasterizer::new().draw(tree, &view, &frame, Parts::with_foliage(foliage), &mut goal);
     GoalView::new(goal, view, frame)
 }
 
@@ -183,6 +183,6 @@ pub(super) fn draw(
 ) -> anyhow::Result<Bitmap> {
     let tree = species.grow_with(&Growth { foliage, ..Growth::seed(seed) })?;
     let mut bitmap = Bitmap::default();
-    Rasterizer::new().draw(&tree, &view.view, &view.frame, foliage != Foliage::None, &mut bitmap);
+    Rasterizer::new().draw(&tree, &view.view, &view.frame, foliage.into(), &mut bitmap);
     Ok(bitmap)
 }

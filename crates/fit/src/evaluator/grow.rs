@@ -39,7 +39,7 @@ impl EvalWorkspace {
 
     /// Grows the tree of `values`; whether it has grown.
     pub(super) fn grow(&mut self, generator: &dyn Generator, growth: &Growth) -> bool {
-        self.params.set(generator.space(), &self.values).is_ok()
+        self.params.set(&self.values).is_ok()
             && generator.grow(&self.params, growth, &mut self.workspace, &mut self.tree).is_ok()
     }
 

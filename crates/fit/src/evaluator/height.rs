@@ -46,5 +46,7 @@ pub(crate) fn height_of(tree: &Tree, foliage: Foliage) -> f64 {
     }
     let leaves = tree.leaves.iter().chain(&tree.blossoms);
     let top = |leaf: &Leaf| leaf.position.z + leaf.along.z.max(0.0);
-    knots.max(f64::from(leaves.map(top).fold(0.0, f32::max)))
+    let leaves = leaves.map(top).fold(0.0, f32::max);
+    let blobs = tree.blob_vertices.iter().map(|v| v.z).fold(0.0, f32::max);
+    knots.max(f64::from(leaves.max(blobs)))
 }

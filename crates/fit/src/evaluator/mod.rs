@@ -171,7 +171,7 @@ impl Evaluator {
     ) -> Agreement {
         let (from, frame) = view.placed(&genome.nuisances);
         let EvalWorkspace { tree, rasterizer, bitmap, comparisons, .. } = memory;
-        rasterizer.draw(tree, &from, &frame, self.foliage != Foliage::None, bitmap);
+        rasterizer.draw(tree, &from, &frame, self.foliage.into(), bitmap);
         view.compare(bitmap, self.objective, likeness, comparisons)
     }
 

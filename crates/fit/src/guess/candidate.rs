@@ -1,8 +1,7 @@
 //! The species that a goal may be of, and the models that grow them.
 
 use crate::evaluator::Evaluator;
-use crate::problem::identity;
-use pleach_tree::Species;
+use pleach_tree::{ModelId, Species};
 use std::sync::Arc;
 
 /// A species that a goal may be of, of any family of generators.
@@ -36,12 +35,12 @@ pub(super) struct Models {
 impl Models {
     /// Those of `candidates`, with evaluators that are like `base`.
     pub(super) fn new(candidates: &[Candidate], base: &Evaluator) -> Self {
-        let mut known: Vec<String> = Vec::new();
+        let mut known: Vec<ModelId> = Vec::new();
         let mut models = Self { evaluators: Vec::new(), of_candidate: Vec::new() };
         for Candidate { species } in candidates {
-            let identity = identity(species);
-            let model = known.iter().position(|one| *one == identity).unwrap_or_else(|| {
-                known.push(identity);
+            let id = species.generator.model();
+            let model = known.iter().position(|one| *one == id).unwrap_or_else(|| {
+                known.push(id);
                 models.evaluators.push(base.with_generator(Arc::clone(&species.generator)));
                 known.len() - 1
             });

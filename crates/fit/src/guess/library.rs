@@ -7,11 +7,11 @@ use super::shown::Shown;
 use super::tries::{Try, tries};
 use crate::error::FitError;
 use crate::evaluator::{Evaluator, height_of};
-use crate::problem::{FitProblem, identity};
+use crate::problem::FitProblem;
 use crate::space::TreeSeed;
 use crate::stoppable;
 use pleach_silhouette::{Bitmap, Frame, View};
-use pleach_tree::{Foliage, Limits};
+use pleach_tree::{Foliage, Limits, ModelId};
 
 /// Trees between two calls of the observer: enough to keep the threads busy.
 const BATCH: usize = 32;
@@ -29,7 +29,7 @@ pub struct GuessLibrary {
 #[derive(Debug, PartialEq)]
 struct Key {
     /// Model, name and numbers of each.
-    candidates: Vec<(String, String, Vec<f64>)>,
+    candidates: Vec<(ModelId, String, Vec<f64>)>,
     guess: GuessSettings,
     seed: u64,
     tree_seed: TreeSeed,
@@ -124,7 +124,7 @@ impl Key {
     fn new(shown: &Shown<'_>, guess: &GuessSettings, list: &[Try]) -> Self {
         let settings = shown.settings;
         let of = |Candidate { species }: &Candidate| {
-            (identity(species), species.name.clone(), species.params.values().to_vec())
+            (species.generator.model(), species.name.clone(), species.params.values().to_vec())
         };
         let views = |first: &Try| views(shown.models.evaluator(first.candidate), first);
         Self {

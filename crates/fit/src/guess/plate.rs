@@ -31,11 +31,10 @@ impl Plate {
         side: u32,
         rasterizer: &mut Rasterizer,
     ) -> Self {
-        let foliage = foliage != Foliage::None;
-        let frame = Frame::automatic(tree, view, foliage, side, side);
+        let frame = Frame::automatic(tree, view, foliage.into(), side, side);
         let frame = Frame { height: side + side / BELOW, ..frame };
         let mut picture = Bitmap::default();
-        rasterizer.draw(tree, view, &frame, Parts::with_foliage(foliage), &mut picture);
+        rasterizer.draw(tree, view, &frame, foliage.into(), &mut picture);
         Self { picture, frame }
     }
 

@@ -60,7 +60,7 @@ pub(super) fn trees_of(
 fn varied(space: &SearchSpace, values: &[f64], seed: u64, spread: f64, mut draws: Stream) -> Genome {
     let mut genome = space.individual(values, seed);
     let mut read = Vec::new();
-    space.read_genes(values, &mut read);
+    space.active_genes(values, &mut read);
     for gene in read.into_iter().map(|g| &space.genes()[g]).filter(|gene| !gene.is_choice()) {
         let value = gene.clamp(gene.of(&genome) * (1.0 + spread * draws.normal()));
         gene.set(&mut genome, value);

@@ -1,35 +1,24 @@
 //! A second family of generators: a pole of two numbers.
 
 use glam::DVec3;
+use pleach_tree::param::Effect;
 use pleach_tree::species::Appearance;
 use pleach_tree::{
-    CheckedParams, Generator, GrowError, Growth, Kind, Knot, Layout, Param, ParamSpace, Species, Stem,
-    StemKind, Tree, Unit, Workspace,
+    CheckedParams, Generator, GrowError, Growth, Kind, Knot, Param, ParamSpace, Species, Stem, StemKind,
+    Tree, Unit, Workspace,
 };
-use std::borrow::Cow;
 use std::sync::{Arc, LazyLock};
 
-static SPACE: LazyLock<ParamSpace> = LazyLock::new(|| {
-    ParamSpace::new(vec![
-        param("height", Unit::Meters, 1.0, 50.0, 10.0),
-        // The radius as a part of the height.
-        param("girth", Unit::Ratio, 0.01, 0.5, 0.1),
-    ])
+static SPACE: LazyLock<Arc<ParamSpace>> = LazyLock::new(|| {
+    let positive = Kind::real(0.001, 1000.0);
+    let height = Param::scalar("height", positive.clone(), 10.0)
+        .search([(1.0, 50.0)])
+        .unit(Unit::Meters)
+        .effect([Effect::Size]);
+    // The radius as a part of the height.
+    let girth = Param::scalar("girth", positive, 0.1).search([(0.01, 0.5)]);
+    Arc::new(ParamSpace::new(vec![height, girth]).expect("declarations that agree"))
 });
-
-fn param(name: &'static str, unit: Unit, low: f64, high: f64, default: f64) -> Param {
-    Param {
-        name: name.into(),
-        layout: Layout::Scalar,
-        kind: Kind::Real { min: 0.001, max: 1000.0 },
-        search: Cow::Owned(vec![(low, high)]),
-        unit,
-        default: Cow::Owned(vec![default]),
-        group: "pole",
-        doc: "for tests".into(),
-        source: "none",
-    }
-}
 
 /// The generator.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +29,7 @@ impl Generator for Pole {
         "pole"
     }
 
-    fn space(&self) -> &ParamSpace {
+    fn space(&self) -> &Arc<ParamSpace> {
         &SPACE
     }
 
@@ -51,7 +40,7 @@ impl Generator for Pole {
         _: &mut Workspace,
         tree: &mut Tree,
     ) -> Result<(), GrowError> {
-        let &[height, girth] = params.values() else { unreachable!("two numbers are declared") };
+        let &[height, girth] = params.values_in(&SPACE)? else { unreachable!("two numbers are declared") };
         tree.clear();
         if growth.limits.stems == 0 {
             return Err(GrowError::TooManyStems { limit: 0, blame: pleach_tree::Blame::default() });
@@ -66,7 +55,6 @@ impl Generator for Pole {
             level: 0,
             kind: StemKind::Trunk,
             offset: 0.0,
-            length: height,
             first_knot: 0,
             knot_count: 2,
         });

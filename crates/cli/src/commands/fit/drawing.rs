@@ -8,7 +8,7 @@ use pleach_mesh::Palette;
 use pleach_render::{Preview, PreviewSettings, png_file};
 use pleach_silhouette::{Bitmap, Rasterizer, View, picture};
 use pleach_tree::species::safe_name;
-use pleach_tree::{Foliage, Growth, Limits, Species, Tree};
+use pleach_tree::{Growth, Limits, Species, Tree};
 use std::path::Path;
 
 /// Draws individuals of one fit.
@@ -48,7 +48,7 @@ impl Drawing<'_> {
         let tree = species.grow_with(&growth)?;
         let frame = self.goals.full.frame(self.args.height);
         let mut bitmap = Bitmap::default();
-        Rasterizer::new().draw(&tree, &self.view, &frame, foliage != Foliage::None, &mut bitmap);
+        Rasterizer::new().draw(&tree, &self.view, &frame, foliage.into(), &mut bitmap);
         Ok(Drawn { species, tree, bitmap })
     }
 }

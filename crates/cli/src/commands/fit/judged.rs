@@ -1,7 +1,7 @@
 //! What a judged result says in its species file and in `parameters.csv`.
 
 use pleach_fit::{Genome, Judged, PROFILE_STEPS, Seen};
-use pleach_tree::ParamSpace;
+use pleach_tree::{ParamSpace, Slot};
 
 /// Comments of the species file: what the goal does not show.
 pub(super) fn comments(judged: &Judged, space: &ParamSpace) -> Vec<String> {
@@ -9,7 +9,7 @@ pub(super) fn comments(judged: &Judged, space: &ParamSpace) -> Vec<String> {
         ("One picture shows one size, so no other is grown: 0 are", &judged.settled),
         ("Not seen in the goal, so as where the search started:", &judged.put_back),
     ];
-    let of = |(start, slots): (&str, &Vec<usize>)| {
+    let of = |(start, slots): (&str, &Vec<Slot>)| {
         let names: Vec<String> = slots.iter().map(|&slot| space.slot_name(slot)).collect();
         (!names.is_empty()).then(|| format!("{start} {}.", names.join(", ")))
     };
@@ -40,8 +40,11 @@ pub(super) fn table(judged: &Judged, best: &Genome, space: &ParamSpace) -> Vec<V
             Seen::Loosely => "loosely",
             Seen::NotSeen => "not-seen",
         };
-        let mut row =
-            vec![space.slot_name(profile.slot), best.values[profile.slot].to_string(), seen.to_owned()];
+        let mut row = vec![
+            space.slot_name(profile.slot),
+            best.values[profile.slot.index()].to_string(),
+            seen.to_owned(),
+        ];
         row.extend(profile.rises.iter().flatten().map(|rise| {
             rise.filter(|rise| rise.is_finite()).map_or_else(String::new, |rise| format!("{rise:.5}"))
         }));

@@ -163,7 +163,7 @@ impl Picture {
         let goal = Goal::load(&self.file, &GoalOptions::default())?;
         let mut bitmap = Bitmap::default();
         let (view, frame) = (placement.view(&self.view), placement.frame(&goal.frame(height)));
-        Rasterizer::new().draw(tree, &view, &frame, foliage != Foliage::None, &mut bitmap);
+        Rasterizer::new().draw(tree, &view, &frame, foliage.into(), &mut bitmap);
         let card = ScoreCard::of(&bitmap, &goal.bitmap)?;
         let overlay = picture::overlay(&bitmap, &goal.bitmap);
         let score = ViewScore {
