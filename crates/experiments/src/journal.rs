@@ -4,8 +4,8 @@
 //! neither ctrl-C nor a kill loses one. The first line names the `experiment.toml` that they are of.
 //! A line that a kill has cut short is left out when the file is read.
 
-use super::record::{self, Record};
-use super::table::{Row, Table};
+use super::record::{self, Record, Row};
+use super::table::Table;
 use super::{Part, stop};
 use anyhow::{Context, bail};
 use pleach_console::interrupted::Interrupted;

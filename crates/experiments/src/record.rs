@@ -1,10 +1,12 @@
 //! Rows as structs: a column is a field, declared once. Files hold text; these are the two ways.
 
-use super::table::Row;
 use anyhow::Context;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
+
+/// A row of results as text.
+pub(super) type Row = Vec<String>;
 
 /// A row of results, whose fields are the columns.
 pub(super) trait Record: Serialize + DeserializeOwned {}

@@ -1,11 +1,8 @@
 //! Rows of results under a declared set of columns.
 
-use super::record::{self, Record};
+use super::record::{self, Record, Row};
 use anyhow::{Context, bail};
 use std::path::Path;
-
-/// A row of results as text.
-pub(super) type Row = Vec<String>;
 
 /// Rows of results under a declared set of columns.
 #[derive(Clone, Debug, PartialEq)]
