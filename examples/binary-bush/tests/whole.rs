@@ -3,7 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use binary_bush::BinaryBushes;
-use pleach::{Family, Palette, Parts, Species, SpeciesDoc, View};
+use pleach::{
+    Budget, Candidate, Control, Family, FitProblem, FitSettings, Goal, GoalSettings, GoalView, Palette,
+    Parts, Species, SpeciesDoc, View,
+};
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 /// A species that comes with the family.
 fn bush(name: &str) -> Species {
@@ -26,6 +31,33 @@ fn it_is_drawn() {
 }
 
 #[test]
+fn it_is_fitted() {
+    // A picture of a low bush, with angles that no candidate has.
+    let mut values = bush("low").params.values().to_vec();
+    values[2] = 50.0;
+    let params = bush("low").generator.space().check(values).unwrap();
+    let tree = Species { params, ..bush("low") }.grow(7).unwrap();
+    let goal = Goal::from_bitmap(pleach::silhouette(&tree, View::FRONT, 64)).unwrap();
+    let height = pleach::Bounds::new(&tree, Parts::LEAFY).unwrap().max.z;
+
+    // The first guess chooses among species of all families.
+    let view = GoalView::new(goal.bitmap.clone(), View::FRONT, goal.frame(height));
+    let problem = FitProblem::new(pleach::species("palm").unwrap(), view);
+    let candidates = vec![bush("broom"), bush("low"), pleach::species("palm").unwrap()];
+    let search = FitSettings { budget: Budget::evaluations(300), ..FitSettings::default() };
+    let settings =
+        GoalSettings { search, ..GoalSettings::new(candidates.into_iter().map(Candidate::from).collect()) };
+    let stop = AtomicBool::new(false);
+    let fitted = pleach::fit_goal(&problem, &settings, Control::new(&|| Duration::ZERO, &stop)).unwrap();
+
+    assert_eq!(fitted.guess.as_ref().unwrap().names[0].0, "low");
+    let found = fitted.species().unwrap();
+    assert_eq!(found.generator.family(), "binary-bush");
+    let angle = found.params.values()[2];
+    assert!((40.0..60.0).contains(&angle), "{angle}");
+}
+
+#[test]
 fn it_is_blended() {
     let between = pleach::mix(vec![bush("low"), bush("broom")], &[0.5, 0.5], "between").unwrap();
     let angle = between.params.values()[2];
@@ -43,4 +75,17 @@ fn it_is_exported() {
     pleach::write_glb(&mut glb, "broom", &species.grow(1).unwrap(), &Palette::of(&species, None)).unwrap();
     let bytes = glb.into_inner();
     assert!(bytes.starts_with(b"glTF") && bytes.len() > 10_000, "{}", bytes.len());
+}
+
+/// The page that walks through the file quotes it as it is.
+#[test]
+fn the_documentation_quotes_the_code() {
+    let page = include_str!("../../../docs/a-generator.md");
+    let code = [include_str!("../src/lib.rs"), include_str!("whole.rs")].concat().replace("    ", "");
+    let listings: Vec<&str> =
+        page.split("```rust\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    assert!(listings.len() >= 4);
+    for listing in listings {
+        assert!(code.contains(listing.replace("    ", "").trim()), "not in the code:\n{listing}");
+    }
 }
