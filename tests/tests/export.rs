@@ -176,8 +176,7 @@ fn species_without_leaves_fit_every_format_and_style() {
 #[test]
 fn colours_come_from_the_species_file() {
     let dir = Dir::new();
-    let species =
-        std::fs::read_to_string(pleach_tests::root().join("crates/weber-penn/species/palm.toml")).unwrap();
+    let species = std::fs::read_to_string(pleach_tests::root().join("species/weber-penn/palm.toml")).unwrap();
     // The table comes last in a species file.
     let species = species.split("\n[appearance]").next().unwrap().to_owned();
     let _ = dir.file("red.toml", format!("{species}\n[appearance]\nleaf = \"#ff0000\"\n"));

@@ -35,7 +35,7 @@ fn a_fit_says_whether_it_is_good_and_what_to_do_next() {
     }
     // The verdict follows from the references and the fresh seeds by the documented rule.
     let share =
-        (number("/fresh_seeds/likeness/mean") - other) / (same - other).max(pleach_fit::verdict::MIN_SPAN);
+        (number("/fresh_seeds/likeness/mean") - other) / (same - other).max(pleach_fit::MIN_VERDICT_SPAN);
     assert!((number("/verdict/share") - share).abs() < 1e-9);
     let kind = serde_json::to_value(pleach_fit::Kindred::of(share)).unwrap();
     assert_eq!(summary["verdict"]["kind"], kind);

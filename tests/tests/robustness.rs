@@ -42,7 +42,7 @@ fn numbers_of_a_species_file_are_replaced_one_by_one() {
     let text = if text.code() == 0 {
         text.stdout()
     } else {
-        std::fs::read_to_string(pleach_tests::root().join("crates/weber-penn/species/acer.toml")).unwrap()
+        std::fs::read_to_string(pleach_tests::root().join("species/weber-penn/acer.toml")).unwrap()
     };
     let digits = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
     let starts: Vec<usize> = text

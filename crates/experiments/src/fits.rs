@@ -7,13 +7,13 @@ use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use anyhow::Context;
 use pleach_console::output;
 use pleach_fit::{
-    Budget, Control, FitProblem, FitSettings, GoalView, Objective, Optimizer, Outcome, Start, TreeSeed,
-    Unknown,
+    Budget, Control, FitProblem, FitSettings, Genome, GoalView, Objective, Optimizer, Outcome, Start,
+    TreeSeed,
 };
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::picture;
 use pleach_silhouette::{Bitmap, Rasterizer, View};
-use pleach_tree::{Growth, Parts};
+use pleach_tree::Parts;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -193,18 +193,9 @@ impl FitsSpec {
 fn problem(folder: &Path, goal: &GoalSpec) -> anyhow::Result<FitProblem> {
     let picture = Goal::load(folder.join(&goal.file), &GoalOptions::default())?;
     let height = *goal.height;
-    let base = pleach_generators::preset("quaking_aspen").context("the default species is built in")?;
-    Ok(FitProblem {
-        base: base.params.values().to_vec(),
-        generator: base.generator,
-        goals: vec![GoalView {
-            frame: picture.frame(height),
-            goal: picture.bitmap,
-            view: View::FRONT,
-            unknown: Unknown::default(),
-        }],
-        foliage: true,
-    })
+    let start = pleach_generators::preset("quaking_aspen").context("the default species is built in")?;
+    let frame = picture.frame(height);
+    Ok(FitProblem::new(start, GoalView::new(picture.bitmap, View::FRONT, frame)))
 }
 
 fn search(
@@ -259,15 +250,8 @@ impl FitsSpec {
         let name = goal.name();
         let problem = problem(folder, goal)?;
         let GoalView { goal: target, view, frame, .. } = &problem.goals[0];
-        let draw = |values: &[f64], seed: u64| -> anyhow::Result<Bitmap> {
-            let params = problem.generator.space().check(values.to_vec())?;
-            let mut tree = pleach_tree::Tree::default();
-            problem.generator.grow(
-                &params,
-                &Growth::seed(seed),
-                &mut pleach_tree::Workspace::default(),
-                &mut tree,
-            )?;
+        let draw = |genome: &Genome| -> anyhow::Result<Bitmap> {
+            let tree = problem.species(genome)?.grow(genome.tree_seed)?;
             let mut bitmap = Bitmap::default();
             Rasterizer::new().draw(&tree, view, frame, Parts::LEAFY, &mut bitmap);
             Ok(bitmap)
@@ -275,7 +259,7 @@ impl FitsSpec {
         let mut sheet = vec![("goal".to_owned(), target.clone())];
         let start = search(&problem, self, &"random".parse()?, 1, 1)?;
         if let Some(best) = start.best {
-            sheet.push(("start".to_owned(), draw(&best.genome.values, best.genome.tree_seed)?));
+            sheet.push(("start".to_owned(), draw(&best.genome)?));
         }
         for optimizer in &self.optimizers {
             let optimizer = optimizer.get_ref();
@@ -288,7 +272,7 @@ impl FitsSpec {
                 let score = best.score;
                 let label =
                     format!("{}: IoU {:.3}, {:.1} %", optimizer.text, score.iou, 100.0 * score.accuracy);
-                sheet.push((label, draw(&best.genome.values, best.genome.tree_seed)?));
+                sheet.push((label, draw(&best.genome)?));
             }
         }
         let columns = sheet.len();

@@ -6,11 +6,9 @@ use super::spec::{Source, species_files};
 use super::within::{List, Part, Real, SpeciesName, Whole};
 use super::{Journal, Kind, Outputs, Slice, Table, progress};
 use pleach_console::output;
-use pleach_fit::settings::LIMITS;
-use pleach_fit::stream::Stream;
 use pleach_fit::{
-    Evaluate, Evaluator, FitProblem, Freedom, Genome, GoalView, Objective, SearchSpace, Size, TreeSeed,
-    Unknown,
+    Evaluate, Evaluator, FIT_LIMITS, FitProblem, Freedom, Gene, Genome, GoalView, Objective, SearchSpace,
+    Size, Stream, TreeSeed,
 };
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
@@ -129,20 +127,14 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
     let ellipse = ScoreCard::of(&goal, &goal)?.best_ellipse_iou;
     let generator = &species.generator;
     let truth = Genome::new(species.params.values().to_vec(), TREE_SEED);
-    let problem = FitProblem {
-        generator: Arc::clone(generator),
-        base: truth.values.clone(),
-        goals: vec![GoalView { goal, view: View::FRONT, frame, unknown: Unknown::default() }],
-        foliage: true,
-    };
+    let problem = FitProblem::new(species.clone(), GoalView::new(goal, View::FRONT, frame));
     let fixed = TreeSeed::Fixed(TREE_SEED);
     let space = SearchSpace::new(Arc::clone(generator), &truth.values, &Freedom::default(), fixed)?;
     // What is switched off, and what another choice would make another tree, stays as it is.
-    let is_moved = |gene: &&pleach_fit::space::Gene| {
-        !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_read(&truth.values, gene)
-    };
+    let is_moved =
+        |gene: &&Gene| !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_active(&truth.values, gene);
     let moved: Vec<_> = space.genes().iter().filter(is_moved).collect();
-    let evaluator = Evaluator::new(&problem, Objective::Iou, LIMITS)?.matching_height();
+    let evaluator = Evaluator::new(&problem, Objective::Iou, FIT_LIMITS)?.matching_height();
     let mut rows = Vec::new();
     for (round, distance) in (0..).zip(&spec.distances) {
         let distance = **distance.get_ref();

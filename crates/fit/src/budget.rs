@@ -29,7 +29,7 @@ pub struct Budget {
     /// Generations of the optimiser.
     pub generations: Option<u64>,
     /// Time by the caller's clock, all parts of a resumed run together. Checked between batches of
-    /// about a tenth of a second.
+    /// about a third of a second.
     pub timeout: Option<Duration>,
     /// Intersection over union of the best individual, in 0..=1.
     pub target_iou: Option<f64>,

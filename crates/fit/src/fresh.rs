@@ -1,9 +1,10 @@
 //! What parameters are worth with other seeds than the one that was fitted.
 
-use crate::evaluator::{Evaluator, FitProblem};
+use crate::error::FitError;
+use crate::evaluator::Evaluator;
 use crate::genome::{Genome, Score};
 use crate::objective::Objective;
-use crate::run::FitError;
+use crate::problem::FitProblem;
 use crate::stoppable;
 use pleach_tree::Limits;
 use serde::Serialize;

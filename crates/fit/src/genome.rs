@@ -1,6 +1,6 @@
 //! What a search changes.
 
-use crate::exact;
+use pleach_tree::Tree;
 use serde::{Deserialize, Serialize};
 
 /// One individual: a full parameter list, the seed of the tree that is grown from it, and from where
@@ -9,10 +9,8 @@ use serde::{Deserialize, Serialize};
 pub struct Genome {
     /// One value for every slot of the generator's [`pleach_tree::ParamSpace`], free or not, as in
     /// species files (degrees, metres).
-    #[serde(with = "exact::list")]
     pub values: Vec<f64>,
-    /// What is not known of the views, goal by goal: see [`crate::nuisance`]. Empty if all is.
-    #[serde(with = "exact::list")]
+    /// What is not known of the views, goal by goal: see [`crate::Unknown`]. Empty if all is.
     pub nuisances: Vec<f64>,
     /// Seed of the tree.
     pub tree_seed: u64,
@@ -31,7 +29,6 @@ impl Genome {
 pub struct Score {
     /// What the search makes small: 0 is a perfect match, 1 nothing in common, infinity a parameter
     /// list that does not grow.
-    #[serde(with = "exact::number")]
     pub cost: f64,
     /// Intersection over union of the ink, in 0..=1; the mean over views.
     pub iou: f64,
@@ -62,6 +59,16 @@ pub struct Size {
 impl Size {
     /// No bound.
     pub const ANY: Self = Self { stems: usize::MAX, leaves: usize::MAX, knots: usize::MAX };
+
+    /// The size of `tree`.
+    #[must_use]
+    pub const fn of(tree: &Tree) -> Self {
+        Self {
+            stems: tree.stems.len(),
+            leaves: tree.leaves.len() + tree.blossoms.len(),
+            knots: tree.knots.len(),
+        }
+    }
 }
 
 impl Score {

@@ -1,10 +1,6 @@
-//! One row a generation, and who wants to know.
+//! What each generation of a fit leaves behind.
 
-use crate::checkpoint::CheckpointError;
-use crate::exact;
-use crate::genome::Scored;
 use serde::{Deserialize, Serialize};
-use std::time::Duration;
 
 /// What a finished generation leaves behind.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,10 +10,8 @@ pub struct Row {
     /// Individuals evaluated so far.
     pub evaluations: u64,
     /// Cost of the best individual so far.
-    #[serde(with = "exact::number")]
     pub best_cost: f64,
     /// Cost of the best individual of this generation.
-    #[serde(with = "exact::number")]
     pub generation_best_cost: f64,
     /// Intersection over union of the best individual so far, in 0..=1.
     pub iou: f64,
@@ -98,48 +92,6 @@ impl Row {
     /// The row's values in the order of [`COLUMNS`], as text that reads back to the same number.
     pub fn cells(&self) -> impl Iterator<Item = String> + '_ {
         COLUMNS.iter().map(|column| format!("{}", (column.value)(self)))
-    }
-}
-
-/// How far a fit is, between two batches.
-#[derive(Clone, Copy, Debug)]
-pub struct Progress<'a> {
-    /// Finished generations.
-    pub generation: u64,
-    /// Individuals evaluated, those of earlier parts of a resumed run included.
-    pub evaluations: u64,
-    /// Individuals evaluated since this part of the run began, for rates.
-    pub evaluations_now: u64,
-    /// The best individual so far; none before the first batch.
-    pub best: Option<&'a Scored>,
-    /// Likeness of the best individual, in 0..=1. Where the objective does not look at it, that of the
-    /// best at the end of the last generation; none before the first.
-    pub likeness: Option<f64>,
-    /// Time so far, earlier parts of a resumed run included.
-    pub elapsed: Duration,
-    /// Time since this part of the run began.
-    pub elapsed_now: Duration,
-    /// The largest used share of any part of the budget, in 0..=1; none without a bound.
-    pub used: Option<f64>,
-}
-
-/// Someone who watches a fit: a progress bar, a CSV file, a picture.
-///
-/// Called on the thread that runs the fit, between batches: whatever takes long here delays it.
-pub trait Observer {
-    /// After every batch, about three times a second, and once at the start and at the end.
-    fn progress(&mut self, progress: &Progress<'_>) {
-        let _ = progress;
-    }
-
-    /// After every generation. A resumed run first replays the rows of its earlier parts.
-    fn generation(&mut self, row: &Row) {
-        let _ = row;
-    }
-
-    /// A checkpoint could not be written; the fit goes on with the older one.
-    fn checkpoint_failed(&mut self, error: &CheckpointError) {
-        let _ = error;
     }
 }
 

@@ -1,23 +1,18 @@
 //! Finds the parameters of a procedural tree that make it look like a picture.
 //!
-//! | module | idea |
+//! One call is a whole fit: see [`fit_goal`].
+//!
+//! | idea | items |
 //! | --- | --- |
-//! | [`genome`] | [`Genome`], [`Score`]: what is searched and how good it is |
-//! | [`guess`] | [`first_guess`]: the known species that a goal looks like, to start from |
-//! | [`space`] | [`SearchSpace`]: which numbers are free, and how far |
-//! | [`method`] | optimisers that are asked for individuals and told their scores |
-//! | [`search`] | [`Search`]: a method as an argmin solver |
-//! | [`nuisance`] | [`Unknown`], [`Placement`]: what is not known of a picture |
-//! | [`objective`] | [`Objective`]: what is made small |
-//! | [`evaluator`] | [`Evaluator`]: grow, draw, score, without allocating |
-//! | [`fresh`] | [`fresh_seeds`]: what the result is worth with other seeds |
-//! | [`profile`](mod@profile) | [`profile()`]: how well the goal determines each number |
-//! | [`budget`] | [`Budget`], [`StopReason`], [`Clock`] |
-//! | [`history`] | one row a generation; [`Observer`] |
-//! | [`checkpoint`] | the state of a fit in a file that survives a crash |
-//! | [`setting`] | [`Setting`]: what each setting of an optimiser may be |
-//! | [`verdict`] | [`Verdict`]: whether a fit is good, in words |
-//! | [`run`] | [`fit`]: all of it together |
+//! | what is fitted | [`FitProblem`], [`GoalView`]; what is not known of a picture: [`Unknown`], [`Placement`] |
+//! | what is searched | [`Genome`], [`Score`], [`SearchSpace`], [`Gene`] |
+//! | a whole fit | [`fit_goal`], [`GoalSettings`], [`Fitted`] |
+//! | the known species that a goal looks like | [`first_guess`], [`GuessLibrary`], [`Candidate`] |
+//! | the search alone | [`fit`], [`FitSettings`], [`Control`], [`Outcome`] |
+//! | what is made small | [`Objective`], [`Evaluator`]: grow, draw, score, without allocating |
+//! | optimisers | [`Optimizer`], [`Method`], [`Search`]; with argmin: [`ArgminSolver`] |
+//! | what a result is worth | [`fresh_seeds`], [`profile()`], [`Verdict`] |
+//! | watching and stopping | [`Observer`], [`Budget`], [`StopReason`], [`Clock`] |
 //!
 //! # Invariants
 //!
@@ -25,47 +20,73 @@
 //! [`pleach_tree::Generator`] and `pleach_silhouette`. Nothing here reads the clock, the environment
 //! or the operating system's randomness, and nothing prints. The same problem, settings and seed
 //! give the same bits on any number of threads, interrupted and resumed or not.
+//!
+//! Files of this crate use each other in one direction: problem, space, method, search, evaluator, run.
 
-pub mod budget;
-pub mod checkpoint;
-pub mod evaluator;
-mod exact;
-pub mod fingerprint;
-pub mod fresh;
-pub mod genome;
-pub mod guess;
-pub mod history;
-pub mod method;
-pub mod nuisance;
-pub mod objective;
-pub mod profile;
-pub mod run;
-pub mod search;
-pub mod setting;
-pub mod settings;
-pub mod space;
+mod begun;
+mod budget;
+mod checkpoint;
+mod control;
+mod driver;
+mod error;
+mod evaluate;
+mod evaluator;
+mod fingerprint;
+mod fit_goal;
+mod fresh;
+mod genome;
+mod guess;
+mod history;
+mod judged;
+mod method;
+mod nuisance;
+mod objective;
+mod observer;
+mod optimizer;
+mod problem;
+mod profile;
+mod run;
+mod search;
+mod setting;
+mod settings;
+mod solver;
+mod space;
 mod stoppable;
-pub mod stream;
+mod stream;
 #[cfg(test)]
 mod testing;
-pub mod verdict;
+mod verdict;
 
+pub use begun::Begun;
 pub use budget::{Budget, Clock, StopReason};
-pub use checkpoint::CheckpointError;
-pub use evaluator::{EvalWorkspace, Evaluator, FitProblem, GoalView, ProblemError};
+pub use checkpoint::{BodyProblem, CheckpointError};
+pub use control::{CheckpointSettings, Control, Outcome};
+pub use error::{FitError, ObserverError};
+pub use evaluate::Evaluate;
+pub use evaluator::{EvalWorkspace, Evaluator};
+pub use fit_goal::{Fitted, GoalSettings, Guessing, fit_goal, fit_goal_with};
 pub use fresh::{FreshSeeds, Spread, fresh_seeds};
 pub use genome::{Genome, Score, Scored, Size};
 pub use guess::{
     Candidate, FirstGuess, Guess, GuessLibrary, GuessSettings, Reference, References, first_guess,
 };
-pub use history::{COLUMNS, Column, Observer, Progress, Row};
-pub use method::{Method, Start};
-pub use nuisance::{Azimuth, Placement, Unknown, placements};
-pub use objective::Objective;
-pub use profile::{Profile, Seen, profile, put_back_unseen};
-pub use run::{CheckpointSettings, Control, FitError, Outcome, fit, settled};
-pub use search::{Evaluate, Search, SearchState};
+pub use history::{COLUMNS, Column, Row};
+pub use judged::{Judged, Judging};
+pub use method::{
+    Cma, CmaSettings, Evolution, EvolutionSettings, Hewitt, HewittSettings, Merge, Method, MethodSettings,
+    Random, RandomSettings, Shade, ShadeSettings, Start,
+};
+pub use nuisance::{Azimuth, MAX_OFFSET, MAX_SCALE, Nuisance, Placement, ROUGH_AZIMUTH, Unknown};
+pub use objective::{Objective, UnknownObjective};
+pub use observer::{Observer, Progress};
+pub use optimizer::{AnyMethod, Optimizer, UnknownOptimizer};
+pub use problem::{FitProblem, GoalView, ProblemError, placements};
+pub use profile::{PROFILE_STEPS, Profile, Seen, profile, put_back_unseen};
+pub use run::{fit, settled};
+pub use search::{Search, SearchState};
 pub use setting::{SETTINGS, Setting, SettingKind};
-pub use settings::{AnyMethod, FitSettings, Optimizer};
-pub use space::{Freedom, PRIOR, SearchSpace, TreeSeed, check_freedom};
-pub use verdict::{Kindred, Off, Verdict};
+pub use settings::{FIT_LIMITS, FitSettings};
+pub use solver::{ArgminSolver, AskTell, Batch, EmptyBatch, FitState};
+pub use space::{Freedom, Gene, PRIOR, Place, SearchSpace, SpaceError, TreeSeed, check_freedom};
+pub use stream::Stream;
+pub use verdict::{Kindred, MIN_VERDICT_SPAN, Off, Verdict};

@@ -6,10 +6,7 @@
 //! beside them. Of the first goal everything is taken as known: azimuths are counted from it, and its
 //! scale is the tree's.
 
-use crate::evaluator::GoalView;
-use crate::space::{Gene, Place};
 use pleach_silhouette::{Frame, View};
-use pleach_tree::Kind;
 use serde::Serialize;
 
 /// What is not known of a view.
@@ -35,7 +32,7 @@ pub enum Azimuth {
 }
 
 /// Degrees by which an azimuth that is known roughly may be off.
-pub const ROUGHLY: f64 = 15.0;
+pub const ROUGH_AZIMUTH: f64 = 15.0;
 /// Metres a pixel may be this part more or less than the frame says.
 pub const MAX_SCALE: f64 = 0.2;
 /// The trunk's foot may be off by this part of the picture's width, and of its height.
@@ -98,7 +95,7 @@ impl Unknown {
 
     /// What they are, in order, with the range of each and the value that is taken where nothing is
     /// said.
-    fn numbers(&self, view: &View) -> impl Iterator<Item = (Nuisance, f64, f64, f64)> + use<> {
+    pub(crate) fn numbers(&self, view: &View) -> impl Iterator<Item = (Nuisance, f64, f64, f64)> + use<> {
         let about = view.azimuth.to_degrees();
         let azimuth = match self.azimuth {
             Azimuth::Known => None,
@@ -128,29 +125,6 @@ impl Unknown {
         }
         placement
     }
-}
-
-/// The placement of each goal in an individual with these nuisances.
-#[must_use]
-pub fn placements(goals: &[GoalView], nuisances: &[f64]) -> Vec<Placement> {
-    let mut rest = nuisances;
-    let mut list = Vec::new();
-    for GoalView { view, unknown, .. } in goals {
-        let (own, others) = rest.split_at(unknown.count().min(rest.len()));
-        rest = others;
-        list.push(unknown.placement(view, own));
-    }
-    list
-}
-
-/// The genes of all unknown numbers, and the values that are taken where nothing is said.
-pub(crate) fn genes(goals: &[GoalView]) -> (Vec<Gene>, Vec<f64>) {
-    let numbers = goals.iter().flat_map(|goal| goal.unknown.numbers(&goal.view));
-    let gene = |(number, (nuisance, low, high, usual))| {
-        let place = Place::Nuisance { number, nuisance };
-        (Gene { place, kind: Kind::Real { min: low, max: high }, low, high }, usual)
-    };
-    numbers.enumerate().map(gene).unzip()
 }
 
 #[cfg(test)]

@@ -1,35 +1,12 @@
-//! A [`Method`] as an argmin [`Solver`].
+//! A [`Method`] at work in a space: generations in batches, and the best so far.
 
 use crate::genome::{Genome, Score, Scored, Size};
-use crate::method::{Method, Start};
+use crate::method::{Method, Start, is_individual};
+use crate::solver::{AskTell, Batch};
 use crate::space::SearchSpace;
-use argmin::core::{Error, KV, PopulationState, Problem, Solver, TerminationReason, TerminationStatus};
-use argmin::kv;
+use argmin::core::TerminationReason;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// What individuals are scored against.
-pub trait Evaluate {
-    /// The scores of `genomes`, in their order, the same on any number of threads. A tree larger than
-    /// `most` may be given up as one that does not grow.
-    fn scores(&self, genomes: &[Genome], most: Size) -> Vec<Score>;
-
-    /// Likeness of `genome` to the goal, in 0..=1; none for what is no picture.
-    fn likeness(&self, genome: &Genome) -> Option<f64> {
-        let _ = genome;
-        None
-    }
-}
-
-impl<T: Evaluate + ?Sized> Evaluate for &T {
-    fn scores(&self, genomes: &[Genome], most: Size) -> Vec<Score> {
-        (**self).scores(genomes, most)
-    }
-
-    fn likeness(&self, genome: &Genome) -> Option<f64> {
-        (**self).likeness(genome)
-    }
-}
 
 /// Everything that a search knows and that a checkpoint holds.
 ///
@@ -96,26 +73,38 @@ impl<M> SearchState<M> {
     pub const fn is_between_generations(&self) -> bool {
         self.members.is_empty()
     }
+
+    /// Whether this can be the state of a search in `space`: what was read from a file may be anything.
+    pub(crate) fn suits(&self, space: &SearchSpace) -> bool
+    where
+        M: Method,
+    {
+        self.members.len() >= self.scores.len()
+            && (self.members.is_empty() || self.scores.len() < self.members.len())
+            && self
+                .members
+                .iter()
+                .chain(self.best.iter().map(|best| &best.genome))
+                .all(|g| is_individual(g, space))
+            && self.method.suits(space, self.generation, self.members.len())
+    }
 }
 
-/// A method that searches a space, as argmin's executor runs it.
+/// A method that searches a space.
 ///
-/// One iteration of the executor is one batch: a whole generation, unless [`Search::batch`] is
-/// smaller. argmin's state then holds the best of the batch.
+/// A batch is a whole generation, unless [`Search::batch`] is smaller. [`crate::ArgminSolver`] makes it
+/// a solver of argmin.
 #[derive(Clone, Debug)]
 pub struct Search<M> {
     /// What is known so far.
     pub state: SearchState<M>,
-    /// Most individuals to evaluate in one iteration, at least 1. Changes nothing but when the
-    /// executor gets to look up.
+    /// Most individuals to evaluate at once, at least 1. Changes nothing but when the caller gets to look
+    /// up.
     pub batch: usize,
     /// Evaluations after which the search ends: never one more is made.
     pub evaluation_limit: u64,
     space: Arc<SearchSpace>,
 }
-
-/// The argmin state of a [`Search`].
-pub type FitState = PopulationState<Genome, f64>;
 
 impl<M> Search<M> {
     /// Starts `method`, whose first lists are those of `start`, in `space`, without a limit.
@@ -135,21 +124,40 @@ impl<M> Search<M> {
     pub const fn space(&self) -> &Arc<SearchSpace> {
         &self.space
     }
-}
 
-impl<M> Search<M> {
-    /// What the search makes small, of the best individual: its cost and what draws it to the start.
+    /// What the search makes small, of an individual with this score: its cost and what draws it to the
+    /// start.
+    fn cost(&self, genome: &Genome, score: &Score) -> f64 {
+        score.cost + self.space.prior_cost(genome)
+    }
+
+    /// The same of the best individual.
     pub(crate) fn best_cost(&self) -> Option<f64> {
-        self.state.best.as_ref().map(|best| best.score.cost + self.space.prior_cost(&best.genome))
+        self.state.best.as_ref().map(|best| self.cost(&best.genome, &best.score))
     }
 }
 
 impl<M: Method> Search<M> {
-    /// Evaluates the next batch with `score`; returns its best individual.
-    fn step(
-        &mut self,
-        score: impl FnOnce(&[Genome], Size) -> Result<Vec<Score>, Error>,
-    ) -> Result<Scored, Error> {
+    /// Tells the method about a generation whose scores are complete.
+    fn end_generation(&mut self) {
+        let state = &mut self.state;
+        state.method.tell(&self.space, &state.members, &state.scores);
+        state.generation_best = state.scores.iter().copied().min_by(|a, b| a.cost.total_cmp(&b.cost));
+        if let (0, Some(best)) = (state.generation, &state.best) {
+            state.most = largest_after(best.score.size);
+        }
+        state.generation += 1;
+        state.members.clear();
+        state.scores.clear();
+    }
+}
+
+impl<M: Method> AskTell for Search<M> {
+    fn name(&self) -> &str {
+        self.state.method.name()
+    }
+
+    fn ask(&mut self) -> Batch<'_> {
         let state = &mut self.state;
         if state.members.is_empty() {
             state.method.ask(&self.space, &mut state.members);
@@ -158,77 +166,38 @@ impl<M: Method> Search<M> {
                 state.members.iter_mut().for_each(|member| self.space.settle(member));
             }
         }
-        let first = state.scores.len();
+        let waiting = &state.members[state.scores.len()..];
         let room = usize::try_from(self.evaluation_limit - state.evaluations).unwrap_or(usize::MAX);
-        let count = (state.members.len() - first).min(self.batch.max(1)).min(room);
-        let batch = &state.members[first..first + count];
-        let scores = score(batch, state.most)?;
-        state.evaluations += count as u64;
-        let batch = &mut state.members[first..first + count];
-        for (member, score) in batch.iter_mut().zip(&scores) {
+        let count = waiting.len().min(self.batch.max(1)).min(room);
+        Batch { genomes: &waiting[..count], most: state.most }
+    }
+
+    fn tell(&mut self, scores: &[Score]) -> Option<Scored> {
+        let first = self.state.scores.len();
+        self.state.evaluations += scores.len() as u64;
+        let batch = &mut self.state.members[first..first + scores.len()];
+        for (member, score) in batch.iter_mut().zip(scores) {
             self.space.resize(member, score.resized);
         }
         // What the method is told holds what draws numbers to the start; what is kept of the best does not.
-        let space = &self.space;
-        let told: Vec<Score> = scores
-            .iter()
-            .zip(&*batch)
-            .map(|(score, member)| Score { cost: score.cost + space.prior_cost(member), ..*score })
+        let batch = &self.state.members[first..first + scores.len()];
+        let told: Vec<Score> = (scores.iter().zip(batch))
+            .map(|(score, member)| Score { cost: self.cost(member, score), ..*score })
             .collect();
-        let (at, &of_top) = told
-            .iter()
-            .enumerate()
-            .min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))
-            .ok_or_else(|| Error::msg("an empty batch: the method asked for nothing"))?;
+        let (at, of_top) = told.iter().enumerate().min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))?;
         let top = Scored { genome: batch[at].clone(), score: scores[at] };
-        if state
-            .best
-            .as_ref()
-            .is_none_or(|best| of_top.cost < best.score.cost + space.prior_cost(&best.genome))
-        {
-            state.best = Some(top.clone());
+        if self.best_cost().is_none_or(|best| of_top.cost < best) {
+            self.state.best = Some(top.clone());
         }
-        state.scores.extend(told);
-        if state.scores.len() == state.members.len() {
-            state.method.tell(&self.space, &state.members, &state.scores);
-            state.generation_best = state.scores.iter().copied().min_by(|a, b| a.cost.total_cmp(&b.cost));
-            if let (0, Some(best)) = (state.generation, &state.best) {
-                state.most = largest_after(best.score.size);
-            }
-            state.generation += 1;
-            state.members.clear();
-            state.scores.clear();
+        self.state.scores.extend(told);
+        if self.state.scores.len() == self.state.members.len() {
+            self.end_generation();
         }
-        Ok(top)
-    }
-}
-
-impl<O: Evaluate, M: Method> Solver<O, FitState> for Search<M> {
-    fn name(&self) -> &str {
-        self.state.method.name()
+        Some(top)
     }
 
-    fn next_iter(
-        &mut self,
-        problem: &mut Problem<O>,
-        state: FitState,
-    ) -> Result<(FitState, Option<KV>), Error> {
-        let top = self.step(|batch, most| {
-            problem.bulk_problem("cost_count", batch.len(), |objective| Ok(objective.scores(batch, most)))
-        })?;
-        let log = kv!(
-            "generation" => self.state.generation;
-            "evaluations" => self.state.evaluations;
-        );
-        Ok((state.individual(top.genome).cost(top.score.cost), Some(log)))
-    }
-
-    fn terminate(&mut self, _: &FitState) -> TerminationStatus {
-        if self.state.evaluations >= self.evaluation_limit {
-            TerminationStatus::Terminated(TerminationReason::MaxItersReached)
-        } else {
-            TerminationStatus::NotTerminated
-        }
+    fn ended(&self) -> Option<TerminationReason> {
+        (self.state.evaluations >= self.evaluation_limit).then_some(TerminationReason::MaxItersReached)
     }
 }
 
@@ -236,6 +205,7 @@ impl<O: Evaluate, M: Method> Solver<O, FitState> for Search<M> {
 mod tests {
     use super::*;
     use crate::method::{Random, RandomSettings};
+    use crate::solver::{ArgminSolver, FitState};
     use crate::space::{Freedom, TreeSeed};
     use crate::testing::{Function, cube};
     use argmin::core::{Executor, State};
@@ -249,8 +219,9 @@ mod tests {
 
     fn run(search: Search<Random>) -> (SearchState<Random>, FitState) {
         let sphere = Function(argmin_testfunctions::sphere);
-        let result = Executor::new(sphere, search).configure(|s| s.counting(true)).run().unwrap();
-        (result.solver.state, result.state)
+        let result =
+            Executor::new(sphere, ArgminSolver(search)).configure(|s| s.counting(true)).run().unwrap();
+        (result.solver.0.state, result.state)
     }
 
     #[test]

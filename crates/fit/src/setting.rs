@@ -1,6 +1,6 @@
 //! The settings of optimisers, declared: what each may be.
 //!
-//! The types of [`crate::method`] say what a setting does; this says which values make sense, so that
+//! The types of settings, such as [`crate::CmaSettings`], say what a setting does; this says which values make sense, so that
 //! whoever reads one from a command line can refuse the others in plain words.
 
 use SettingKind::{Count, Flag, Number, Word};
@@ -33,7 +33,7 @@ pub enum SettingKind {
 /// More individuals than this at once, or generations without success, serve nobody.
 const MANY: u64 = 100_000;
 
-/// The names of [`crate::method::Merge`].
+/// The names of [`crate::Merge`].
 const MERGES: [&str; 3] = ["Both", "Uniform", "Mean"];
 
 const fn setting(optimizer: &'static str, name: &'static str, kind: SettingKind) -> Setting {
@@ -113,7 +113,7 @@ impl fmt::Display for SettingKind {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::Optimizer;
+    use crate::optimizer::Optimizer;
     use serde_json::Value;
 
     /// As the JSON of an optimiser's settings has them.

@@ -4,7 +4,7 @@
 //! judging of a result are worth nothing in part: asked to stop, they end in [`FitError::Interrupted`]
 //! after the trees that are growing, and are done again when the run is resumed.
 
-use crate::run::FitError;
+use crate::error::FitError;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -20,21 +20,21 @@ use serde::Serialize;
 use std::fmt;
 
 /// From here on a fit is of its kind: within what the mean over a few pairs of trees is known to.
-pub const OF_ITS_KIND: f64 = 0.85;
+const OF_ITS_KIND: f64 = 0.85;
 /// From here on it is so roughly: nearer to the kind than to other species.
-pub const ROUGHLY: f64 = 0.5;
+const ROUGHLY: f64 = 0.5;
 /// Below it, it might as well be a tree of another species.
-pub const NOT_AT_ALL: f64 = 0.1;
+const NOT_AT_ALL: f64 = 0.1;
 /// Likeness between 0 and 1 of the rule, at least: where two trees of a species are no more alike than
 /// two of any, the rule would divide by nothing.
-pub const MIN_SPAN: f64 = 0.05;
+pub const MIN_VERDICT_SPAN: f64 = 0.05;
 
 /// A crown is too wide, or its tree too tall, from this factor on, and too narrow from its inverse.
-pub const SIZE_OFF: f64 = 1.1;
+const SIZE_OFF: f64 = 1.1;
 /// Ink in the box around the tree, as a factor of the goal's, from which a tree is too dense.
-pub const DENSITY_OFF: f64 = 1.15;
+const DENSITY_OFF: f64 = 1.15;
 /// By this part of the goal's height the crown begins too high or too low.
-pub const BARE_OFF: f64 = 0.08;
+const BARE_OFF: f64 = 0.08;
 
 /// How a fit stands to its goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -161,7 +161,7 @@ impl Verdict {
     ) -> Option<Self> {
         let one = references.same_species?.likeness;
         let other = references.other_species.unwrap_or(references.best_ellipse).likeness;
-        let share = |likeness: f64| (likeness - other) / (one - other).max(MIN_SPAN);
+        let share = |likeness: f64| (likeness - other) / (one - other).max(MIN_VERDICT_SPAN);
         let of_kind = share(fresh.unwrap_or(tree));
         Some(Self {
             kind: Kindred::of(of_kind),

@@ -7,9 +7,7 @@
 mod common;
 
 use common::goal_of;
-use pleach_fit::settings::LIMITS;
-use pleach_fit::stream::Stream;
-use pleach_fit::{Evaluator, Freedom, Genome, Objective, SearchSpace, TreeSeed};
+use pleach_fit::{Evaluator, FIT_LIMITS, Freedom, Genome, Objective, SearchSpace, Stream, TreeSeed};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 use std::sync::Arc;
@@ -21,14 +19,13 @@ static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 fn warm_evaluations_allocate_nothing() {
     let problem = goal_of("quaking_aspen", 1, 128);
     let tree_seed = TreeSeed::Fixed(1);
-    let space =
-        SearchSpace::new(Arc::clone(&problem.generator), &problem.base, &Freedom::default(), tree_seed)
-            .unwrap();
+    let (generator, base) = (Arc::clone(&problem.start.generator), problem.start.params.values());
+    let space = SearchSpace::new(generator, base, &Freedom::default(), tree_seed).unwrap();
     // The goal's own tree, and lists around it: what a search sees in its last hours.
     let genomes: Vec<Genome> = (0..12)
         .map(|i| {
             let mut draws = Stream::at(1, 9, 0, i);
-            let mut genome = space.individual(&problem.base, 1);
+            let mut genome = space.individual(base, 1);
             for gene in space.genes() {
                 let unit = gene.to_unit(gene.of(&genome)) + 0.02 * draws.signed();
                 gene.set(&mut genome, gene.from_unit(unit));
@@ -37,7 +34,7 @@ fn warm_evaluations_allocate_nothing() {
         })
         .collect();
     for objective in Objective::ALL {
-        let evaluator = Evaluator::new(&problem, objective, LIMITS).unwrap();
+        let evaluator = Evaluator::new(&problem, objective, FIT_LIMITS).unwrap();
         let mut memory = evaluator.workspace();
         let warm: Vec<_> = genomes.iter().map(|g| evaluator.evaluate(g, &mut memory)).collect();
         assert!(warm.iter().any(|s| s.cost < 0.9), "the lists grow");

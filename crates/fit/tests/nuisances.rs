@@ -28,7 +28,7 @@ fn two_views(azimuth: f64, off: Placement, unknown: Unknown) -> FitProblem {
     Rasterizer::with_detail(Detail::Half).draw(&tree, &view, &off.frame(&frame), Parts::LEAFY, &mut goal);
     // What is told of the direction is 10 degrees off.
     let view = View::degrees(azimuth - 10.0, 0.0);
-    problem.goals.push(GoalView { goal, view, frame, unknown });
+    problem.goals.push(GoalView { unknown, ..GoalView::new(goal, view, frame) });
     problem
 }
 
@@ -37,15 +37,15 @@ fn only_nuisances(optimizer: &str, evaluations: u64, problem: &FitProblem) -> Fi
     FitSettings {
         optimizer: optimizer.parse().unwrap(),
         budget: Budget::evaluations(evaluations),
-        start: Start::Lists(vec![problem.base.clone()]),
+        start: Start::Lists(vec![problem.start.params.values().to_vec()]),
         freedom: Freedom { free: Vec::new(), fix: groups(problem) },
         ..FitSettings::default()
     }
 }
 
 fn groups(problem: &FitProblem) -> Vec<String> {
-    let space = problem.generator.space();
-    (0..space.len()).map(|slot| space.slot_name(slot)).collect()
+    let space = problem.start.generator.space();
+    space.slots().map(|slot| space.slot_name(slot)).collect()
 }
 
 fn run(problem: &FitProblem, settings: &FitSettings) -> Outcome {
@@ -59,7 +59,7 @@ fn a_known_tree_tells_from_where_it_is_seen() {
     let problem = two_views(40.0, Placement::KNOWN, unknown);
     for optimizer in ["evolution", "cma", "de"] {
         let best = run(&problem, &only_nuisances(optimizer, 300, &problem)).best.unwrap();
-        assert_eq!(best.genome.values, problem.base, "the tree is not touched");
+        assert_eq!(best.genome.values, problem.start.params.values(), "the tree is not touched");
         let found = placements(&problem.goals, &best.genome.nuisances);
         assert_eq!(found[0], Placement::KNOWN);
         let azimuth = found[1].azimuth.unwrap();
@@ -87,7 +87,7 @@ fn every_optimizer_searches_them_on_any_number_of_threads() {
         let settings = FitSettings {
             optimizer: name.parse().unwrap(),
             budget: Budget::evaluations(80),
-            start: Start::Lists(vec![problem.base.clone()]),
+            start: Start::Lists(vec![problem.start.params.values().to_vec()]),
             ..FitSettings::default()
         };
         let on = |threads| {

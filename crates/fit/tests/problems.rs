@@ -5,9 +5,9 @@
 mod common;
 
 use common::goal_of;
-use pleach_fit::settings::LIMITS;
 use pleach_fit::{
-    Budget, Control, Evaluator, FitError, FitSettings, Freedom, Objective, ProblemError, Start, fit,
+    Budget, Control, Evaluator, FIT_LIMITS, FitError, FitSettings, Freedom, Objective, ProblemError, Start,
+    fit,
 };
 use pleach_silhouette::Bitmap;
 use pleach_tree::Limits;
@@ -33,7 +33,7 @@ fn goals_that_cannot_be_compared_with_are_named() {
     other_size.goals[0].goal = Bitmap::new(31, 32);
     let mut no_scale = good.clone();
     no_scale.goals[0].frame.meters_per_pixel = f64::NAN;
-    let error = |problem| Evaluator::new(problem, Objective::Blend, LIMITS).unwrap_err();
+    let error = |problem| Evaluator::new(problem, Objective::Blend, FIT_LIMITS).unwrap_err();
     assert_eq!(error(&none), ProblemError::NoGoal);
     assert_eq!(error(&empty), ProblemError::EmptyGoal { index: 0 });
     assert_eq!(error(&other_size), ProblemError::FrameSize { index: 0, goal: (31, 32), frame: (32, 32) });
@@ -74,7 +74,7 @@ fn what_does_not_grow_costs_infinity_and_the_fit_goes_on() {
 #[test]
 fn the_truth_is_perfect_and_ends_the_fit() {
     let problem = goal_of("palm", 1, 64);
-    let start = Start::Lists(vec![problem.base.clone()]);
+    let start = Start::Lists(vec![problem.start.params.values().to_vec()]);
     for objective in Objective::ALL {
         let budget = Budget::evaluations(500);
         let settings = FitSettings { start: start.clone(), objective, budget, ..FitSettings::default() };

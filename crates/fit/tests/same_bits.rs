@@ -9,6 +9,7 @@ use pleach_fit::{
     Budget, CheckpointSettings, Control, FitProblem, FitSettings, Optimizer, Outcome, StopReason, TreeSeed,
     fit,
 };
+use pleach_tree::Foliage;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -104,7 +105,7 @@ fn another_goal_is_another_run() {
     taller.goals[0].frame.meters_per_pixel *= 1.2;
     let error = fit(&taller, &settings, control()).unwrap_err().to_string();
     assert!(error.ends_with("it differs in the tree's height (--height)"), "{error}");
-    let bare = FitProblem { foliage: false, ..goal_of("palm", 1, 64) };
+    let bare = FitProblem { foliage: Foliage::None, ..goal_of("palm", 1, 64) };
     let error = fit(&bare, &settings, control()).unwrap_err().to_string();
     assert!(error.ends_with("it differs in leaves (--leaves)"), "{error}");
 }

@@ -32,30 +32,24 @@
 //!
 //! # Fit a picture
 //!
-//! The goal is a picture and the height of its tree in metres. Here it is one of our own trees.
+//! The goal is a picture and the height of its tree in metres; here it is one of our own trees. The
+//! first guess says which of the candidates it looks like, and the search goes on from there.
 //!
 //! ```
-//! use pleach::{Budget, Control, FitProblem, FitSettings, Goal, GoalView, Unknown, View};
+//! use pleach::{Budget, Candidate, Control, FitProblem, FitSettings, Goal, GoalSettings, GoalView, View};
 //! use std::sync::atomic::AtomicBool;
 //! use std::time::Instant;
 //!
-//! let species = pleach::species("acer")?;
-//! let goal = Goal::from_bitmap(pleach::silhouette(&species.grow(7)?, View::FRONT, 64))?;
-//! let frame = goal.frame(12.0);
-//! let view = GoalView { goal: goal.bitmap, view: View::FRONT, frame, unknown: Unknown::default() };
-//! let problem = FitProblem {
-//!     generator: species.generator.clone(),
-//!     base: species.generator.space().defaults(),
-//!     goals: vec![view],
-//!     foliage: true,
-//! };
-//! let budget = Budget { evaluations: Some(10), ..Budget::default() };
-//! let settings = FitSettings { budget, ..FitSettings::default() };
+//! let candidates = [pleach::species("acer")?, pleach::species("palm")?];
+//! let goal = Goal::from_bitmap(pleach::silhouette(&candidates[0].grow(7)?, View::FRONT, 64))?;
+//! let view = GoalView::new(goal.bitmap.clone(), View::FRONT, goal.frame(12.0));
+//! let problem = FitProblem::new(candidates[1].clone(), view);
+//! let search = FitSettings { budget: Budget::evaluations(10), ..FitSettings::default() };
+//! let settings = GoalSettings { search, ..GoalSettings::new(candidates.map(Candidate::from).into()) };
 //! let (start, stop) = (Instant::now(), AtomicBool::new(false));
-//! let outcome = pleach::fit(&problem, &settings, Control::new(&|| start.elapsed(), &stop))?;
-//! let best = outcome.best.ok_or("nothing was evaluated")?;
-//! println!("cost {:.3} after {} trees", best.score.cost, outcome.evaluations);
-//! # assert!(best.score.cost < 1.0);
+//! let fitted = pleach::fit_goal(&problem, &settings, Control::new(&|| start.elapsed(), &stop))?;
+//! print!("{}", fitted.species()?.to_toml(&[]));
+//! # assert_eq!(fitted.problem.start.name, "acer");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -98,6 +92,8 @@
 //! The crates below this one (`pleach-tree`, `pleach-silhouette`, …) have what is not named here.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+/// The vectors of the public types.
+pub use glam;
 pub use pleach_generators::{
     RegistryError, names as species_names, read as read_species, read_file as read_species_file, species,
 };
@@ -110,14 +106,19 @@ pub use pleach_tree::leaf_shape::{BlossomShape, LeafShape, Outline, OutlineError
 pub use pleach_tree::species::{Appearance, Color, Season};
 pub use pleach_tree::stats::Bounds;
 pub use pleach_tree::{
-    Blob, CheckedParams, Family, Foliage, Generator, GrowError, Growth, Knot, Leaf, Limits, MalformedTree,
-    Param, ParamSpace, Parts, Species, SpeciesError, Stem, StemKind, Tree, TreeStats, Workspace,
+    Blame, Blob, CheckedParams, Conflict, Family, Foliage, Generator, GrowError, Growth, Knot, Leaf, Limits,
+    MalformedTree, ModelId, Param, ParamSpace, Parts, Slot, Species, SpeciesDoc, SpeciesError, Stem,
+    StemKind, Tree, TreeStats, Workspace,
 };
+/// What generators of your own are made of; `docs/a-generator.md` shows how.
+pub use pleach_tree::{param, random, species};
 
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
-    Budget, Control, FitError, FitProblem, FitSettings, Genome, GoalView, Objective, Observer, Optimizer,
-    Outcome, Progress, Score, Scored, Start, StopReason, TreeSeed, Unknown, fit,
+    Budget, Candidate, Control, FirstGuess, FitError, FitProblem, FitSettings, Fitted, Genome, GoalSettings,
+    GoalView, GuessLibrary, GuessSettings, Guessing, Judged, Judging, Objective, Observer, Optimizer,
+    Outcome, Progress, Score, Scored, Start, StopReason, TreeSeed, Unknown, Verdict, fit, fit_goal,
+    fit_goal_with,
 };
 
 #[cfg(feature = "blend")]

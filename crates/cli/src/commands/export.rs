@@ -386,7 +386,7 @@ fn extras(species: &Species, seed: Value) -> Value {
         .iter()
         .enumerate()
         .map(|(i, param)| {
-            let values = species.params.of(space, i);
+            let values = species.params.of(i);
             let value = if let [one] = values { json!(one) } else { json!(values) };
             (param.name.to_string(), value)
         })

@@ -7,9 +7,6 @@ use pleach_blend::{BlendError, BlendMap, Features, Point, Settings, looks};
 use pleach_tree::Species;
 use std::path::{Path, PathBuf};
 
-/// How many of the built-in species are the dissertation's, in front.
-const FIFTEEN: usize = 15;
-
 /// Where dots stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 enum Layout {
@@ -124,9 +121,9 @@ impl MapArgs {
         if let Some(names) = &self.only {
             return names.iter().map(|name| Ok(input::species(name)?)).collect();
         }
-        let names = pleach_generators::names();
-        let count = if self.all { names.len() } else { FIFTEEN };
-        Ok(names.iter().take(count).filter_map(|name| pleach_generators::preset(name)).collect())
+        let all = pleach_generators::names();
+        let names = if self.all { &all } else { pleach_generators::HEWITT_2017 };
+        Ok(names.iter().filter_map(|name| pleach_generators::preset(name)).collect())
     }
 }
 

@@ -4,7 +4,7 @@ use super::maps::{METHODS, Maps, Method};
 use super::ranges::Ranges;
 use super::{Rows, SEED};
 use pleach_blend::BlendMap;
-use pleach_tree::{Kind, Species};
+use pleach_tree::{Kind, Slot, Species};
 
 /// The palm with each other species: what is broken about a blend.
 pub(super) fn palm(maps: &Maps, rows: &mut Rows) -> anyhow::Result<()> {
@@ -41,30 +41,30 @@ fn out_of_range(raw: &BlendMap, (a, b): (usize, usize), at: f64) -> u32 {
     let point = raw.dots()[a].towards(raw.dots()[b], at);
     let space = raw.landmarks().space();
     let back = raw.pca().back(&[point.x, point.y]);
-    let wrong = |slot: &usize| {
+    let wrong = |slot: &Slot| {
         let (low, high) = space.kind_of(*slot).range();
-        !(low - 1e-9..=high + 1e-9).contains(&back[*slot])
+        !(low - 1e-9..=high + 1e-9).contains(&back[slot.index()])
     };
-    (0..space.len()).filter(wrong).count() as u32
+    space.slots().filter(wrong).count() as u32
 }
 
 /// Numbers that the blend reads and whose choice or sign none of the species that read them has.
 fn foreign_switches(blend: &Species, species: &[Species]) -> u32 {
     let space = blend.generator.space();
     let values = blend.params.values();
-    let side = |slot: usize, value: f64| match space.kind_of(slot) {
+    let side = |slot: Slot, value: f64| match space.kind_of(slot) {
         Kind::Choice { .. } => value,
         kind if kind.is_flagged() && value < 0.0 => -1.0,
         _ => 1.0,
     };
-    let foreign = |slot: &usize| {
-        let readers = species.iter().filter(|s| s.generator.reads(s.params.values(), *slot));
-        let mut sides = readers.map(|s| side(*slot, s.params.values()[*slot])).peekable();
-        blend.generator.reads(values, *slot)
+    let foreign = |slot: &Slot| {
+        let readers = species.iter().filter(|s| s.generator.is_active(s.params.values(), *slot));
+        let mut sides = readers.map(|s| side(*slot, s.params.get(*slot))).peekable();
+        blend.generator.is_active(values, *slot)
             && sides.peek().is_some()
-            && !sides.any(|s| s == side(*slot, values[*slot]))
+            && !sides.any(|s| s == side(*slot, blend.params.get(*slot)))
     };
-    (0..space.len()).filter(foreign).count() as u32
+    space.slots().filter(foreign).count() as u32
 }
 
 /// Tapers that the blend reads and that lie outside the range of those of its two ends that have the
@@ -72,14 +72,14 @@ fn foreign_switches(blend: &Species, species: &[Species]) -> u32 {
 fn wrong_tapers(blend: &Species, ends: [&Species; 2]) -> u32 {
     let space = blend.generator.space();
     let slots = space.select("taper").unwrap_or_default();
-    let wrong = |slot: &&usize| {
+    let wrong = |slot: &&Slot| {
         let slot = **slot;
-        let readers = ends.iter().filter(|s| s.generator.reads(s.params.values(), slot));
+        let readers = ends.iter().filter(|s| s.generator.is_active(s.params.values(), slot));
         let (low, high) = readers
-            .map(|s| s.params.values()[slot])
+            .map(|s| s.params.get(slot))
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-        let value = blend.params.values()[slot];
-        blend.generator.reads(blend.params.values(), slot)
+        let value = blend.params.get(slot);
+        blend.generator.is_active(blend.params.values(), slot)
             && low <= high
             && !(low - 0.051..=high + 0.051).contains(&value)
     };

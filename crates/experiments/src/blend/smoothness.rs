@@ -82,10 +82,10 @@ impl Line {
 fn switches(one: &Species, two: &Species) -> bool {
     let space = one.generator.space();
     let (a, b) = (one.params.values(), two.params.values());
-    (0..space.len()).any(|slot| {
+    space.slots().any(|slot| {
         let kind = space.kind_of(slot);
-        let read = one.generator.reads(a, slot) || two.generator.reads(b, slot);
-        let sign = kind.is_flagged() && (a[slot] < 0.0) != (b[slot] < 0.0);
-        read && (sign || (kind.is_whole() && a[slot] != b[slot]))
+        let read = one.generator.is_active(a, slot) || two.generator.is_active(b, slot);
+        let sign = kind.is_flagged() && (one.params.get(slot) < 0.0) != (two.params.get(slot) < 0.0);
+        read && (sign || (kind.is_whole() && one.params.get(slot) != two.params.get(slot)))
     })
 }

@@ -1,6 +1,6 @@
 //! Spoils input: text, bytes and numbers.
 
-use pleach_fit::stream::Stream;
+use pleach_fit::Stream;
 
 /// What numbers are replaced by: at and beyond the ends of what types hold.
 const NUMBERS: [&str; 22] = [

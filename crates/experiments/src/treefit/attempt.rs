@@ -4,14 +4,13 @@ use super::goals::{self, Problem};
 use super::spec::{From, MethodSpec};
 use super::{FRESH, Fit, stop};
 use crate::record::Fixed;
-use anyhow::Context;
 use pleach_fit::{
-    Budget, Candidate, Control, FirstGuess, FitProblem, FitSettings, FreshSeeds, Genome, GuessSettings,
-    Objective, Start, TreeSeed, first_guess, fresh_seeds,
+    Budget, Candidate, Control, FirstGuess, FitProblem, FitSettings, FreshSeeds, GoalSettings, GoalView,
+    GuessSettings, Guessing, Objective, TreeSeed, first_guess, fit_goal, fresh_seeds,
 };
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::score::likeness::Likeness;
-use pleach_tree::Limits;
+use pleach_tree::{Limits, Species};
 use std::time::{Duration, Instant};
 
 /// Seed of the trees that are fitted; own goals are of other seeds.
@@ -20,9 +19,9 @@ const TREE_SEED: u64 = 1;
 /// What came of a fit.
 pub(super) struct Attempt {
     pub(super) row: Fit,
-    pub(super) best: Genome,
+    pub(super) best: Species,
     /// The nearest tree before the search.
-    pub(super) guess: Option<Genome>,
+    pub(super) guess: Option<Species>,
 }
 
 /// First guesses of one goal: several methods start from the same.
@@ -46,10 +45,11 @@ impl Guesses {
             Some(at) => at,
             None => {
                 let started = Instant::now();
+                let known = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
                 let found = first_guess(
                     problem,
                     settings,
-                    &candidates(problem),
+                    &known.map(Candidate::from).collect::<Vec<_>>(),
                     &GuessSettings::default(),
                     stop::flag(),
                     |_, _| (),
@@ -69,13 +69,12 @@ pub(super) fn fit(
     method: &MethodSpec,
     seed: u64,
 ) -> anyhow::Result<Attempt> {
-    let mut fit = problem.fit.clone();
     let budget = Budget {
         evaluations: method.evaluations.map(|n| *n),
         timeout: method.seconds.map(|seconds| Duration::try_from_secs_f64(*seconds)).transpose()?,
         ..Budget::default()
     };
-    let mut settings = FitSettings {
+    let search = FitSettings {
         optimizer: method.optimizer.value.clone(),
         budget,
         seed,
@@ -83,36 +82,47 @@ pub(super) fn fit(
         objective: method.objective.as_ref().map(|word| word.value).unwrap_or_default(),
         ..FitSettings::default()
     };
-    let mut first = None;
-    match method.from {
+    let (guess, before) = match method.from {
         From::Auto => {
-            let Guessed { found, seconds } = guesses.of(&fit, &settings)?;
-            fit.base = found.nearest[0].values.clone();
-            settings.start = Start::Lists(found.nearest.iter().map(|guess| guess.values.clone()).collect());
-            let (name, confidence) = found.names[0].clone();
-            first = Some((name, confidence, *seconds));
+            let Guessed { found, seconds } = guesses.of(&problem.fit, &search)?;
+            (Guessing::Known(Box::new(found.clone())), *seconds)
         }
-        From::Random => (),
-    }
-    let guess = first.as_ref().map(|_| Genome::new(fit.base.clone(), TREE_SEED));
-    let (named, confidence, before) = first.map_or_else(Default::default, |(name, confidence, seconds)| {
-        (name, Some(Fixed(confidence)), seconds)
-    });
+        From::Random => (Guessing::Off, Duration::ZERO),
+    };
     let started = Instant::now();
     let clock = || before + started.elapsed();
-    let outcome = pleach_fit::fit(&fit, &settings, Control::new(&clock, stop::flag()))?;
+    // Judged below, by the whole picture where the goal is spoilt.
+    let settings = GoalSettings { search, guess, candidates: Vec::new(), judging: None };
+    let fitted = fit_goal(&problem.fit, &settings, Control::new(&clock, stop::flag()))?;
     let seconds = clock().as_secs_f64();
-    let best = outcome.best.filter(|best| best.score.cost.is_finite()).context("nothing grew")?.genome;
+    let best = fitted.species()?;
+    let start = Species { tree_seed: Some(TREE_SEED), ..fitted.problem.start.clone() };
+    let guess = fitted.guess.as_ref().map(|_| start);
+    let (named, confidence) = fitted.guess.as_ref().map_or_else(Default::default, |guess| {
+        let (name, confidence) = &guess.names[0];
+        (name.clone(), Some(Fixed(*confidence)))
+    });
 
-    let card = |genome: &Genome| -> anyhow::Result<ScoreCard> {
-        Ok(ScoreCard::of(&goals::draw(&fit, genome, &fit.goals[0])?, &fit.goals[0].goal)?)
+    let drawn = |species: &Species, view: &GoalView| {
+        goals::draw(species, species.tree_seed.unwrap_or(TREE_SEED), fitted.problem.foliage, view)
+    };
+    let card = |species: &Species| -> anyhow::Result<ScoreCard> {
+        let goal = &fitted.problem.goals[0];
+        Ok(ScoreCard::of(&drawn(species, goal)?, &goal.goal)?)
+    };
+    // Likeness and IoU of the result in `view`.
+    let alike = |view: &GoalView| -> anyhow::Result<[f64; 2]> {
+        let picture = drawn(&best, view)?;
+        Ok([Likeness::of(&picture, &view.goal).value(), goals::iou(&picture, &view.goal)])
     };
     let scores = card(&best)?;
     let guessed = guess.as_ref().map(card).transpose()?;
     let judged = problem.clean.as_ref().unwrap_or(&problem.fit);
-    let fresh = fresh_seeds(judged, settings.objective, Limits::default(), &best, FRESH, stop::flag())?;
-    let clean = problem.clean.as_ref().map(|clean| alike(problem, &best, &clean.goals[0])).transpose()?;
-    let held_out = problem.held_out.as_ref().map(|view| alike(problem, &best, view)).transpose()?;
+    let judged = FitProblem { start: fitted.problem.start.clone(), ..judged.clone() };
+    let (objective, genome) = (fitted.settings.objective, &fitted.best.genome);
+    let fresh = fresh_seeds(&judged, objective, Limits::default(), genome, FRESH, stop::flag())?;
+    let clean = problem.clean.as_ref().map(|clean| alike(&clean.goals[0])).transpose()?;
+    let held_out = problem.held_out.as_ref().map(alike).transpose()?;
     let ceiling = problem.ceiling;
     let of_fresh = |of: fn(&FreshSeeds) -> f64| fresh.as_ref().map(|fresh| Fixed(of(fresh)));
     // The ellipse scores nothing and other trees of the true parameters all that can be asked for.
@@ -125,7 +135,7 @@ pub(super) fn fit(
         kind: problem.spec.kind().name().to_owned(),
         method: method.name.clone(),
         repetition: seed,
-        evaluations: outcome.evaluations,
+        evaluations: fitted.outcome.evaluations,
         named,
         confidence,
         guess_likeness: guessed.as_ref().map(|card| Fixed(card.likeness)),
@@ -151,19 +161,4 @@ pub(super) fn fit(
         wall_s: Fixed(seconds),
     };
     Ok(Attempt { row, best, guess })
-}
-
-/// Likeness and IoU of an individual in `view`.
-fn alike(problem: &Problem, genome: &Genome, view: &pleach_fit::GoalView) -> anyhow::Result<[f64; 2]> {
-    let picture = goals::draw(&problem.fit, genome, view)?;
-    Ok([Likeness::of(&picture, &view.goal).value(), goals::iou(&picture, &view.goal)])
-}
-
-/// The known species as candidates of a first guess.
-fn candidates(problem: &FitProblem) -> Vec<Candidate> {
-    let species = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
-    species
-        .filter(|s| s.generator.family() == problem.generator.family() && s.generator.extra_toml().is_empty())
-        .map(|s| Candidate { name: s.name.clone(), values: s.params.values().to_vec() })
-        .collect()
 }

@@ -3,11 +3,11 @@
 use super::spec::{Degraded, FileGoal, GoalSpec, OwnGoal};
 use super::{FRESH, SIZE, stop};
 use anyhow::Context;
-use pleach_fit::{FitProblem, Genome, GoalView, Objective, Unknown, fresh_seeds};
+use pleach_fit::{FitProblem, Genome, GoalView, Objective, fresh_seeds};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::score::likeness::Likeness;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Growth, Key, Limits, Parts, Tree, Workspace};
+use pleach_tree::{Foliage, Growth, Key, Limits, Parts, Species, Tree};
 use std::path::Path;
 
 /// A goal with what is known of it.
@@ -80,7 +80,7 @@ impl Problem {
     fn file(folder: &Path, spec: &GoalSpec, goal: &FileGoal) -> anyhow::Result<Self> {
         let picture = load(folder, &goal.file)?;
         let frame = picture.frame(goal.height);
-        let view = GoalView { frame, goal: picture.bitmap, view: View::FRONT, unknown: Unknown::default() };
+        let view = GoalView::new(picture.bitmap, View::FRONT, frame);
         Ok(Self {
             spec: spec.clone(),
             name: spec.name(),
@@ -103,8 +103,8 @@ const LIKE_SEED: u64 = 11;
 
 /// A problem of the default generator, from the default species.
 fn problem(goals: Vec<GoalView>, foliage: bool) -> anyhow::Result<FitProblem> {
-    let base = pleach_generators::preset("quaking_aspen").context("the default species is built in")?;
-    Ok(FitProblem { base: base.params.values().to_vec(), generator: base.generator, goals, foliage })
+    let start = pleach_generators::preset("quaking_aspen").context("the default species is built in")?;
+    Ok(FitProblem { start, goals, foliage: if foliage { Foliage::All } else { Foliage::None } })
 }
 
 /// A picture of a whole tree in the frame that suits it.
@@ -112,7 +112,7 @@ fn pictured(tree: &Tree, view: View, foliage: bool) -> GoalView {
     let frame = Frame::automatic(tree, &view, Parts::with_foliage(foliage), SIZE, SIZE);
     let mut goal = Bitmap::default();
     Rasterizer::new().draw(tree, &view, &frame, Parts::with_foliage(foliage), &mut goal);
-    GoalView { goal, view, frame, unknown: Unknown::default() }
+    GoalView::new(goal, view, frame)
 }
 
 /// How trees of other seeds of the true parameters do, against the whole picture.
@@ -174,14 +174,15 @@ pub(super) fn iou(a: &Bitmap, b: &Bitmap) -> f64 {
     both / ((a.ink() + b.ink()) as f64 - both).max(1.0)
 }
 
-/// The silhouette of an individual as `view` sees it.
-pub(super) fn draw(problem: &FitProblem, genome: &Genome, view: &GoalView) -> anyhow::Result<Bitmap> {
-    let params = problem.generator.space().check(genome.values.clone())?;
-    let mut tree = Tree::default();
-    let foliage = if problem.foliage { Foliage::All } else { Foliage::None };
-    let growth = Growth { foliage, ..Growth::seed(genome.tree_seed) };
-    problem.generator.grow(&params, &growth, &mut Workspace::default(), &mut tree)?;
+/// The silhouette of the tree of `seed` as `view` sees it.
+pub(super) fn draw(
+    species: &Species,
+    seed: u64,
+    foliage: Foliage,
+    view: &GoalView,
+) -> anyhow::Result<Bitmap> {
+    let tree = species.grow_with(&Growth { foliage, ..Growth::seed(seed) })?;
     let mut bitmap = Bitmap::default();
-    Rasterizer::new().draw(&tree, &view.view, &view.frame, Parts::with_foliage(problem.foliage), &mut bitmap);
+    Rasterizer::new().draw(&tree, &view.view, &view.frame, foliage.into(), &mut bitmap);
     Ok(bitmap)
 }

@@ -16,12 +16,10 @@ use anyhow::{Context, bail};
 use attempt::Guesses;
 use goals::Problem;
 use pleach_console::files;
-use pleach_fit::Genome;
 use pleach_tree::Species;
 use pleach_tree::species::Appearance;
 use spec::{GoalSpec, MethodSpec};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// Side of every goal in pixels.
 const SIZE: u32 = 256;
@@ -129,25 +127,21 @@ fn fitted(
         .with_context(|| format!("{name}, {}, repetition {repetition}", method.name))?;
     if is_kept && !stop::is_raised() {
         files::make_folder(&folder.join("fits"))?;
-        write_species(&folder.join(fit_file(&name)), &name, problem, &result.best)?;
+        write_species(&folder.join(fit_file(&name)), &name, &result.best)?;
         if let Some(guess) = &result.guess {
-            write_species(&folder.join(guess_file(&name)), &name, problem, guess)?;
+            write_species(&folder.join(guess_file(&name)), &name, guess)?;
         }
     }
     Ok(result.row)
 }
 
 /// A fit as a species file, so that anybody can grow it.
-fn write_species(path: &Path, name: &str, problem: &Problem, genome: &Genome) -> anyhow::Result<()> {
-    let generator = Arc::clone(&problem.fit.generator);
-    let params = generator.space().check(genome.values.clone())?;
+fn write_species(path: &Path, name: &str, species: &Species) -> anyhow::Result<()> {
     let species = Species {
         name: name.to_owned(),
         description: String::new(),
-        generator,
-        params,
-        tree_seed: Some(genome.tree_seed),
         appearance: Appearance::default(),
+        ..species.clone()
     };
     files::write_text(path, &species.to_toml(&[]))
 }

@@ -4,7 +4,6 @@ use super::goals::{self, Problem};
 use super::spec::TreefitSpec;
 use super::{Outputs, SIZE, fit_file, guess_file};
 use anyhow::Context;
-use pleach_fit::Genome;
 use pleach_silhouette::{Bitmap, picture};
 use std::path::Path;
 
@@ -24,8 +23,7 @@ pub(super) fn draw(folder: &Path, spec: &TreefitSpec, outputs: &Outputs) -> anyh
             let path = folder.join(file);
             let species = pleach_generators::species(&path.to_string_lossy())?;
             let seed = species.tree_seed.with_context(|| format!("{} has no seed", path.display()))?;
-            let genome = Genome::new(species.params.values().to_vec(), seed + further);
-            Ok(small(&goals::draw(&problem.fit, &genome, view)?))
+            Ok(small(&goals::draw(&species, seed + further, problem.fit.foliage, view)?))
         };
         let name = &problem.name;
         cells.push((name.clone(), small(&view.goal)));

@@ -1,16 +1,20 @@
 //! Trees of the known species, grown once and compared with many goals.
 
+use super::candidate::Candidate;
 use super::plate::{Plate, side_for};
-use super::{BATCH, Candidate, GuessSettings, Try, tries};
-use crate::evaluator::{Evaluator, FitProblem, height_of};
-use crate::run::FitError;
-use crate::settings::FitSettings;
+use super::settings::GuessSettings;
+use super::shown::Shown;
+use super::tries::{Try, tries};
+use crate::error::FitError;
+use crate::evaluator::{Evaluator, height_of};
+use crate::problem::FitProblem;
 use crate::space::TreeSeed;
 use crate::stoppable;
 use pleach_silhouette::{Bitmap, Frame, View};
-use pleach_tree::Limits;
-use std::sync::atomic::AtomicBool;
+use pleach_tree::{Foliage, Limits, ModelId};
 
+/// Trees between two calls of the observer: enough to keep the threads busy.
+const BATCH: usize = 32;
 /// The trees that goals are compared with, kept from goal to goal.
 ///
 /// What is kept does not depend on a goal but for the side from which it was taken and, roughly, its
@@ -24,8 +28,8 @@ pub struct GuessLibrary {
 /// What the trees of a library depend on.
 #[derive(Debug, PartialEq)]
 struct Key {
-    generator: String,
-    candidates: Vec<Candidate>,
+    /// Model, name and numbers of each.
+    candidates: Vec<(ModelId, String, Vec<f64>)>,
     guess: GuessSettings,
     seed: u64,
     tree_seed: TreeSeed,
@@ -33,14 +37,6 @@ struct Key {
     limits: Limits,
     views: Vec<View>,
     side: u32,
-}
-
-/// What is asked of a library.
-pub(super) struct Wish<'a> {
-    pub(super) candidates: &'a [Candidate],
-    pub(super) guess: &'a GuessSettings,
-    /// Whether trees with leaves are wanted, and such without.
-    pub(super) looks: [bool; 2],
 }
 
 /// A tree, or several of other seeds that count together.
@@ -60,9 +56,9 @@ struct Looks {
     plates: Vec<Plate>,
 }
 
-/// Which of an entry's looks.
-pub(super) const fn place(foliage: bool) -> usize {
-    if foliage { 0 } else { 1 }
+/// Which of an entry's looks: with leaves, then without.
+fn place(foliage: Foliage) -> usize {
+    usize::from(foliage == Foliage::None)
 }
 
 /// How an entry compares with a goal.
@@ -85,29 +81,18 @@ impl GuessLibrary {
         Self::default()
     }
 
-    /// The trees for `problem`; grown if they are not there.
+    /// The trees for the goals that are `shown`, with leaves and without as `wanted`; grown if they are
+    /// not there.
     pub(super) fn entries(
         &mut self,
-        (problem, evaluator): (&FitProblem, &Evaluator),
-        settings: &FitSettings,
-        Wish { candidates, guess, looks: wanted }: Wish<'_>,
-        stop: &AtomicBool,
+        shown: &Shown<'_>,
+        guess: &GuessSettings,
+        wanted: [bool; 2],
         mut progress: impl FnMut(usize, usize),
     ) -> Result<&[Entry], FitError> {
-        let list = tries(problem, settings, candidates, guess)?;
-        let goals = problem.goals.iter();
-        let side = goals.map(|goal| side_for(goal.frame.width, goal.frame.height)).max().unwrap_or_default();
-        let key = Key {
-            generator: format!("{:?}", problem.generator),
-            candidates: candidates.to_vec(),
-            guess: GuessSettings { detect_leaves: false, keep: 0, ..*guess },
-            seed: settings.seed,
-            tree_seed: settings.tree_seed,
-            robust: settings.robust.get(),
-            limits: settings.limits,
-            views: list.first().map(|attempt| views(evaluator, attempt)).unwrap_or_default(),
-            side,
-        };
+        let list = tries(shown.settings, shown.candidates, guess)?;
+        let key = Key::new(shown, guess, &list);
+        let side = key.side;
         let all = list.len();
         let mut entries = match self.shelf.take() {
             Some((known, entries)) if known == key => entries,
@@ -117,8 +102,8 @@ impl GuessLibrary {
         if !entries.iter().all(there) {
             let mut done = 0;
             for batch in entries.chunks_mut(BATCH) {
-                let grown = stoppable::map(batch, stop, |entry| {
-                    if there(entry) { None } else { grow(evaluator, &entry.attempt, wanted, side) }
+                let grown = stoppable::map(batch, shown.stop, |entry| {
+                    if there(entry) { None } else { grow(shown, &entry.attempt, wanted, side) }
                 })?;
                 for (entry, grown) in batch.iter_mut().zip(grown) {
                     if let Some(looks) = grown {
@@ -135,19 +120,46 @@ impl GuessLibrary {
     }
 }
 
+impl Key {
+    fn new(shown: &Shown<'_>, guess: &GuessSettings, list: &[Try]) -> Self {
+        let settings = shown.settings;
+        let of = |Candidate { species }: &Candidate| {
+            (species.generator.model(), species.name.clone(), species.params.values().to_vec())
+        };
+        let views = |first: &Try| views(shown.models.evaluator(first.candidate), first);
+        Self {
+            candidates: shown.candidates.iter().map(of).collect(),
+            guess: GuessSettings { detect_leaves: false, keep: 0, ..*guess },
+            seed: settings.seed,
+            tree_seed: settings.tree_seed,
+            robust: settings.robust.get(),
+            limits: settings.limits,
+            views: list.first().map(views).unwrap_or_default(),
+            side: side_of(shown.problem),
+        }
+    }
+}
+
+/// The side of the plates for the goals of `problem`, in pixels.
+fn side_of(problem: &FitProblem) -> u32 {
+    let goals = problem.goals.iter();
+    goals.map(|goal| side_for(goal.frame.width, goal.frame.height)).max().unwrap_or_default()
+}
+
 /// The views of a problem as the library's trees are seen in them.
 fn views(evaluator: &Evaluator, attempt: &Try) -> Vec<View> {
     evaluator.placed(&attempt.genome).into_iter().map(|(view, _)| view).collect()
 }
 
 /// Grows and draws the trees of `attempt`; none if one of them does not grow.
-fn grow(evaluator: &Evaluator, attempt: &Try, wanted: [bool; 2], side: u32) -> Option<[Option<Looks>; 2]> {
+fn grow(shown: &Shown<'_>, attempt: &Try, wanted: [bool; 2], side: u32) -> Option<[Option<Looks>; 2]> {
+    let evaluator = shown.models.evaluator(attempt.candidate);
     let views = views(evaluator, attempt);
     let mut looks = wanted.map(|wanted| wanted.then(|| Looks { height: 0.0, plates: Vec::new() }));
-    evaluator.show(&attempt.genome, wanted[place(true)], |tree, rasterizer| {
-        for (at, looks) in looks.iter_mut().enumerate() {
+    let grown = if wanted[place(Foliage::All)] { Foliage::All } else { Foliage::None };
+    evaluator.show(&attempt.genome, grown, |tree, rasterizer| {
+        for (foliage, looks) in [Foliage::All, Foliage::None].into_iter().zip(&mut looks) {
             let Some(looks) = looks else { continue };
-            let foliage = at == place(true);
             if looks.plates.is_empty() {
                 looks.height = height_of(tree, foliage);
             }
@@ -159,18 +171,19 @@ fn grow(evaluator: &Evaluator, attempt: &Try, wanted: [bool; 2], side: u32) -> O
     Some(looks)
 }
 
-/// Compares every entry, with leaves or without, with the goals of `evaluator`; none for those that do
+/// Compares every entry, with leaves or without, with the goals that are `shown`; none for those that do
 /// not grow.
 pub(super) fn compare(
-    (problem, evaluator): (&FitProblem, &Evaluator),
+    shown: &Shown<'_>,
     entries: &[Entry],
-    foliage: bool,
-    stop: &AtomicBool,
+    foliage: Foliage,
 ) -> Result<Vec<Option<Resemblance>>, FitError> {
-    stoppable::map(entries, stop, |entry| {
+    stoppable::map(entries, shown.stop, |entry| {
         let looks = entry.looks[place(foliage)].as_ref()?;
+        let candidate = entry.attempt.candidate;
+        let evaluator = shown.models.evaluator(candidate);
         let mut values = entry.attempt.genome.values.clone();
-        let factor = evaluator.factor_for(looks.height).filter(|&f| problem.generator.resize(&mut values, f));
+        let factor = evaluator.factor_for(looks.height).filter(|&f| shown.resize(candidate, &mut values, f));
         let factor = factor.unwrap_or(1.0);
         let frames: Vec<Frame> =
             evaluator.placed(&entry.attempt.genome).into_iter().map(|(_, frame)| frame).collect();
@@ -195,19 +208,17 @@ pub(super) fn compare(
 
 /// Grows `attempts`, whose trees nobody keeps, and compares them as [`compare`] does.
 pub(super) fn shown_once(
-    shown: (&FitProblem, &Evaluator),
+    shown: &Shown<'_>,
     attempts: Vec<Try>,
-    foliage: bool,
-    stop: &AtomicBool,
+    foliage: Foliage,
 ) -> Result<Vec<Resemblance>, FitError> {
-    let goals = shown.0.goals.iter();
-    let side = goals.map(|goal| side_for(goal.frame.width, goal.frame.height)).max().unwrap_or_default();
-    let wanted = [foliage, !foliage];
-    let looks = stoppable::map(&attempts, stop, |attempt| grow(shown.1, attempt, wanted, side))?;
+    let side = side_of(shown.problem);
+    let wanted = [Foliage::All, Foliage::None].map(|one| one == foliage);
+    let looks = stoppable::map(&attempts, shown.stop, |attempt| grow(shown, attempt, wanted, side))?;
     let entries: Vec<Entry> = attempts
         .into_iter()
         .zip(looks)
         .map(|(attempt, looks)| Entry { attempt, looks: looks.unwrap_or([None, None]) })
         .collect();
-    Ok(compare(shown, &entries, foliage, stop)?.into_iter().flatten().collect())
+    Ok(compare(shown, &entries, foliage)?.into_iter().flatten().collect())
 }

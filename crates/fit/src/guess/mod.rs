@@ -1,5 +1,8 @@
 //! A first guess: which known species a goal looks like, and the lists that a search may start from.
 //!
+//! Candidates may be of any family of generators; each grows its own trees. The likeliest by what the search
+//! makes small says which generator is searched, and the search starts from lists of that generator alone.
+//!
 //! Trees of all candidates are grown as they are and with their numbers varied, drawn finely, laid into
 //! the goal's frame at the goal's height, and compared by likeness, which knows a species by other trees
 //! than the goal's. The drawings serve all goals of a [`GuessLibrary`]. Nothing is stored between runs:
@@ -7,72 +10,67 @@
 //!
 //! The same drawings tell whether the goal has leaves, and what its likeness to other trees is worth.
 
+mod candidate;
 mod library;
 mod plate;
 mod references;
+mod settings;
+mod shown;
+mod tries;
 
+pub use candidate::Candidate;
 pub use library::GuessLibrary;
 pub use references::{Reference, References};
+pub use settings::GuessSettings;
 
-use crate::evaluator::{Evaluator, FitProblem};
+use crate::error::FitError;
+use crate::evaluator::Evaluator;
 use crate::genome::{Genome, Score};
+use crate::method::Start;
 use crate::nuisance::Azimuth;
 use crate::objective::Objective;
-use crate::run::FitError;
+use crate::problem::{FitProblem, with_values};
 use crate::settings::FitSettings;
-use crate::space::{Freedom, SearchSpace, TreeSeed};
+use crate::space::SpaceError;
 use crate::stoppable;
-use crate::stream::Stream;
-use library::{Entry, Resemblance, Wish, compare};
+use candidate::Models;
+use library::{Entry, Resemblance, compare};
 use pleach_silhouette::Bitmap;
-use std::ops::Range;
-use std::sync::Arc;
+use pleach_tree::{Foliage, Species};
+use shown::Shown;
 use std::sync::atomic::AtomicBool;
-
-/// A species that a goal may be of.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
-    /// What it is called.
-    pub name: String,
-    /// One value for every slot of the problem's generator.
-    pub values: Vec<f64>,
-}
-
-/// How much is tried for a first guess.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GuessSettings {
-    /// Varied copies of each candidate.
-    pub variants: u32,
-    /// Standard deviation of a varied number, as a part of the number itself.
-    pub spread: f64,
-    /// Trees of each candidate as it is, of different seeds: what names are decided by.
-    pub seeds: u32,
-    /// Lists that are returned, at most.
-    pub keep: usize,
-    /// Whether the goal is looked at with leaves and without, and taken for what it is more like; if
-    /// not, `FitProblem::foliage` says it.
-    pub detect_leaves: bool,
-}
-
-impl Default for GuessSettings {
-    fn default() -> Self {
-        Self { variants: 8, spread: 0.15, seeds: 3, keep: 10, detect_leaves: false }
-    }
-}
+use tries::trees_of;
 
 /// What a goal looks like before any search.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct FirstGuess {
-    /// The nearest lists, best first; at least one.
+    /// The species to start from: the nearest candidate with the numbers of the first of `nearest`, in the
+    /// colours of the likeliest.
+    pub species: Species,
+    /// The nearest lists of the species' generator, best first; at least one.
     pub nearest: Vec<Guess>,
     /// The candidates with the confidence that the goal is theirs, in 0..=1, the likeliest first; sums
     /// to 1.
     pub names: Vec<(String, f64)>,
     /// Whether the goal is taken for a tree with leaves: what `FitProblem::foliage` should be. All of
     /// the above is of trees like that.
-    pub foliage: bool,
+    pub foliage: Foliage,
     /// What the likeness of a fit to the goal stands beside.
     pub references: References,
+}
+
+impl FirstGuess {
+    /// The lists that a search starts from.
+    #[must_use]
+    pub fn start(&self) -> Start {
+        Start::Lists(self.nearest.iter().map(|guess| guess.values.clone()).collect())
+    }
+
+    /// `problem` with the species that it looks like to start from, with leaves or without.
+    #[must_use]
+    pub fn problem(&self, problem: &FitProblem) -> FitProblem {
+        FitProblem { start: self.species.clone(), goals: problem.goals.clone(), foliage: self.foliage }
+    }
 }
 
 /// One of the nearest lists.
@@ -86,10 +84,6 @@ pub struct Guess {
     pub score: Score,
 }
 
-/// Lane of [`Stream::at`] for variations.
-const VARIATION: u32 = 0x6775;
-/// Trees between two calls of the observer: enough to keep the threads busy.
-const BATCH: usize = 32;
 /// Of the trees that look most like the goal, this many times those that are kept are scored by what
 /// the search makes small.
 const ALIKE: usize = 3;
@@ -99,11 +93,11 @@ const DOUBT: f64 = 0.02;
 /// Compares the goals of `problem` with trees of all `candidates`; tells `progress` how many of how
 /// many are grown.
 ///
-/// Of `settings` the seed, tree seed, objective and limits are used. `problem.base` is not.
+/// Of `settings` the seed, tree seed, objective and limits are used. `problem.start` is not.
 ///
 /// # Errors
-/// A problem that [`Evaluator::new`] refuses, candidates that are not the generator's,
-/// [`FitError::NoStart`] if none of them grows, or [`FitError::Interrupted`] once `stop` is raised.
+/// A problem that [`Evaluator::new`] refuses, [`FitError::NoStart`] if no candidate grows, or
+/// [`FitError::Interrupted`] once `stop` is raised.
 pub fn first_guess(
     problem: &FitProblem,
     settings: &FitSettings,
@@ -137,60 +131,33 @@ impl GuessLibrary {
     ) -> Result<FirstGuess, FitError> {
         let known = known_views(problem);
         let looks = looks(&known, settings)?;
-        let shown = (&known, &looks);
-        let mut foliage = known.foliage;
-        let wanted = [guess.detect_leaves || known.foliage, guess.detect_leaves || !known.foliage];
-        let entries =
-            self.entries(shown, settings, Wish { candidates, guess, looks: wanted }, stop, progress)?;
-        let mut found = compare(shown, entries, known.foliage, stop)?;
-        if guess.detect_leaves {
-            let other = compare(shown, entries, !known.foliage, stop)?;
-            let (leafy, bare) = if known.foliage { (&found, &other) } else { (&other, &found) };
-            let has_leaves = has_leaves(most_alike(leafy), most_alike(bare));
-            if has_leaves != foliage {
-                found = other;
-                foliage = has_leaves;
-            }
-        }
-        let mut costs = vec![f64::INFINITY; candidates.len()];
-        let mut alike = Vec::new();
-        for (entry, found) in entries.iter().zip(&found) {
-            let Some(Resemblance { likeness, factor, .. }) = found else { continue };
-            let attempt = &entry.attempt;
-            let cost = 1.0 - likeness;
-            costs[attempt.candidate] = costs[attempt.candidate].min(cost);
-            if attempt.may_start {
-                let mut genome = attempt.genome.clone();
-                problem.generator.resize(&mut genome.values, *factor);
-                alike.push((cost, attempt.candidate, genome));
-            }
-        }
-        alike.sort_by(|a, b| a.0.total_cmp(&b.0));
-        alike.truncate(guess.keep.max(1) * ALIKE);
-
-        // Whatever looks alike may still stand beside the goal; what the search makes small decides.
+        let shown = Shown::new(&known, candidates, &looks, settings, stop);
+        let both = guess.detect_leaves;
+        let wanted = [Foliage::All, Foliage::None].map(|foliage| both || foliage == known.foliage);
+        let entries = self.entries(&shown, guess, wanted, progress)?;
+        let (foliage, found) = leaves(&shown, entries, guess.detect_leaves)?;
+        let (costs, alike) = ranked(&shown, (entries, &found), guess.keep.max(1) * ALIKE);
+        // What looks alike may still stand beside the goal: the objective of the search decides.
         let known = FitProblem { foliage, ..known.clone() };
-        let exact = Evaluator::new(&known, settings.objective, settings.limits)?.over_seeds(settings.robust);
-        let scores = stoppable::map(&alike, stop, |(_, _, genome)| exact.score(genome))?;
-        let mut nearest: Vec<Guess> = alike
-            .into_iter()
-            .zip(scores)
-            .filter(|(_, score)| score.cost.is_finite())
-            .map(|((_, candidate, genome), score)| Guess {
-                name: candidates[candidate].name.clone(),
-                values: genome.values,
-                score,
-            })
-            .collect();
-        nearest.sort_by(|a, b| a.score.cost.total_cmp(&b.score.cost));
+        let mut nearest = scored(&known, &shown, alike)?;
+        let Some((winner, first)) = nearest.first() else { return Err(FitError::NoStart) };
+        let (winner, values) = (*winner, first.values.clone());
+        let mut species = with_values(&candidates[winner].species, values).map_err(SpaceError::Start)?;
+        nearest.retain(|(candidate, _)| shown.models.number(*candidate) == shown.models.number(winner));
         nearest.truncate(guess.keep.max(1));
-        if nearest.is_empty() {
-            return Err(FitError::NoStart);
-        }
         let named = first_of(&costs);
-        let pictures = pictures_of(shown, settings, (candidates, named), (entries, &found), foliage, stop)?;
+        if let Some(named) = named {
+            species.appearance = candidates[named].species.appearance;
+        }
+        let pictures = pictures_of(&shown, named, (entries, &found), foliage)?;
         let references = References::of(&known, candidates, (entries, &found), named, &pictures);
-        Ok(FirstGuess { nearest, names: confidence(candidates, &costs), foliage, references })
+        Ok(FirstGuess {
+            species,
+            nearest: nearest.into_iter().map(|(_, guess)| guess).collect(),
+            names: confidence(candidates, &costs),
+            foliage,
+            references,
+        })
     }
 
     /// What a likeness to the goals of `problem` stands beside, for fits that begin without a first
@@ -207,38 +174,100 @@ impl GuessLibrary {
     ) -> Result<References, FitError> {
         let known = known_views(problem);
         let looks = looks(&known, settings)?;
-        let shown = (&known, &looks);
+        let shown = Shown::new(&known, candidates, &looks, settings, stop);
         let few = GuessSettings { variants: 0, seeds: REFERENCE_SEEDS, ..GuessSettings::default() };
-        let wish = Wish { candidates, guess: &few, looks: [known.foliage, !known.foliage] };
-        let entries = self.entries(shown, settings, wish, stop, |_, _| ())?;
-        let found = compare(shown, entries, known.foliage, stop)?;
-        let mut costs = vec![f64::INFINITY; candidates.len()];
-        for (Entry { attempt, .. }, found) in entries.iter().zip(&found) {
-            let cost = found.as_ref().map_or(f64::INFINITY, |found| 1.0 - found.likeness);
-            costs[attempt.candidate] = costs[attempt.candidate].min(cost);
-        }
+        let wanted = [Foliage::All, Foliage::None].map(|foliage| foliage == known.foliage);
+        let entries = self.entries(&shown, &few, wanted, |_, _| ())?;
+        let found = compare(&shown, entries, known.foliage)?;
+        let (costs, _) = ranked(&shown, (entries, &found), 0);
         let named = first_of(&costs);
-        let compared = (entries, &found[..]);
-        let pictures = pictures_of(shown, settings, (candidates, named), compared, known.foliage, stop)?;
-        Ok(References::of(&known, candidates, compared, named, &pictures))
+        let pictures = pictures_of(&shown, named, (entries, &found), known.foliage)?;
+        Ok(References::of(&known, candidates, (entries, &found), named, &pictures))
     }
+}
+
+/// Whether the goals have leaves, if that is to be `detected`, and how trees like that compare with them.
+fn leaves(
+    shown: &Shown<'_>,
+    entries: &[Entry],
+    detected: bool,
+) -> Result<(Foliage, Vec<Option<Resemblance>>), FitError> {
+    let given = shown.problem.foliage;
+    let found = compare(shown, entries, given)?;
+    if !detected {
+        return Ok((given, found));
+    }
+    let other = if given == Foliage::None { Foliage::All } else { Foliage::None };
+    let found_other = compare(shown, entries, other)?;
+    let [leafy, bare] = if given == Foliage::None { [&found_other, &found] } else { [&found, &found_other] };
+    let foliage = if has_leaves(most_alike(leafy), most_alike(bare)) { Foliage::All } else { Foliage::None };
+    Ok(if foliage == given { (given, found) } else { (other, found_other) })
+}
+
+/// An individual of a candidate, and what it lacks of a likeness of 1.
+type Alike = (f64, usize, Genome);
+
+/// The least cost of each candidate, and the `most` individuals that look most like the goal, at its
+/// height.
+fn ranked(
+    shown: &Shown<'_>,
+    (entries, found): (&[Entry], &[Option<Resemblance>]),
+    most: usize,
+) -> (Vec<f64>, Vec<Alike>) {
+    let mut costs = vec![f64::INFINITY; shown.candidates.len()];
+    let mut alike = Vec::new();
+    for (Entry { attempt, .. }, found) in entries.iter().zip(found) {
+        let Some(Resemblance { likeness, factor, .. }) = found else { continue };
+        let cost = 1.0 - likeness;
+        costs[attempt.candidate] = costs[attempt.candidate].min(cost);
+        if attempt.may_start {
+            let mut genome = attempt.genome.clone();
+            shown.resize(attempt.candidate, &mut genome.values, *factor);
+            alike.push((cost, attempt.candidate, genome));
+        }
+    }
+    alike.sort_by(|a, b| a.0.total_cmp(&b.0));
+    alike.truncate(most);
+    (costs, alike)
+}
+
+/// Individuals with their candidates, scored by what the search makes small, best first; without those
+/// that do not grow.
+fn scored(
+    problem: &FitProblem,
+    shown: &Shown<'_>,
+    alike: Vec<Alike>,
+) -> Result<Vec<(usize, Guess)>, FitError> {
+    let settings = shown.settings;
+    let exact = Evaluator::new(problem, settings.objective, settings.limits)?.over_seeds(settings.robust);
+    let exact = Models::new(shown.candidates, &exact);
+    let score = |(_, candidate, genome): &Alike| exact.evaluator(*candidate).score(genome);
+    let scores = stoppable::map(&alike, shown.stop, score)?;
+    let name = |candidate: usize| shown.candidates[candidate].species.name.clone();
+    let mut nearest: Vec<(usize, Guess)> = (alike.into_iter().zip(scores))
+        .filter(|(_, score)| score.cost.is_finite())
+        .map(|((_, candidate, genome), score)| {
+            (candidate, Guess { name: name(candidate), values: genome.values, score })
+        })
+        .collect();
+    nearest.sort_by(|a, b| a.1.score.cost.total_cmp(&b.1.score.cost));
+    Ok(nearest)
 }
 
 /// Pictures of several trees of candidate `named`, drawn as the goal is: those that are there, and more
 /// seeds.
 fn pictures_of(
-    shown: (&FitProblem, &Evaluator),
-    settings: &FitSettings,
-    (candidates, named): (&[Candidate], Option<usize>),
+    shown: &Shown<'_>,
+    named: Option<usize>,
     (entries, found): (&[Entry], &[Option<Resemblance>]),
-    foliage: bool,
-    stop: &AtomicBool,
+    foliage: Foliage,
 ) -> Result<Vec<Vec<Bitmap>>, FitError> {
     let Some(named) = named else { return Ok(Vec::new()) };
     let is_one = |entry: &Entry| entry.attempt.is_species && entry.attempt.candidate == named;
     let there = entries.iter().filter(|entry| is_one(entry)).count() as u64;
-    let attempts = trees_of(shown.0, settings, candidates, named, there..TREES_OF_SPECIES.max(there))?;
-    let more = library::shown_once(shown, attempts, foliage, stop)?;
+    let seeds = there..TREES_OF_SPECIES.max(there);
+    let more =
+        library::shown_once(shown, trees_of(shown.settings, shown.candidates, named, seeds)?, foliage)?;
     let known =
         entries.iter().zip(found).filter(|(entry, _)| is_one(entry)).filter_map(|(_, found)| found.as_ref());
     Ok(known.map(|found| found.pictures.clone()).chain(more.into_iter().map(|one| one.pictures)).collect())
@@ -282,84 +311,13 @@ fn has_leaves(leafy: f64, bare: f64) -> bool {
 /// leaves is worse than to keep them.
 const BARE_BY: f64 = 0.04;
 
-/// One tree that is compared.
-#[derive(Clone, Debug)]
-struct Try {
-    candidate: usize,
-    /// Whether it is the candidate as it is, and not a variation.
-    is_species: bool,
-    /// Whether its seed is one that the search will use.
-    may_start: bool,
-    genome: Genome,
-}
-
-fn tries(
-    problem: &FitProblem,
-    settings: &FitSettings,
-    candidates: &[Candidate],
-    guess: &GuessSettings,
-) -> Result<Vec<Try>, FitError> {
-    let mut list = Vec::new();
-    for (candidate, Candidate { values, .. }) in candidates.iter().enumerate() {
-        let space = space_around(problem, values)?;
-        let seeds = 0..u64::from(guess.seeds.max(1));
-        list.extend(seeds.map(|i| of_species(&space, settings, candidate, values, i)));
-        for i in 0..guess.variants {
-            let mut draws = Stream::at(settings.seed, VARIATION, candidate as u64, i);
-            let mut genome = space.individual(values, first_seed(settings));
-            let mut read = Vec::new();
-            space.read_genes(values, &mut read);
-            for gene in read.into_iter().map(|g| &space.genes()[g]).filter(|gene| !gene.is_choice()) {
-                let value = gene.clamp(gene.of(&genome) * (1.0 + guess.spread * draws.normal()));
-                gene.set(&mut genome, value);
-            }
-            space.settle(&mut genome);
-            list.push(Try { candidate, is_species: false, may_start: true, genome });
-        }
-    }
-    Ok(list)
-}
-
-/// Trees of one candidate as it is, of the seeds from `seeds.start` on.
-fn trees_of(
-    problem: &FitProblem,
-    settings: &FitSettings,
-    candidates: &[Candidate],
-    candidate: usize,
-    seeds: Range<u64>,
-) -> Result<Vec<Try>, FitError> {
-    let values = &candidates[candidate].values;
-    let space = space_around(problem, values)?;
-    Ok(seeds.map(|i| of_species(&space, settings, candidate, values, i)).collect())
-}
-
-fn space_around(problem: &FitProblem, values: &[f64]) -> Result<SearchSpace, FitError> {
-    let generator = Arc::clone(&problem.generator);
-    let space = SearchSpace::new(generator, values, &Freedom::default(), TreeSeed::Any)?;
-    Ok(space.plausible(values).settling(true))
-}
-
-fn of_species(space: &SearchSpace, settings: &FitSettings, candidate: usize, values: &[f64], i: u64) -> Try {
-    let may_start = i == 0 || settings.tree_seed == TreeSeed::Any;
-    let mut genome = space.individual(values, first_seed(settings).wrapping_add(i));
-    space.settle(&mut genome);
-    Try { candidate, is_species: true, may_start, genome }
-}
-
-const fn first_seed(settings: &FitSettings) -> u64 {
-    match settings.tree_seed {
-        TreeSeed::Fixed(seed) => seed,
-        TreeSeed::Any => settings.seed,
-    }
-}
-
 /// Names with the share of belief that their best scores deserve, best first.
 fn confidence(candidates: &[Candidate], costs: &[f64]) -> Vec<(String, f64)> {
     let best = costs.iter().copied().fold(f64::INFINITY, f64::min);
     let weights: Vec<f64> = costs.iter().map(|cost| ((best - cost) / DOUBT).exp()).collect();
     let sum: f64 = weights.iter().sum();
     let mut names: Vec<_> =
-        candidates.iter().zip(&weights).map(|(c, weight)| (c.name.clone(), weight / sum)).collect();
+        candidates.iter().zip(&weights).map(|(c, weight)| (c.species.name.clone(), weight / sum)).collect();
     names.sort_by(|a, b| b.1.total_cmp(&a.1));
     names
 }

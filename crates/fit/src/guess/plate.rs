@@ -1,7 +1,7 @@
 //! A tree's picture that is drawn once and looked at through many frames.
 
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::{Parts, Tree};
+use pleach_tree::{Foliage, Tree};
 
 /// A silhouette, at least twice as fine as the pictures that are made of it.
 #[derive(Clone, Debug)]
@@ -27,14 +27,14 @@ impl Plate {
     pub(super) fn draw(
         tree: &Tree,
         view: &View,
-        foliage: bool,
+        foliage: Foliage,
         side: u32,
         rasterizer: &mut Rasterizer,
     ) -> Self {
-        let frame = Frame::automatic(tree, view, Parts::with_foliage(foliage), side, side);
+        let frame = Frame::automatic(tree, view, foliage.into(), side, side);
         let frame = Frame { height: side + side / BELOW, ..frame };
         let mut picture = Bitmap::default();
-        rasterizer.draw(tree, view, &frame, Parts::with_foliage(foliage), &mut picture);
+        rasterizer.draw(tree, view, &frame, foliage.into(), &mut picture);
         Self { picture, frame }
     }
 

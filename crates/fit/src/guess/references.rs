@@ -1,8 +1,8 @@
 //! What a likeness is worth: what other trees, and no tree at all, would have for the same goal.
 
-use super::Candidate;
+use super::candidate::Candidate;
 use super::library::{Entry, Resemblance};
-use crate::evaluator::FitProblem;
+use crate::problem::FitProblem;
 use pleach_silhouette::Bitmap;
 use pleach_silhouette::score::best_ellipse;
 use pleach_silhouette::score::likeness::Likeness;
@@ -57,7 +57,7 @@ impl References {
         let ellipses: Vec<Bitmap> = problem.goals.iter().map(|goal| best_ellipse(&goal.goal)).collect();
         let goals: Vec<Bitmap> = problem.goals.iter().map(|goal| goal.goal.clone()).collect();
         Self {
-            species: named.map(|candidate| candidates[candidate].name.clone()),
+            species: named.map(|candidate| candidates[candidate].species.name.clone()),
             same_species,
             other_species: median(&others),
             best_ellipse: compare(&ellipses, &goals).unwrap_or(Reference { likeness: 0.0, iou: 0.0 }),

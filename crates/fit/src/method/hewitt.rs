@@ -15,7 +15,7 @@
 //! The text is silent on every number and on how lists merge. The best individual ever seen is
 //! reported by [`crate::Search`], and plays no part here.
 
-use super::{Method, Start, ranking};
+use super::{Method, MethodSettings, Start, is_individual, ranking};
 use crate::genome::{Genome, Score};
 use crate::space::{SearchSpace, TreeSeed};
 use crate::stream::Stream;
@@ -116,7 +116,7 @@ impl Hewitt {
             value = -value;
         }
         // The text knows no search range: any allowed value may be reached.
-        let value = match gene.kind {
+        let value = match &gene.kind {
             Kind::Choice { .. } => gene.clamp(value),
             _ if gene.is_periodic() => gene.clamp(value),
             kind => kind.repair(value),
@@ -146,6 +146,26 @@ impl Hewitt {
     }
 }
 
+impl MethodSettings for HewittSettings {
+    type Method = Hewitt;
+
+    fn begin(&self, seed: u64, start: Start) -> Hewitt {
+        Hewitt::new(self.clone(), seed, start)
+    }
+
+    fn has_begun(&self, method: &Hewitt, seed: u64, start: &Start) -> bool {
+        (&method.settings, method.seed, &method.start) == (self, seed, start)
+    }
+
+    fn matches_height(&self) -> bool {
+        false
+    }
+
+    fn keeps_to_plausible(&self) -> bool {
+        false
+    }
+}
+
 impl Method for Hewitt {
     fn name(&self) -> &'static str {
         "hewitt"
@@ -162,7 +182,7 @@ impl Method for Hewitt {
         };
         let mut read = Vec::new();
         if self.settings.only_read {
-            space.read_genes(&base.values, &mut read);
+            space.active_genes(&base.values, &mut read);
         } else {
             read.extend(0..space.genes().len());
         }
@@ -179,6 +199,13 @@ impl Method for Hewitt {
             Some(base) => Some(self.merged(space, base, &members[order[0]], &members[order[1]])),
         };
         self.round += 1;
+    }
+
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+        let asked = self.base.as_ref().map_or(1, |_| self.settings.population.max(2));
+        self.round <= generations
+            && self.base.iter().all(|base| is_individual(base, space))
+            && (pending == 0 || pending == asked)
     }
 }
 

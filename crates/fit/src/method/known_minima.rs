@@ -1,8 +1,9 @@
 //! Every optimiser on functions whose minimum is known, before any tree.
 
 use crate::method::Start;
+use crate::optimizer::Optimizer;
 use crate::search::Search;
-use crate::settings::Optimizer;
+use crate::solver::ArgminSolver;
 use crate::space::{Freedom, SearchSpace, TreeSeed};
 use crate::testing::{Function, choice, cube, flagged, integer, params, real};
 use argmin::core::Executor;
@@ -11,7 +12,7 @@ use pleach_tree::ParamSpace;
 use std::sync::Arc;
 
 /// Mean cost over three seeds after `evaluations`, by argmin's executor.
-fn reached(name: &str, function: fn(&[f64]) -> f64, params: &ParamSpace, evaluations: u64) -> f64 {
+fn reached(name: &str, function: fn(&[f64]) -> f64, params: &Arc<ParamSpace>, evaluations: u64) -> f64 {
     let run = |seed| {
         let base = params.defaults();
         let space =
@@ -19,8 +20,8 @@ fn reached(name: &str, function: fn(&[f64]) -> f64, params: &ParamSpace, evaluat
         let optimizer: Optimizer = name.parse().unwrap();
         let mut search = Search::new(optimizer.method(seed, Start::Random), &Start::Random, Arc::new(space));
         search.evaluation_limit = evaluations;
-        let result = Executor::new(Function(function), search).ctrlc(false).run().unwrap();
-        result.solver.state.best.unwrap().score.cost
+        let result = Executor::new(Function(function), ArgminSolver(search)).ctrlc(false).run().unwrap();
+        result.solver.0.state.best.unwrap().score.cost
     };
     (1..=3).map(run).sum::<f64>() / 3.0
 }
@@ -88,7 +89,7 @@ fn needle(x: &[f64]) -> f64 {
     reals + flags + wholes + names
 }
 
-fn mixed() -> ParamSpace {
+fn mixed() -> Arc<ParamSpace> {
     params(vec![
         real("a", 0.0, 1.0),
         real("b", 0.0, 1.0),

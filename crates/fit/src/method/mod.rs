@@ -1,8 +1,8 @@
 //! Optimisers: what to try next, given what came of the last tries.
 //!
-//! A [`Method`] only asks and tells. Evaluating is the caller's: as an argmin solver through
-//! [`crate::Search`], or by hand in a loop. Every method is a plain value: its whole state is written
-//! to checkpoints, and its draws are those of [`crate::stream::Stream`], addressed by generation.
+//! A [`Method`] only asks and tells. Evaluating is the caller's: through [`crate::Search`], which argmin
+//! runs, or by hand in a loop. Every method is a plain value: its whole state is written
+//! to checkpoints, and its draws are those of [`crate::Stream`], addressed by generation.
 //!
 //! | method | idea | source |
 //! | --- | --- | --- |
@@ -22,13 +22,13 @@ mod random;
 mod shade;
 
 pub use cma::{Cma, CmaSettings};
-pub use evolution::{Evolution, EvolutionSettings, Move};
+pub use evolution::{Evolution, EvolutionSettings};
 pub use hewitt::{Hewitt, HewittSettings, Merge};
 pub use random::{Random, RandomSettings};
 pub use shade::{Shade, ShadeSettings};
 
 use crate::genome::{Genome, Score};
-use crate::space::SearchSpace;
+use crate::space::{Place, SearchSpace};
 use serde::{Deserialize, Serialize};
 
 /// An optimiser that is asked for individuals and told their scores.
@@ -43,6 +43,42 @@ pub trait Method {
 
     /// Takes the scores of the individuals last asked for, in their order.
     fn tell(&mut self, space: &SearchSpace, members: &[Genome], scores: &[Score]);
+
+    /// Whether this can be the state of a search in `space` that has finished `generations` and waits for
+    /// the scores of `pending` individuals.
+    ///
+    /// What was read from a file may be anything that its form allows. A state that suits neither panics
+    /// nor asks for more memory than the settings do; whether it makes sense is not asked.
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool;
+}
+
+/// The settings of an optimiser.
+pub trait MethodSettings: Clone + Default + PartialEq {
+    /// The optimiser.
+    type Method: Method;
+
+    /// The optimiser at its beginning.
+    fn begin(&self, seed: u64, start: Start) -> Self::Method;
+
+    /// Whether `method` was begun with these settings, this seed and this start.
+    fn has_begun(&self, method: &Self::Method, seed: u64, start: &Start) -> bool;
+
+    /// Whether trees are resized to the goal's height before they are compared: see
+    /// [`crate::Evaluator::matching_height`].
+    fn matches_height(&self) -> bool {
+        true
+    }
+
+    /// Whether only what is [plausible](pleach_tree::Generator::plausible) is searched, and not all of the
+    /// search ranges.
+    fn keeps_to_plausible(&self) -> bool {
+        true
+    }
+
+    /// How strongly numbers are drawn to the start: see [`SearchSpace::drawn_to`].
+    fn prior(&self) -> f64 {
+        0.0
+    }
 }
 
 /// Where a search starts.
@@ -64,6 +100,12 @@ impl Start {
             Self::Lists(lists) => lists,
         }
     }
+}
+
+/// Whether `genome` has as many numbers as individuals of `space` have.
+pub(crate) fn is_individual(genome: &Genome, space: &SearchSpace) -> bool {
+    let nuisances = space.genes().iter().filter(|gene| matches!(gene.place, Place::Nuisance { .. })).count();
+    genome.values.len() == space.params().len() && genome.nuisances.len() == nuisances
 }
 
 /// The numbers of `scores` from best to worst, ties by number.

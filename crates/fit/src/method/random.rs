@@ -1,6 +1,6 @@
 //! Random parameter lists, one after the other.
 
-use super::{Method, Start};
+use super::{Method, MethodSettings, Start};
 use crate::genome::{Genome, Score};
 use crate::space::SearchSpace;
 use crate::stream::Stream;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Settings of [`Random`].
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RandomSettings {
-    /// Individuals in a generation: nothing but how often progress is told.
+    /// Individuals in a generation: decides only how often progress is told.
     pub population: usize,
 }
 
@@ -36,6 +36,26 @@ impl Random {
     }
 }
 
+impl MethodSettings for RandomSettings {
+    type Method = Random;
+
+    fn begin(&self, seed: u64, start: Start) -> Random {
+        Random::new(self.clone(), seed, start)
+    }
+
+    fn has_begun(&self, method: &Random, seed: u64, start: &Start) -> bool {
+        (&method.settings, method.seed, &method.start) == (self, seed, start)
+    }
+
+    fn matches_height(&self) -> bool {
+        false
+    }
+
+    fn keeps_to_plausible(&self) -> bool {
+        false
+    }
+}
+
 impl Method for Random {
     fn name(&self) -> &'static str {
         "random"
@@ -54,4 +74,8 @@ impl Method for Random {
     }
 
     fn tell(&mut self, _: &SearchSpace, _: &[Genome], _: &[Score]) {}
+
+    fn suits(&self, _: &SearchSpace, generations: u64, _: usize) -> bool {
+        self.round <= generations + 1
+    }
 }

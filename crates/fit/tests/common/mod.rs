@@ -1,9 +1,8 @@
 //! Problems that several test programs share.
 
-use pleach_fit::{FitProblem, GoalView, Unknown};
+use pleach_fit::{FitProblem, GoalView};
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::Parts;
-use std::sync::Arc;
 
 /// The leafy front view of a known species' tree, `size` pixels square, as a goal.
 pub(crate) fn goal_of(species: &str, seed: u64, size: u32) -> FitProblem {
@@ -13,10 +12,5 @@ pub(crate) fn goal_of(species: &str, seed: u64, size: u32) -> FitProblem {
     let mut goal = Bitmap::default();
     // Drawn as the evaluator draws, so that the truth is a perfect match.
     Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
-    FitProblem {
-        generator: Arc::clone(&species.generator),
-        base: species.params.values().to_vec(),
-        goals: vec![GoalView { goal, view: View::FRONT, frame, unknown: Unknown::default() }],
-        foliage: true,
-    }
+    FitProblem::new(species, GoalView::new(goal, View::FRONT, frame))
 }

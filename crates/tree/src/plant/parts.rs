@@ -1,6 +1,7 @@
 //! Which parts of a tree a picture, a mesh or a measurement takes in.
 
 use super::StemKind;
+use crate::growth::Foliage;
 use std::ops::BitOr;
 
 /// A set of kinds of parts: `Parts::STEMS | Parts::LEAVES`.
@@ -56,6 +57,16 @@ impl Default for Parts {
     /// [`Parts::LEAFY`].
     fn default() -> Self {
         Self::LEAFY
+    }
+}
+
+impl From<Foliage> for Parts {
+    /// [`Parts::LEAFY`] or [`Parts::BARE`].
+    fn from(foliage: Foliage) -> Self {
+        match foliage {
+            Foliage::All => Self::LEAFY,
+            Foliage::None => Self::BARE,
+        }
     }
 }
 

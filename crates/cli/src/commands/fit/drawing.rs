@@ -7,22 +7,19 @@ use pleach_fit::{FitProblem, Genome, Scored};
 use pleach_mesh::Palette;
 use pleach_render::{Preview, PreviewSettings, png_file};
 use pleach_silhouette::{Bitmap, Rasterizer, View, picture};
-use pleach_tree::species::{Appearance, safe_name};
-use pleach_tree::{Foliage, Growth, Limits, Parts, Species, Tree};
+use pleach_tree::species::safe_name;
+use pleach_tree::{Growth, Limits, Species, Tree};
 use std::path::Path;
-use std::sync::Arc;
 
 /// Draws individuals of one fit.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Drawing<'a> {
     pub(super) goals: &'a Goals,
     pub(super) args: &'a GoalArgs,
     /// Direction of the goal's own view.
     pub(super) view: View,
-    pub(super) problem: &'a FitProblem,
+    pub(super) problem: FitProblem,
     pub(super) limits: Limits,
-    /// Colours and season of the species that the goal looks like.
-    pub(super) appearance: Appearance,
 }
 
 /// An individual, grown and drawn as the goal is.
@@ -39,10 +36,7 @@ impl Drawing<'_> {
         Ok(Species {
             name: safe_name(&self.goals.name),
             description: String::new(),
-            generator: Arc::clone(&self.problem.generator),
-            params: self.problem.generator.space().check(genome.values.clone())?,
-            tree_seed: Some(genome.tree_seed),
-            appearance: self.appearance,
+            ..self.problem.species(genome)?
         })
     }
 
@@ -50,15 +44,11 @@ impl Drawing<'_> {
     pub(super) fn draw(&self, best: &Scored) -> anyhow::Result<Drawn> {
         let species = self.species(&best.genome)?;
         let foliage = self.problem.foliage;
-        let growth = Growth {
-            limits: self.limits,
-            foliage: if foliage { Foliage::All } else { Foliage::None },
-            ..Growth::seed(best.genome.tree_seed)
-        };
+        let growth = Growth { limits: self.limits, foliage, ..Growth::seed(best.genome.tree_seed) };
         let tree = species.grow_with(&growth)?;
         let frame = self.goals.full.frame(self.args.height);
         let mut bitmap = Bitmap::default();
-        Rasterizer::new().draw(&tree, &self.view, &frame, Parts::with_foliage(foliage), &mut bitmap);
+        Rasterizer::new().draw(&tree, &self.view, &frame, foliage.into(), &mut bitmap);
         Ok(Drawn { species, tree, bitmap })
     }
 }

@@ -4,7 +4,7 @@ use super::drawing::Drawing;
 use super::run_folder::Claim;
 use super::summary::{write_history, write_species};
 use crate::output;
-use pleach_fit::{Observer, Progress, Row, Scored};
+use pleach_fit::{Progress, Row, Scored};
 use std::time::{Duration, Instant};
 
 /// Shortest time between two rounds of files.
@@ -16,9 +16,7 @@ const RENDER_SIZE: u32 = 256;
 
 /// Writes best.toml, best.png, overlay.png, render.png and history.csv of the best individual so far,
 /// now and then.
-pub(super) struct Live<'a> {
-    drawing: Drawing<'a>,
-    claim: &'a Claim,
+pub(super) struct Live {
     rows: Vec<Row>,
     /// Cost of the individual that was written last.
     shown: f64,
@@ -26,33 +24,32 @@ pub(super) struct Live<'a> {
     warned: bool,
 }
 
-impl<'a> Live<'a> {
-    pub(super) fn new(drawing: Drawing<'a>, claim: &'a Claim) -> Self {
+impl Live {
+    pub(super) fn new() -> Self {
         let due = Instant::now() + MIN_INTERVAL;
-        Self { drawing, claim, rows: Vec::new(), shown: f64::INFINITY, due, warned: false }
+        Self { rows: Vec::new(), shown: f64::INFINITY, due, warned: false }
     }
 
-    fn write(&self, best: &Scored) -> anyhow::Result<()> {
-        let file = |name| self.claim.file(name);
-        self.claim.ensure_there()?;
-        let drawn = self.drawing.draw(best)?;
+    fn write(&self, best: &Scored, drawing: &Drawing<'_>, claim: &Claim) -> anyhow::Result<()> {
+        let file = |name| claim.file(name);
+        claim.ensure_there()?;
+        let drawn = drawing.draw(best)?;
         write_species(&file("best.toml"), &drawn.species, &["Of a fit that is not finished.".to_owned()])?;
-        let goal = &self.drawing.goals.full.bitmap;
+        let goal = &drawing.goals.full.bitmap;
         drawn.write_silhouettes(goal, &file("best.png"), &file("overlay.png"))?;
         drawn.write_render(&file("render.png"), RENDER_SIZE)?;
         write_history(&file("history.csv"), &self.rows)
     }
-}
 
-impl Observer for Live<'_> {
-    fn progress(&mut self, progress: &Progress<'_>) {
+    /// Writes the files if something is new and it is time.
+    pub(super) fn progress(&mut self, progress: &Progress<'_>, drawing: &Drawing<'_>, claim: &Claim) {
         let Some(best) = progress.best.filter(|best| best.score.cost < self.shown) else { return };
         let started = Instant::now();
         if started < self.due {
             return;
         }
         self.shown = best.score.cost;
-        if let Err(error) = self.write(best)
+        if let Err(error) = self.write(best, drawing, claim)
             && !self.warned
         {
             // Once is enough: the disk will be as full in three seconds.
@@ -62,7 +59,7 @@ impl Observer for Live<'_> {
         self.due = Instant::now() + MIN_INTERVAL.max(started.elapsed() * SHARE);
     }
 
-    fn generation(&mut self, row: &Row) {
+    pub(super) fn generation(&mut self, row: &Row) {
         self.rows.push(*row);
     }
 }

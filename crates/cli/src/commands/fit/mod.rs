@@ -1,10 +1,10 @@
 //! `pleach fit`: from goal images to run folders.
 
-mod aftermath;
 mod args;
 mod batch;
 mod drawing;
 mod goal;
+mod judged;
 mod list;
 mod live;
 mod options;
@@ -17,13 +17,14 @@ mod start;
 mod summary;
 mod task;
 mod views;
+mod watch;
 
 use crate::interrupted::Interrupted;
 use crate::{input, output};
 use anyhow::bail;
 use args::{BudgetArgs, GoalArgs, SearchArgs};
 use options::Settings;
-use pleach_fit::{Budget, FitSettings, GuessLibrary, Objective, check_freedom};
+use pleach_fit::{Budget, FitSettings, GuessLibrary, Objective};
 use run_folder::{Mode, RunFolder};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -138,8 +139,8 @@ impl Fit {
             bail!("--free-frame is about further pictures, and there is none: --view auto=FILE");
         }
         // Before a folder is made.
-        let start = self.search.from.species()?;
-        check_freedom(start.generator.space(), &settings.freedom, settings.tree_seed)?;
+        let SearchArgs { from, generator, .. } = &self.search;
+        from.plan(generator, self.goal_options.leaves(), &from.species(generator)?, &settings)?;
         match &self.goals[..] {
             [goal] if !self.is_batch() => self.single(goal, &settings),
             _ => batch::run(self, &settings),

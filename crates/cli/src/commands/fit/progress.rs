@@ -3,7 +3,7 @@
 use super::report;
 use crate::output;
 use indicatif::{ProgressBar, ProgressStyle};
-use pleach_fit::{CheckpointError, FitSettings, Observer, Progress};
+use pleach_fit::{CheckpointError, FitSettings, Progress};
 
 /// A bar with what is made small and likeness of the best tree, trees per second and the time left; nothing where nobody watches.
 pub(super) struct Bar {
@@ -27,13 +27,7 @@ impl Bar {
         Self { bar, warned: false }
     }
 
-    pub(super) fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-impl Observer for Bar {
-    fn progress(&mut self, progress: &Progress<'_>) {
+    pub(super) fn progress(&mut self, progress: &Progress<'_>) {
         let used = progress.used.unwrap_or(0.0).clamp(0.0, 1.0);
         self.bar.set_position((used * STEPS as f64) as u64);
         let seconds = progress.elapsed_now.as_secs_f64();
@@ -47,7 +41,7 @@ impl Observer for Bar {
         self.bar.set_message(format!("{}; {trees}, {}{left}", state(progress), report::rate(rate)));
     }
 
-    fn checkpoint_failed(&mut self, error: &CheckpointError) {
+    pub(super) fn checkpoint_failed(&mut self, error: &CheckpointError) {
         // Once is enough: the disk will be as full a second later.
         if !self.warned {
             self.warned = true;
@@ -55,6 +49,12 @@ impl Observer for Bar {
                 output::note(format!("warning: {error}; the fit goes on without a new checkpoint"))
             });
         }
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
     }
 }
 

@@ -1,14 +1,14 @@
 //! Where a fit starts: random lists, a species, or whatever the goal looks like.
 
-use crate::{input, output};
-use anyhow::Context;
-use indicatif::{ProgressBar, ProgressStyle};
-use pleach_fit::{Candidate, FitProblem, FitSettings, GuessLibrary, GuessSettings, References, Start};
-use pleach_tree::Species;
+use crate::input;
+use anyhow::{Context, ensure};
+use pleach_fit::{
+    Candidate, FirstGuess, FitSettings, GoalSettings, GuessSettings, Guessing, Judging, Start, check_freedom,
+};
 use pleach_tree::species::Appearance;
+use pleach_tree::{Foliage, Species};
 use serde::Serialize;
 use std::str::FromStr;
-use std::sync::atomic::AtomicBool;
 
 /// What `--from` says.
 #[derive(Clone, Debug)]
@@ -62,113 +62,199 @@ pub(super) enum Leaves {
 }
 
 impl Leaves {
-    /// Whether leaves are grown unless the goal says otherwise.
-    pub(super) const fn are_expected(self) -> bool {
-        !matches!(self, Self::Off)
+    /// The leaves that are grown unless the goal says otherwise.
+    pub(super) const fn expected(self) -> Foliage {
+        if matches!(self, Self::Off) { Foliage::None } else { Foliage::All }
     }
 }
 
-/// What is known once a fit has begun.
-#[derive(Default)]
-pub(super) struct Begun {
-    /// What the goal looks like, if that was asked for.
-    pub(super) looks_like: Vec<LooksLike>,
-    /// What its likeness stands beside, if the guess has told.
-    pub(super) references: Option<References>,
-    /// Whether it was looked at whether the goal has leaves.
-    pub(super) leaves_detected: bool,
+/// Which families of generators take part: what `--generator` says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum GeneratorChoice {
+    /// All of them.
+    Auto,
+    /// The one of this name.
+    Family(&'static str),
+}
+
+impl FromStr for GeneratorChoice {
+    type Err = String;
+
+    fn from_str(given: &str) -> Result<Self, Self::Err> {
+        let names = || pleach_generators::families().iter().map(|family| family.name());
+        if given == "auto" {
+            return Ok(Self::Auto);
+        }
+        let known = || std::iter::once("auto").chain(names()).collect::<Vec<_>>().join(", ");
+        names()
+            .find(|name| *name == given)
+            .map(Self::Family)
+            .ok_or_else(|| format!("unknown generator `{given}`, known are {}", known()))
+    }
+}
+
+impl std::fmt::Display for GeneratorChoice {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Auto => "auto",
+            Self::Family(name) => name,
+        })
+    }
+}
+
+impl GeneratorChoice {
+    fn takes(&self, species: &Species) -> bool {
+        match self {
+            Self::Auto => true,
+            Self::Family(name) => species.generator.family() == *name,
+        }
+    }
+
+    /// The known species of the families that take part, those of the default family first.
+    fn known(&self) -> impl Iterator<Item = Species> {
+        let all = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
+        all.filter(|species| self.takes(species))
+    }
 }
 
 /// Species with less confidence than this are not spoken of.
 const MIN_CONFIDENCE: f64 = 0.01;
 
+/// The species that a goal looks like, the likeliest first.
+pub(super) fn looks_like(guess: Option<&FirstGuess>) -> Vec<LooksLike> {
+    let names = guess.into_iter().flat_map(|guess| &guess.names);
+    names
+        .filter(|(_, confidence)| *confidence >= MIN_CONFIDENCE)
+        .map(|(species, confidence)| LooksLike { species: species.clone(), confidence: *confidence })
+        .collect()
+}
+
+/// What is said of a first guess; `detected` says whether leaves were looked for.
+pub(super) fn said(guess: &FirstGuess, detected: bool) -> String {
+    let names = looks_like(Some(guess));
+    let said: Vec<String> = (names.iter().take(3))
+        .map(|LooksLike { species, confidence }| format!("{species} ({:.0} %)", 100.0 * confidence))
+        .collect();
+    let bare = if detected && guess.foliage == Foliage::None {
+        ": a bare tree, so no leaves are grown (--leaves on grows them)"
+    } else {
+        ""
+    };
+    format!("looks like {}{bare}", said.join(", "))
+}
+
 impl From {
     /// The species whose generator is fitted, and whose values fixed parameters keep unless a guess
     /// has better ones.
-    pub(super) fn species(&self) -> anyhow::Result<Species> {
-        match self {
-            Self::Species(name) => Ok(input::species(name)?),
-            Self::Auto | Self::Random => {
-                pleach_generators::preset("quaking_aspen").context("the default species is built in")
-            }
+    pub(super) fn species(&self, generator: &GeneratorChoice) -> anyhow::Result<Species> {
+        if let Self::Species(name) = self {
+            let species = input::species(name)?;
+            ensure!(
+                generator.takes(&species),
+                "--from {name} is a species of the generator {}, and --generator says {generator}",
+                species.generator.family()
+            );
+            return Ok(species);
         }
+        let first = generator.known().next().context("a generator has species that are built in")?;
+        Ok(Species { appearance: Appearance::default(), ..first })
     }
 
-    /// Colours and season of the species that is fitted: the given one, or the one that the goal looks
-    /// like.
-    pub(super) fn appearance(&self, looks_like: &[LooksLike]) -> anyhow::Result<Appearance> {
-        let name = match (self, looks_like.first()) {
-            (Self::Species(name), _) => name,
-            (_, Some(first)) => &first.species,
-            (Self::Auto | Self::Random, None) => return Ok(Appearance::default()),
-        };
-        Ok(input::species(name)?.appearance)
+    /// Whether leaves are looked for in the goal.
+    pub(super) fn detects(&self, leaves: Leaves) -> bool {
+        matches!(self, Self::Auto) && leaves == Leaves::Auto
     }
 
-    /// Sets where the search begins, and whether leaves are grown if that is to be seen in the goal;
-    /// says unless `quiet` what the goal looks like.
-    pub(super) fn begin(
+    /// The whole fit, with `search` from `start`, the species that [`From::species`] says.
+    ///
+    /// An error if no parameter of the species that take part is free.
+    pub(super) fn plan(
         &self,
-        quiet: bool,
+        generator: &GeneratorChoice,
         leaves: Leaves,
-        (problem, settings): (&mut FitProblem, &mut FitSettings),
-        library: &mut GuessLibrary,
-        stop: &AtomicBool,
-    ) -> anyhow::Result<Begun> {
-        match self {
-            Self::Random => settings.start = Start::Random,
-            Self::Species(_) => settings.start = Start::Lists(vec![problem.base.clone()]),
-            Self::Auto => return guess(quiet, leaves, problem, settings, library, stop),
-        }
-        Ok(Begun::default())
-    }
-}
-
-fn guess(
-    quiet: bool,
-    leaves: Leaves,
-    problem: &mut FitProblem,
-    settings: &mut FitSettings,
-    library: &mut GuessLibrary,
-    stop: &AtomicBool,
-) -> anyhow::Result<Begun> {
-    let bar = if output::is_watched() { ProgressBar::new(1) } else { ProgressBar::hidden() };
-    if let Ok(style) = ProgressStyle::with_template("first guess {wide_bar} {pos} of {len} trees") {
-        bar.set_style(style);
-    }
-    let progress = |done, all| {
-        bar.set_length(all as u64);
-        bar.set_position(done as u64);
-    };
-    let leaves_detected = leaves == Leaves::Auto;
-    let how = GuessSettings { detect_leaves: leaves_detected, ..GuessSettings::default() };
-    let guess = library.first_guess(problem, settings, &candidates(problem), &how, stop, progress)?;
-    bar.finish_and_clear();
-    let mut names = guess.names;
-    names.retain(|(_, confidence)| *confidence >= MIN_CONFIDENCE);
-    if !quiet {
-        let said: Vec<String> =
-            names.iter().take(3).map(|(name, c)| format!("{name} ({:.0} %)", 100.0 * c)).collect();
-        let bare = if leaves_detected && !guess.foliage {
-            ": a bare tree, so no leaves are grown (--leaves on grows them)"
-        } else {
-            ""
+        start: &Species,
+        search: &FitSettings,
+    ) -> anyhow::Result<GoalSettings> {
+        let check =
+            |species: &Species| check_freedom(species.generator.space(), &search.freedom, search.tree_seed);
+        let mut search = search.clone();
+        let mut candidates: Vec<Candidate> = generator.known().map(Candidate::from).collect();
+        let guess = match self {
+            Self::Auto => {
+                candidates.retain(|candidate| check(&candidate.species).is_ok());
+                if candidates.is_empty() {
+                    check(start)?;
+                }
+                let detect_leaves = self.detects(leaves);
+                Guessing::Compare(GuessSettings { detect_leaves, ..GuessSettings::default() })
+            }
+            Self::Random | Self::Species(_) => {
+                check(start)?;
+                search.start = match self {
+                    Self::Species(_) => Start::Lists(vec![start.params.values().to_vec()]),
+                    _ => Start::Random,
+                };
+                Guessing::Off
+            }
         };
-        output::note(format!("looks like {}{bare}", said.join(", ")));
+        Ok(GoalSettings { search, guess, candidates, judging: Some(Judging::default()) })
     }
-    problem.foliage = guess.foliage;
-    problem.base = guess.nearest[0].values.clone();
-    settings.start = Start::Lists(guess.nearest.into_iter().map(|guess| guess.values).collect());
-    let looks_like =
-        names.into_iter().map(|(species, confidence)| LooksLike { species, confidence }).collect();
-    Ok(Begun { looks_like, references: Some(guess.references), leaves_detected })
 }
 
-/// The known species that the problem's generator grows.
-pub(super) fn candidates(problem: &FitProblem) -> Vec<Candidate> {
-    let species = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
-    species
-        .filter(|s| s.generator.family() == problem.generator.family() && s.generator.extra_toml().is_empty())
-        .map(|s| Candidate { name: s.name.clone(), values: s.params.values().to_vec() })
-        .collect()
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn generators_are_named_and_others_are_told_which_there_are() {
+        for name in ["auto", "weber-penn"] {
+            assert_eq!(name.parse::<GeneratorChoice>().unwrap().to_string(), name);
+        }
+        let error = "lsystem".parse::<GeneratorChoice>().unwrap_err();
+        assert!(error.starts_with("unknown generator `lsystem`, known are auto, weber-penn"), "{error}");
+    }
+
+    #[test]
+    fn a_species_of_another_generator_is_refused() {
+        let from: From = "palm".parse().unwrap();
+        assert!(from.species(&GeneratorChoice::Family("weber-penn")).is_ok());
+        let error = from.species(&GeneratorChoice::Family("lsystem")).unwrap_err().to_string();
+        assert!(
+            error.contains("palm") && error.contains("weber-penn") && error.contains("lsystem"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_fit_begins_where_it_is_told_to() {
+        let search = FitSettings::default();
+        let plan = |from: &str| {
+            let from: From = from.parse().unwrap();
+            let start = from.species(&GeneratorChoice::Auto).unwrap();
+            (from.plan(&GeneratorChoice::Auto, Leaves::Auto, &start, &search).unwrap(), start)
+        };
+        let (auto, _) = plan("auto");
+        assert!(matches!(auto.guess, Guessing::Compare(how) if how.detect_leaves));
+        assert_eq!(auto.candidates[0].species.name, "quaking_aspen");
+        assert_eq!(auto.candidates.len(), pleach_generators::names().len());
+        let (random, start) = plan("random");
+        assert_eq!((random.search.start, start.name.as_str()), (Start::Random, "quaking_aspen"));
+        let (palm, start) = plan("palm");
+        assert_eq!(palm.search.start, Start::Lists(vec![start.params.values().to_vec()]));
+    }
+
+    #[test]
+    fn patterns_that_name_nothing_are_refused_before_a_guess() {
+        let search = FitSettings {
+            freedom: pleach_fit::Freedom { free: vec!["lenght".to_owned()], fix: Vec::new() },
+            ..FitSettings::default()
+        };
+        for from in ["auto", "random", "palm"] {
+            let from: From = from.parse().unwrap();
+            let start = from.species(&GeneratorChoice::Auto).unwrap();
+            let error =
+                from.plan(&GeneratorChoice::Auto, Leaves::Auto, &start, &search).unwrap_err().to_string();
+            assert!(error.contains("lenght"), "{error}");
+        }
+    }
 }

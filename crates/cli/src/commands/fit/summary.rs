@@ -1,18 +1,18 @@
 //! `summary.json` and the other files of a result.
 
-use super::aftermath::Aftermath;
 use super::drawing::{Drawing, Drawn};
+use super::judged;
 use super::request::Request;
 use super::run_folder::{Claim, SUMMARY};
-use super::start::{Begun, LooksLike};
+use super::start::{LooksLike, looks_like};
 use super::views::ViewScore;
 use crate::files;
-use pleach_fit::{COLUMNS, FitSettings, FreshSeeds, Outcome, References, Row, Scored, StopReason, Verdict};
+use pleach_fit::{COLUMNS, Fitted, FreshSeeds, References, Row, StopReason, Verdict};
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::picture::Picture;
 use pleach_silhouette::score::ScoreCard;
-use pleach_tree::Species;
 use pleach_tree::dendrometry::Dendrometry;
+use pleach_tree::{Foliage, Species};
 use serde::Serialize;
 use serde_json::Value;
 use std::path::Path;
@@ -22,19 +22,16 @@ const RENDER_SIZE: u32 = 512;
 
 /// What a fit leaves in its folder.
 pub(super) struct Results<'a> {
-    pub(super) settings: &'a FitSettings,
-    pub(super) outcome: &'a Outcome,
-    pub(super) best: &'a Scored,
+    pub(super) fitted: &'a Fitted,
     /// The best individual as it is drawn.
     pub(super) drawn: &'a Drawn,
-    pub(super) drawing: Drawing<'a>,
-    /// None if the fit was interrupted.
-    pub(super) aftermath: Option<&'a Aftermath>,
+    pub(super) drawing: &'a Drawing<'a>,
     /// Further pictures, with what was fitted over them.
     pub(super) views: Vec<(ViewScore, Picture)>,
     pub(super) holdout_views: Vec<(ViewScore, Picture)>,
     pub(super) from: String,
-    pub(super) begun: &'a Begun,
+    /// Whether it was seen in the goal whether there are leaves.
+    pub(super) leaves_detected: bool,
     pub(super) request: Request,
 }
 
@@ -126,7 +123,8 @@ impl Summary {
 
 /// Writes everything but the checkpoint into the folder of `claim`.
 pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summary> {
-    let Results { settings, outcome, best, drawn, drawing, .. } = results;
+    let Results { fitted, drawn, drawing, .. } = results;
+    let Fitted { settings, outcome, best, judged, .. } = fitted;
     let (goal, working) = (&drawing.goals.full, &drawing.goals.working);
     let species = &drawn.species;
     let scores = ScoreCard::of(&drawn.bitmap, &goal.bitmap)?;
@@ -141,9 +139,10 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         ),
         format!("IoU {:.4}, pixel accuracy {:.4} with tree_seed below.", scores.iou, scores.pixel_accuracy),
     ];
-    if let Some(aftermath) = results.aftermath {
-        comments.extend(aftermath.comments(species.generator.space()));
-        write_table(&claim.file("parameters.csv"), aftermath.table(species.generator.space()))?;
+    if let Some(judged) = judged {
+        let space = species.generator.space();
+        comments.extend(judged::comments(judged, space));
+        write_table(&claim.file("parameters.csv"), judged::table(judged, &best.genome, space))?;
     }
     write_species(&claim.file("best.toml"), species, &comments)?;
     drawn.write_silhouettes(&goal.bitmap, &claim.file("best.png"), &claim.file("overlay.png"))?;
@@ -154,14 +153,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
 
     let seconds = outcome.elapsed.as_secs_f64();
     let first_guess_seconds = outcome.before_search.as_secs_f64();
-    let fresh_seeds = results.aftermath.and_then(|aftermath| aftermath.fresh);
-    // The aftermath's, where there is one.
-    let references =
-        results.aftermath.map(|aftermath| &aftermath.references).or(results.begun.references.as_ref());
-    let fresh = fresh_seeds.as_ref().map(|fresh| fresh.likeness.mean);
-    let verdict = references.and_then(|references| {
-        Verdict::of(scores.likeness, fresh, references, &scores.crown, &scores.goal_crown)
-    });
+    let verdict = fitted.verdict(&scores);
     let optimizer = serde_json::to_value(&settings.optimizer)?;
     let summary = Summary {
         species: species.name.clone(),
@@ -169,11 +161,11 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         tree_seed: best.genome.tree_seed,
         robust: settings.robust.get(),
         scores,
-        fresh_seeds,
-        references: references.cloned(),
+        fresh_seeds: judged.as_ref().and_then(|judged| judged.held_out),
+        references: fitted.references().cloned(),
         verdict,
-        determined: results.aftermath.map(|aftermath| {
-            let [determined, loosely, not_seen] = aftermath.counts();
+        determined: judged.as_ref().map(|judged| {
+            let [determined, loosely, not_seen] = judged::counts(judged);
             Counts { determined, loosely, not_seen }
         }),
         evaluations: outcome.evaluations,
@@ -181,7 +173,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         seconds,
         first_guess_seconds,
         search_seconds: seconds - first_guess_seconds,
-        judging_seconds: results.aftermath.map(|aftermath| aftermath.seconds),
+        judging_seconds: judged.as_ref().map(|judged| judged.elapsed.as_secs_f64()),
         evaluations_per_second: outcome.evaluations as f64 / seconds.max(1e-9),
         optimizer: settings.optimizer.name(),
         optimizer_settings: optimizer.get(settings.optimizer.name()).cloned().unwrap_or_default(),
@@ -191,9 +183,9 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         finished: outcome.stop != StopReason::Interrupted,
         seed: settings.seed,
         from: results.from,
-        looks_like: results.begun.looks_like.clone(),
-        leaves: drawing.problem.foliage,
-        leaves_detected: results.begun.leaves_detected,
+        looks_like: looks_like(fitted.guess.as_ref()),
+        leaves: fitted.problem.foliage != Foliage::None,
+        leaves_detected: results.leaves_detected,
         views,
         holdout_views,
         free: settings.freedom.free.clone(),

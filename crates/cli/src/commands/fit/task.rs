@@ -1,21 +1,15 @@
 //! The fit of one goal, from the picture to the run folder.
 
-use super::Fit;
-use super::aftermath::Aftermath;
-use super::args::GoalArgs;
+use super::args::{GoalArgs, SearchArgs};
 use super::drawing::Drawing;
 use super::goal::Goals;
-use super::live::Live;
-use super::progress::Bar;
 use super::request::Request;
 use super::run_folder::{Mode, RunFolder};
 use super::summary::{self, Results, Summary};
-use super::views;
-use crate::files;
-use anyhow::bail;
+use super::watch::Watch;
+use super::{Fit, views};
 use pleach_fit::{
-    CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, GuessLibrary, StopReason,
-    Unknown, check_freedom,
+    CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, GuessLibrary, fit_goal_with,
 };
 use pleach_silhouette::goal::{Encoded, Goal};
 use serde_json::Value;
@@ -61,76 +55,49 @@ impl Task {
     ) -> anyhow::Result<Ended> {
         // Whatever can be refused is refused before the folder is touched.
         let goals = Goals::load(&self.goal, &self.args, fit.verbose)?;
-        let mut problem = self.problem(fit, &goals.working)?;
-        check_freedom(problem.generator.space(), &asked_for.freedom, asked_for.tree_seed)?;
-        let mut settings = asked_for.clone();
+        let problem = self.problem(fit, &goals.working)?;
+        let mut search = asked_for.clone();
         if mode == Mode::Continue {
-            extend(&mut settings, self.folder.finished().as_ref());
+            extend(&mut search, self.folder.finished().as_ref());
         }
-        let request = self.request(fit, &goals.source, &settings)?;
+        let SearchArgs { from, generator, .. } = &fit.search;
+        let settings = from.plan(generator, self.args.leaves(), &problem.start, &search)?;
+        let request = self.request(fit, &goals.source, &search)?;
         let mut claim = self.folder.clone().claim(mode, &request)?;
 
-        let mut started = Instant::now();
-        let leaves = self.args.leaves();
-        let parts = (&mut problem, &mut settings);
-        let begun = match fit.search.from.begin(fit.is_batch(), leaves, parts, library, stop) {
-            Err(error) if is_interruption(&error) => return Ok(Ended::Interrupted(None)),
-            result => result?,
-        };
-        claim.begin()?;
-        if let Some(mask) = &goals.mask {
-            files::write_whole(&claim.file("mask.png"), |file| Ok(mask.write_png(file)?))?;
-        }
-        if claim.resumes() {
-            // The first guess is made again, but its time has been counted.
-            started = Instant::now();
-        }
-        let (view, further) = views::sort(&self.args.view)?;
-        let drawing = Drawing {
-            goals: &goals,
-            args: &self.args,
-            view,
-            problem: &problem,
-            limits: settings.limits,
-            appearance: fit.search.from.appearance(&begun.looks_like)?,
-        };
+        let started = Instant::now();
         let clock = || started.elapsed();
-        let (mut bar, mut live) = (Bar::new(&settings), Live::new(drawing, &claim));
         let checkpoint = CheckpointSettings {
             path: claim.checkpoint(),
             interval: fit.checkpoint_every,
             resume: claim.resumes(),
         };
+        let (view, further) = views::sort(&self.args.view)?;
+        let leaves_detected = from.detects(self.args.leaves());
+        let drawing = |problem: &FitProblem, limits| Drawing {
+            goals: &goals,
+            args: &self.args,
+            view,
+            problem: problem.clone(),
+            limits,
+        };
+        let mut watch = Watch::new(&mut claim, &drawing, (!fit.is_batch()).then_some(leaves_detected));
         let control = Control {
-            observers: vec![&mut bar, &mut live],
+            observers: vec![&mut watch],
             checkpoint: Some(checkpoint),
             ..Control::new(&clock, stop)
         };
-        let mut outcome = pleach_fit::fit(&problem, &settings, control)?;
-        bar.finish();
+        let fitted = fit_goal_with(&problem, &settings, library, control);
+        drop(watch);
+        let fitted = match fitted {
+            Err(FitError::Interrupted) => return Ok(Ended::Interrupted(None)),
+            fitted => fitted?,
+        };
 
-        let Some(best) = outcome.best.clone().filter(|best| best.score.cost.is_finite()) else {
-            if outcome.stop == StopReason::Interrupted {
-                return Ok(Ended::Interrupted(None));
-            }
-            bail!("no parameter list that grows a tree was found in {} evaluations", outcome.evaluations);
-        };
-        let aftermath = match outcome.stop {
-            // Whoever waits for the prompt has it at once.
-            StopReason::Interrupted => None,
-            _ => match Aftermath::of(&problem, &settings, &best, begun.references.clone(), library, stop) {
-                Err(FitError::Interrupted) => None,
-                result => Some(result?),
-            },
-        };
-        if aftermath.is_none() {
-            // The search may have come to its end, the fit has not.
-            outcome.stop = StopReason::Interrupted;
-        }
-        let best = aftermath.as_ref().map_or(&best, |aftermath| &aftermath.best);
-        let drawn = drawing.draw(best)?;
-        let (height, foliage) = (self.args.height, problem.foliage);
-        let placements = pleach_fit::placements(&problem.goals, &best.genome.nuisances);
+        let drawing = drawing(&fitted.problem, fitted.settings.limits);
+        let drawn = drawing.draw(&fitted.best)?;
+        let (height, foliage) = (self.args.height, fitted.problem.foliage);
+        let placements = pleach_fit::placements(&fitted.problem.goals, &fitted.best.genome.nuisances);
         // The first is the goal's own.
         let views = further
             .iter()
@@ -141,16 +108,13 @@ impl Task {
         let summary = summary::write(
             &claim,
             Results {
-                settings: &settings,
-                outcome: &outcome,
-                best,
+                fitted: &fitted,
                 drawn: &drawn,
-                drawing,
-                aftermath: aftermath.as_ref(),
+                drawing: &drawing,
                 views: views.collect::<anyhow::Result<_>>()?,
                 holdout_views: holdouts.collect::<anyhow::Result<_>>()?,
-                from: fit.search.from.to_string(),
-                begun: &begun,
+                from: from.to_string(),
+                leaves_detected,
                 request,
             },
         )?;
@@ -163,15 +127,10 @@ impl Task {
     }
 
     fn problem(&self, fit: &Fit, goal: &Goal) -> anyhow::Result<FitProblem> {
-        let start = fit.search.from.species()?;
+        let start = fit.search.from.species(&fit.search.generator)?;
         let GoalArgs { height, size, free_frame, .. } = self.args;
         let (view, further) = views::sort(&self.args.view)?;
-        let mut goals = vec![GoalView {
-            goal: goal.bitmap.clone(),
-            view,
-            frame: goal.frame(height),
-            unknown: Unknown::default(),
-        }];
+        let mut goals = vec![GoalView::new(goal.bitmap.clone(), view, goal.frame(height))];
         for picture in further {
             goals.push(picture.goal_view(height, size, free_frame)?);
         }
@@ -179,12 +138,7 @@ impl Task {
         for picture in &self.args.holdout_view {
             picture.check(height, size)?;
         }
-        Ok(FitProblem {
-            generator: start.generator,
-            base: start.params.values().to_vec(),
-            goals,
-            foliage: self.args.leaves().are_expected(),
-        })
+        Ok(FitProblem { start, goals, foliage: self.args.leaves().expected() })
     }
 }
 
@@ -219,9 +173,4 @@ pub(super) fn how_to_go_on(goal: &Path, out: &Path, mode: Mode, has_begun: bool)
             out.display()
         ),
     }
-}
-
-/// Whether this is a fit that was asked to stop before it had anything to show.
-fn is_interruption(error: &anyhow::Error) -> bool {
-    matches!(error.downcast_ref(), Some(FitError::Interrupted))
 }

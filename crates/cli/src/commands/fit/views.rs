@@ -1,13 +1,12 @@
 //! Further pictures of the goal's tree: to fit, and to be held out.
 
 use crate::input;
-use pleach_fit::nuisance::ROUGHLY;
-use pleach_fit::{Azimuth, GoalView, Placement, Unknown};
+use pleach_fit::{Azimuth, GoalView, Placement, ROUGH_AZIMUTH, Unknown};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::picture::{self, Picture as Overlay};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Rasterizer, View};
-use pleach_tree::{Parts, Tree};
+use pleach_tree::{Foliage, Tree};
 use serde::Serialize;
 use std::fmt;
 use std::path::PathBuf;
@@ -45,7 +44,7 @@ impl FromStr for Direction {
         };
         let (view, azimuth) = match (direction, direction.strip_prefix('~')) {
             ("auto", _) => (View::FRONT, Azimuth::Any),
-            (_, Some(about)) => (input::view(about)?, Azimuth::Within(ROUGHLY)),
+            (_, Some(about)) => (input::view(about)?, Azimuth::Within(ROUGH_AZIMUTH)),
             _ => {
                 (input::view(direction).map_err(|e| format!("{e}; or auto=FILE, ~AZ=FILE"))?, Azimuth::Known)
             }
@@ -149,21 +148,22 @@ impl Picture {
         let options = GoalOptions { max_side: Some(most), ..GoalOptions::default() };
         let goal = Goal::load(&self.file, &options)?;
         let unknown = Unknown { azimuth: self.azimuth, frame: free_frame };
-        Ok(GoalView { frame: goal.frame(height), goal: goal.bitmap, view: self.view, unknown })
+        let frame = goal.frame(height);
+        Ok(GoalView { unknown, ..GoalView::new(goal.bitmap, self.view, frame) })
     }
 
     /// Scores `tree` against the picture, which is placed as was found; with the tree drawn over it.
     pub(super) fn score(
         &self,
         tree: &Tree,
-        foliage: bool,
+        foliage: Foliage,
         height: f64,
         placement: &Placement,
     ) -> anyhow::Result<(ViewScore, Overlay)> {
         let goal = Goal::load(&self.file, &GoalOptions::default())?;
         let mut bitmap = Bitmap::default();
         let (view, frame) = (placement.view(&self.view), placement.frame(&goal.frame(height)));
-        Rasterizer::new().draw(tree, &view, &frame, Parts::with_foliage(foliage), &mut bitmap);
+        Rasterizer::new().draw(tree, &view, &frame, foliage.into(), &mut bitmap);
         let card = ScoreCard::of(&bitmap, &goal.bitmap)?;
         let overlay = picture::overlay(&bitmap, &goal.bitmap);
         let score = ViewScore {
@@ -199,7 +199,7 @@ impl KnownPicture {
     pub(super) fn score(
         &self,
         tree: &Tree,
-        foliage: bool,
+        foliage: Foliage,
         height: f64,
     ) -> anyhow::Result<(ViewScore, Overlay)> {
         self.0.score(tree, foliage, height, &Placement::KNOWN)

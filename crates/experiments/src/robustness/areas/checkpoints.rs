@@ -6,10 +6,10 @@ use crate::robustness::worker::Verdict;
 use anyhow::Context;
 use pleach_fit::{
     Budget, CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, Optimizer, Outcome,
-    Start, TreeSeed, Unknown, fit,
+    Start, TreeSeed, fit,
 };
 use pleach_silhouette::{Bitmap, Frame, View};
-use pleach_tree::Limits;
+use pleach_tree::{Foliage, Limits};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -25,7 +25,7 @@ const EVALUATIONS: [u64; 2] = [30, 45];
 /// Fits of a small goal by every optimiser, and what each has saved.
 pub(in super::super) struct Checkpoints {
     problem: FitProblem,
-    saved: Vec<(Optimizer, String)>,
+    saved: Vec<(Optimizer, Vec<u8>)>,
 }
 
 impl Checkpoints {
@@ -41,10 +41,8 @@ impl Checkpoints {
             ground_row: f64::from(SIDE),
         };
         let problem = FitProblem {
-            base: species.params.values().to_vec(),
-            generator: species.generator,
-            goals: vec![GoalView { goal, view: View::FRONT, frame, unknown: Unknown::default() }],
-            foliage: false,
+            foliage: Foliage::None,
+            ..FitProblem::new(species, GoalView::new(goal, View::FRONT, frame))
         };
         let folder = tempfile::tempdir().context("no temporary folder")?;
         let file = folder.path().join("checkpoint");
@@ -52,7 +50,7 @@ impl Checkpoints {
         for name in Optimizer::NAMES {
             let optimizer: Optimizer = name.parse()?;
             let _ = searched(&problem, &optimizer, EVALUATIONS[0], &file, false)?;
-            saved.push((optimizer, std::fs::read_to_string(&file)?));
+            saved.push((optimizer, std::fs::read(&file)?));
         }
         Ok(Self { problem, saved })
     }
@@ -60,24 +58,25 @@ impl Checkpoints {
     /// The optimiser, its spoilt checkpoint, and whether header and checksum fit what it holds.
     fn spoilt(&self, case: u64) -> (&Optimizer, Vec<u8>, bool) {
         let mut draws = draws(LANE, case);
-        let (optimizer, text) = &self.saved[draws.below(self.saved.len())];
+        let (optimizer, bytes) = &self.saved[draws.below(self.saved.len())];
         if draws.chance(0.2) {
-            return (optimizer, mutate::text(text, &mut draws), false);
+            return (optimizer, mutate::binary(bytes, &mut draws), false);
         }
-        let (head, body) = text.split_once('\n').unwrap_or(("", text));
+        let end = bytes.iter().position(|byte| *byte == b'\n').unwrap_or(0);
+        let head = String::from_utf8_lossy(&bytes[..end]);
         // Of the header only length and checksum change.
-        let magic: Vec<&str> = head.split(' ').take(2).collect();
-        let body = mutate::text(body, &mut draws);
-        let head = format!("{} {} {:016x}\n", magic.join(" "), body.len(), checksum(&body));
-        (optimizer, [head.as_bytes(), &body].concat(), true)
+        let magic: Vec<&str> = head.split(' ').take(3).collect();
+        let body = mutate::binary(&bytes[end + 1..], &mut draws);
+        let head = format!("{} {} ", magic.join(" "), body.len());
+        let checksum = checksum(&[head.as_bytes(), &body].concat());
+        (optimizer, [format!("{head}{checksum:08x}\n").as_bytes(), &body].concat(), true)
     }
 }
 
-/// The hash of Fowler, Noll and Vo (FNV-1a), which checkpoints carry.
-fn checksum(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
+/// The CRC-32 of the header up to it and of the body, which checkpoints carry.
+fn checksum(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
+    !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
 }
 
 /// A search to so many evaluations that saves itself in `file`, and goes on from there if asked to.
@@ -121,7 +120,7 @@ impl Area for Checkpoints {
         if let Err(error) = std::fs::write(&file, &input) {
             return Verdict::Wrong(format!("the case could not be made: {error}"));
         }
-        let is_changed = self.saved.iter().all(|(_, text)| text.as_bytes() != input);
+        let is_changed = self.saved.iter().all(|(_, bytes)| *bytes != input);
         let outcome = match searched(&self.problem, optimizer, EVALUATIONS[1], &file, true) {
             Ok(outcome) => outcome,
             Err(error) => {
@@ -132,7 +131,7 @@ impl Area for Checkpoints {
             return Verdict::Wrong("a damaged checkpoint is taken".to_owned());
         }
         let Some(best) = outcome.best else { return Verdict::Accepted };
-        match self.problem.generator.space().check(best.genome.values) {
+        match self.problem.start.generator.space().check(best.genome.values) {
             Ok(_) => Verdict::Accepted,
             Err(error) => Verdict::Wrong(format!("the result is no list of parameters: {error}")),
         }

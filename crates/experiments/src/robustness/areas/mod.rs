@@ -13,7 +13,7 @@ pub(super) use pictures::Pictures;
 pub(super) use species::SpeciesFiles;
 
 use super::worker::Verdict;
-use pleach_fit::stream::Stream;
+use pleach_fit::Stream;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Growth, Limits, Parts, Species};
 use std::path::Path;

@@ -2,7 +2,6 @@
 
 use super::margin::{Marginal, corrected};
 use super::strategy::Strategy;
-use crate::exact;
 use linfa_linalg::eigh::Eigh;
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
@@ -11,21 +10,13 @@ use serde::{Deserialize, Serialize};
 /// m + σ A B D z, where C = B D² Bᵀ and z is standard normal. Matrices are lists of rows.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Distribution {
-    #[serde(with = "exact::list")]
     pub(super) mean: Vec<f64>,
-    #[serde(with = "exact::number")]
     pub(super) sigma: f64,
-    #[serde(with = "exact::list")]
     factors: Vec<f64>,
-    #[serde(with = "exact::list")]
     covariance: Vec<f64>,
-    #[serde(with = "exact::list")]
     basis: Vec<f64>,
-    #[serde(with = "exact::list")]
     roots: Vec<f64>,
-    #[serde(with = "exact::list")]
     path_sigma: Vec<f64>,
-    #[serde(with = "exact::list")]
     path_c: Vec<f64>,
     generation: u64,
     /// The generation of which the basis and the roots are.
@@ -57,6 +48,18 @@ impl Distribution {
             generation: 0,
             decomposed: 0,
         }
+    }
+
+    /// Whether this can be a distribution over `n` numbers that has learnt from at most `generations`.
+    pub(super) fn suits(&self, n: usize, generations: u64) -> bool {
+        let vectors = [&self.mean, &self.factors, &self.roots, &self.path_sigma, &self.path_c];
+        let matrices = [&self.covariance, &self.basis];
+        vectors.iter().all(|vector| vector.len() == n)
+            && matrices.iter().all(|matrix| matrix.len() == n * n)
+            && vectors.into_iter().chain(matrices).flatten().all(|number| number.is_finite())
+            && self.sigma.is_finite()
+            && self.decomposed <= self.generation
+            && self.generation <= generations
     }
 
     /// B D z: the step of the standard normal `z` before σ and A.

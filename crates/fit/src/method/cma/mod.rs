@@ -2,8 +2,8 @@
 //! the population when it stagnates (IPOP: Auger and Hansen 2005).
 //!
 //! A normal distribution over the free numbers, each in the units of
-//! [`crate::space::Gene::to_unit`], is drawn from and moved to what was good. What a coordinate stands
-//! for is said in [`coding`]; [`margin`] keeps whole numbers and choices moving.
+//! [`crate::Gene::to_unit`], is drawn from and moved to what was good. What a coordinate stands
+//! for is said in `coding.rs`; `margin.rs` keeps whole numbers and choices moving.
 //!
 //! Individuals come back changed: resized to the goal's height, variations of size set to zero
 //! ([`crate::Search`]). The distribution learns from the numbers *as it drew them*. To it, that change
@@ -22,8 +22,7 @@ mod normal;
 mod strategy;
 
 use super::first::{first, given};
-use super::{Method, Start, ranking};
-use crate::exact;
+use super::{Method, MethodSettings, Start, ranking};
 use crate::genome::{Genome, Score};
 use crate::space::{SearchSpace, TreeSeed};
 use crate::stream::Stream;
@@ -76,7 +75,6 @@ pub struct Cma {
     /// None before lists have shown where to begin.
     state: Option<State>,
     /// The standard normal draws of the individuals that are being evaluated, one after the other.
-    #[serde(with = "exact::list")]
     zs: Vec<f64>,
 }
 
@@ -85,10 +83,8 @@ struct State {
     distribution: Distribution,
     population: usize,
     tree_seed: u64,
-    #[serde(with = "exact::number")]
     best: f64,
     /// The cost that has to be beaten for the search not to be idle.
-    #[serde(with = "exact::number")]
     mark: f64,
     idle: u64,
 }
@@ -123,6 +119,15 @@ impl Cma {
         }
     }
 
+    /// Individuals in a generation, of `n` free numbers, since the last restart.
+    fn population(&self, n: usize) -> usize {
+        let smallest = match self.settings.population {
+            0 => strategy::population(n),
+            given => given.max(4),
+        };
+        smallest.saturating_mul(1_usize << self.restarts.min(16)).min(MAX.max(smallest))
+    }
+
     /// The distribution around the best of `members`, if one of them grows.
     fn begun(&self, space: &SearchSpace, members: &[Genome], scores: &[Score]) -> Option<State> {
         let best = *ranking(scores).first()?;
@@ -133,11 +138,7 @@ impl Cma {
         let genes = space.genes();
         let mean = genes.iter().map(|gene| coding::encode(gene, gene.of(&members[best]))).collect();
         let sigma = if self.is_given() { self.settings.near_step } else { self.settings.step };
-        let smallest = match self.settings.population {
-            0 => strategy::population(genes.len()),
-            given => given.max(4),
-        };
-        let population = smallest.saturating_mul(1_usize << self.restarts.min(16)).min(MAX.max(smallest));
+        let population = self.population(genes.len());
         let mut distribution = Distribution::new(mean, sigma);
         keep_margin(&mut distribution, space, population);
         let tree_seed = members[best].tree_seed;
@@ -177,6 +178,18 @@ impl State {
     fn is_stagnant(&self, space: &SearchSpace, patience: f64) -> bool {
         let generations = 10.0 + 30.0 * space.genes().len() as f64 / self.population as f64;
         self.idle as f64 > patience * generations || self.distribution.is_spent()
+    }
+}
+
+impl MethodSettings for CmaSettings {
+    type Method = Cma;
+
+    fn begin(&self, seed: u64, start: Start) -> Cma {
+        Cma::new(self.clone(), seed, start)
+    }
+
+    fn has_begun(&self, method: &Cma, seed: u64, start: &Start) -> bool {
+        (&method.settings, method.seed, &method.start) == (self, seed, start)
     }
 }
 
@@ -220,5 +233,20 @@ impl Method for Cma {
         }
         self.zs.clear();
         self.round += 1;
+    }
+
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+        let n = space.genes().len();
+        let asked = self.state.as_ref().map_or(0, |_| pending);
+        let state_suits = |state: &State| {
+            state.population == self.population(n)
+                && state.idle <= generations
+                && state.distribution.suits(n, generations)
+                && (pending == 0 || pending == state.population)
+        };
+        self.round <= generations
+            && u64::from(self.restarts) <= generations
+            && self.zs.len() == asked * n
+            && self.state.iter().all(state_suits)
     }
 }

@@ -1,8 +1,8 @@
 //! One population and what it has learnt.
 
-use super::EvolutionSettings;
+use super::super::is_individual;
 use super::moves::{Birth, Breeder, Move};
-use crate::exact;
+use super::settings::EvolutionSettings;
 use crate::genome::{Genome, Score, Scored};
 use crate::space::SearchSpace;
 use crate::stream::Stream;
@@ -13,20 +13,16 @@ use serde::{Deserialize, Serialize};
 pub(super) struct Lane {
     population: Vec<Scored>,
     /// Step of each gene as a part of its range; empty before the first children.
-    #[serde(with = "exact::list")]
     steps: Vec<f64>,
     /// How much each gene has helped of late, relative to the least that it is tried.
-    #[serde(with = "exact::list")]
     promise: Vec<f64>,
     /// How much each move has helped of late.
-    #[serde(with = "exact::list")]
     credit: Vec<f64>,
     /// Where the children come from that are being evaluated.
     births: Vec<Birth>,
     /// Generations since the best became better by more than [`GAIN`] of its cost.
     idle: u64,
     /// The cost that has to be beaten for a lane not to be idle.
-    #[serde(with = "exact::number")]
     mark: f64,
 }
 
@@ -77,6 +73,30 @@ impl Lane {
         } else {
             self.idle += 1;
         }
+    }
+
+    /// Whether this can be a lane of a search in `space`: see [`super::Method::suits`].
+    pub(super) fn suits(
+        &self,
+        space: &SearchSpace,
+        settings: &EvolutionSettings,
+        generations: u64,
+        pending: usize,
+    ) -> bool {
+        let genes = space.genes().len();
+        let has_learnt = self.credit.len() == Move::ALL.len()
+            && (self.steps.len(), self.promise.len()) == (genes, genes)
+            && (self.steps.iter().chain(&self.promise).chain(&self.credit))
+                .all(|number| number.is_finite() && *number > 0.0);
+        let is_new = self.credit.is_empty() && self.steps.is_empty() && self.promise.is_empty();
+        // Champions that meet may be more than survive a generation.
+        let most = settings.parents.max(2).max(settings.lanes.saturating_add(1));
+        (has_learnt || (is_new && self.births.is_empty()))
+            && self.idle <= generations
+            && self.population.len() <= most
+            && self.population.iter().all(|one| is_individual(&one.genome, space))
+            && self.births.iter().flat_map(|birth| &birth.genes).all(|&gene| gene < genes)
+            && (pending == 0 || self.is_empty() || self.births.len() == pending)
     }
 
     /// Before the first children: nothing is known yet.

@@ -8,9 +8,9 @@
 //!   more often the more it has helped;
 //! - other children cross two parents, go along the difference of two others (Storn and Price 1997),
 //!   move everything a little, draw a number anew from its whole range, or set one to zero. How often
-//!   each move is tried follows from what it has brought ([`moves`]);
+//!   each move is tried follows from what it has brought (`moves.rs`);
 //! - reals, whole numbers, switches and choices are changed each in its own way, and numbers that the
-//!   tree does not read ([`pleach_tree::Generator::reads`]) are left alone;
+//!   tree does not depend on ([`pleach_tree::Generator::is_active`]) are left alone;
 //! - the population begins with the best of a batch of random lists, in which numbers that may be
 //!   zero often are: variations, bends and splits are absent from most trees;
 //! - a population that has not improved for a while ends its *lane*. Its best goes to the hall of
@@ -21,59 +21,17 @@
 
 mod lane;
 mod moves;
+mod settings;
 
-pub use moves::Move;
+pub use settings::EvolutionSettings;
 
 use super::first::first;
-use super::{Method, Start};
+use super::{Method, MethodSettings, Start, is_individual};
 use crate::genome::{Genome, Score, Scored};
-use crate::space::{PRIOR, SearchSpace};
+use crate::space::SearchSpace;
 use crate::stream::Stream;
 use lane::Lane;
 use serde::{Deserialize, Serialize};
-
-/// Settings of [`Evolution`]. The defaults were chosen by fits of the fifteen species.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct EvolutionSettings {
-    /// Random lists at the beginning of a lane.
-    pub first: usize,
-    /// Individuals that survive a generation, at least 2.
-    pub parents: usize,
-    /// Children in a generation, at least 1.
-    pub children: usize,
-    /// First step of every number, as a part of its search range.
-    pub step: f64,
-    /// Largest chance that a number of a random list which may be zero is set to zero.
-    pub sparsity: f64,
-    /// Parents are drawn from the best part of the population: a power, 1 draws all alike.
-    pub greed: f64,
-    /// Evaluations without a gain of a thousandth, over the number of parents, after which a lane ends.
-    pub patience: usize,
-    /// Lanes from random lists between two lanes in which champions meet.
-    pub lanes: usize,
-    /// Whether trees are resized to the goal's height before they are compared, if all sizes are free.
-    pub match_height: bool,
-    /// How strongly numbers are drawn to where the search starts: the cost of having all of them a whole
-    /// search range away. 0 for not at all.
-    pub prior: f64,
-}
-
-impl Default for EvolutionSettings {
-    fn default() -> Self {
-        Self {
-            first: 200,
-            parents: 30,
-            children: 20,
-            step: 0.15,
-            sparsity: 0.8,
-            greed: 2.0,
-            patience: 50,
-            lanes: 3,
-            match_height: true,
-            prior: PRIOR,
-        }
-    }
-}
 
 /// The population, and what has been learnt about moves and numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -117,6 +75,26 @@ impl Evolution {
     }
 }
 
+impl MethodSettings for EvolutionSettings {
+    type Method = Evolution;
+
+    fn begin(&self, seed: u64, start: Start) -> Evolution {
+        Evolution::new(self.clone(), seed, start)
+    }
+
+    fn has_begun(&self, method: &Evolution, seed: u64, start: &Start) -> bool {
+        (&method.settings, method.seed, &method.start) == (self, seed, start)
+    }
+
+    fn matches_height(&self) -> bool {
+        self.match_height
+    }
+
+    fn prior(&self) -> f64 {
+        self.prior
+    }
+}
+
 impl Method for Evolution {
     fn name(&self) -> &'static str {
         "evolution"
@@ -148,5 +126,13 @@ impl Method for Evolution {
         if self.lane.idle() * members.len() as u64 > patience {
             self.change_lanes();
         }
+    }
+
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+        self.round <= generations
+            && self.lanes_begun <= generations
+            && self.champions.len() <= self.settings.lanes.max(1)
+            && self.champions.iter().all(|champion| is_individual(&champion.genome, space))
+            && self.lane.suits(space, &self.settings, generations, pending)
     }
 }

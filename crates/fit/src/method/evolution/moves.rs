@@ -1,6 +1,5 @@
 //! How children differ from their parents.
 
-use crate::exact;
 use crate::genome::{Genome, Scored};
 use crate::space::{Gene, SearchSpace, TreeSeed};
 use crate::stream::Stream;
@@ -9,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// A way to make a child.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Move {
+pub(super) enum Move {
     /// One number by its step.
     One,
     /// Two to seven numbers by their steps.
@@ -30,7 +29,7 @@ pub enum Move {
 
 impl Move {
     /// All moves, in the order of their numbers.
-    pub const ALL: [Self; 8] = [
+    pub(super) const ALL: [Self; 8] = [
         Self::One,
         Self::Few,
         Self::Cross,
@@ -46,7 +45,6 @@ impl Move {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Birth {
     pub(super) by: Move,
-    #[serde(with = "exact::number")]
     pub(super) parent_cost: f64,
     /// Genes that were changed by their steps.
     pub(super) genes: Vec<usize>,
@@ -75,14 +73,13 @@ impl Breeder<'_> {
         let parent = &self.population[self.parent(draws)];
         let mut child = parent.genome.clone();
         let mut read = Vec::new();
-        self.space.read_genes(&child.values, &mut read);
+        self.space.active_genes(&child.values, &mut read);
         let mut birth = Birth { by: self.choose(draws), parent_cost: parent.score.cost, genes: Vec::new() };
         if read.is_empty() || (birth.by == Move::Seed && self.space.tree_seed() == TreeSeed::Any) {
             birth.by = Move::Seed;
             child.tree_seed = SearchSpace::random_seed(draws);
             return (child, birth);
         }
-        let other = |draws: &mut Stream| &self.population[draws.below(self.population.len())].genome;
         match birth.by {
             Move::One | Move::Seed => {
                 birth.by = Move::One;
@@ -93,27 +90,8 @@ impl Breeder<'_> {
                     birth.genes.push(self.step(&read, &mut child, draws));
                 }
             }
-            Move::Cross => {
-                let from = other(draws);
-                let share = if draws.chance(0.5) { 0.1 } else { 0.5 };
-                for gene in read.iter().map(|&g| self.gene(g)) {
-                    if draws.chance(share) {
-                        gene.set(&mut child, gene.of(from));
-                    }
-                }
-                self.step(&read, &mut child, draws);
-            }
-            Move::Difference => {
-                let (to, from) = (other(draws), other(draws));
-                let share = draws.unit().powi(2);
-                let factor = 0.2 + 0.8 * draws.unit();
-                for gene in read.iter().map(|&g| self.gene(g)) {
-                    if draws.chance(share) {
-                        along(gene, &mut child, to, from, factor);
-                    }
-                }
-                self.step(&read, &mut child, draws);
-            }
+            Move::Cross => self.cross(&read, &mut child, draws),
+            Move::Difference => self.follow_difference(&read, &mut child, draws),
             Move::All => {
                 let scale = 1.0 / (read.len() as f64).sqrt();
                 for &g in read.iter().filter(|&&g| !self.gene(g).is_choice()) {
@@ -132,16 +110,50 @@ impl Breeder<'_> {
             }
             Move::Nothing => {
                 for _ in 0..1 + draws.below(2) {
-                    let is_candidate = |gene: &&Gene| gene.may_be_zero() && gene.of(&child) != 0.0;
-                    let candidates: Vec<&Gene> =
-                        read.iter().map(|&g| self.gene(g)).filter(is_candidate).collect();
+                    let candidate = |&g: &usize| {
+                        let gene = self.gene(g);
+                        let neutral = gene.neutral().filter(|&neutral| gene.of(&child) != neutral)?;
+                        Some((gene, neutral))
+                    };
+                    let candidates: Vec<(&Gene, f64)> = read.iter().filter_map(candidate).collect();
                     if !candidates.is_empty() {
-                        candidates[draws.below(candidates.len())].set(&mut child, 0.0);
+                        let (gene, neutral) = candidates[draws.below(candidates.len())];
+                        gene.set(&mut child, neutral);
                     }
                 }
             }
         }
         (child, birth)
+    }
+
+    /// Takes numbers of another parent, and one step.
+    fn cross(&self, read: &[usize], child: &mut Genome, draws: &mut Stream) {
+        let from = self.other(draws);
+        let share = if draws.chance(0.5) { 0.1 } else { 0.5 };
+        for gene in read.iter().map(|&g| self.gene(g)) {
+            if draws.chance(share) {
+                gene.set(child, gene.of(from));
+            }
+        }
+        self.step(read, child, draws);
+    }
+
+    /// Moves numbers along the difference of two others, and one step.
+    fn follow_difference(&self, read: &[usize], child: &mut Genome, draws: &mut Stream) {
+        let (to, from) = (self.other(draws), self.other(draws));
+        let share = draws.unit().powi(2);
+        let factor = 0.2 + 0.8 * draws.unit();
+        for gene in read.iter().map(|&g| self.gene(g)) {
+            if draws.chance(share) {
+                along(gene, child, to, from, factor);
+            }
+        }
+        self.step(read, child, draws);
+    }
+
+    /// Any of the population.
+    fn other(&self, draws: &mut Stream) -> &Genome {
+        &self.population[draws.below(self.population.len())].genome
     }
 
     fn gene(&self, number: usize) -> &Gene {

@@ -1,6 +1,5 @@
 //! What factors and rates have served of late.
 
-use crate::exact;
 use crate::stream::Stream;
 use serde::{Deserialize, Serialize};
 
@@ -8,9 +7,7 @@ use serde::{Deserialize, Serialize};
 /// rates CR that made better children, one pair a generation, the oldest overwritten.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct History {
-    #[serde(with = "exact::list")]
     factors: Vec<f64>,
-    #[serde(with = "exact::list")]
     rates: Vec<f64>,
     next: usize,
 }
@@ -31,6 +28,15 @@ impl History {
     pub(super) fn new(length: usize) -> Self {
         let length = length.max(1);
         Self { factors: vec![0.5; length], rates: vec![0.5; length], next: 0 }
+    }
+
+    /// Whether this can be a history of `length` pairs.
+    pub(super) fn suits(&self, length: usize) -> bool {
+        let length = length.max(1);
+        let has_mean = |factor: &f64| factor.is_finite() && *factor > 0.0;
+        self.next < length
+            && (self.factors.len(), self.rates.len()) == (length, length)
+            && self.factors.iter().all(has_mean)
     }
 
     /// A factor in (0, 1], Cauchy, and a rate in 0..=1, normal, around one of the pairs.

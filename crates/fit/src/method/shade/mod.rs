@@ -8,7 +8,7 @@
 //! ```
 //!
 //! where x is the target, b one of the best, r another individual, and s another or one of the
-//! archive, which keeps targets that were beaten; all in the units of [`crate::space::Gene::to_unit`].
+//! archive, which keeps targets that were beaten; all in the units of [`crate::Gene::to_unit`].
 //! It takes the target's place if it is no worse. F and CR are drawn around what has served
 //! (§III of the paper, [`memory`]). Beyond the range a number goes half the way to its end.
 //!
@@ -27,7 +27,7 @@
 mod memory;
 
 use super::first::{first, given};
-use super::{Method, Start, ranking};
+use super::{Method, MethodSettings, Start, is_individual, ranking};
 use crate::genome::{Genome, Score, Scored};
 use crate::space::{SearchSpace, TreeSeed};
 use crate::stream::Stream;
@@ -87,9 +87,7 @@ pub struct Shade {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Trial {
-    #[serde(with = "crate::exact::number")]
     factor: f64,
-    #[serde(with = "crate::exact::number")]
     rate: f64,
 }
 
@@ -244,6 +242,18 @@ fn other(count: usize, draws: &mut Stream, taken: impl Fn(usize) -> bool) -> usi
     }
 }
 
+impl MethodSettings for ShadeSettings {
+    type Method = Shade;
+
+    fn begin(&self, seed: u64, start: Start) -> Shade {
+        Shade::new(self.clone(), seed, start)
+    }
+
+    fn has_begun(&self, method: &Shade, seed: u64, start: &Start) -> bool {
+        (&method.settings, method.seed, &method.start) == (self, seed, start)
+    }
+}
+
 impl Method for Shade {
     fn name(&self) -> &'static str {
         "de"
@@ -275,5 +285,22 @@ impl Method for Shade {
             self.select(members, scores);
         }
         self.round += 1;
+    }
+
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+        let population = self.population.iter().map(|scored| &scored.genome);
+        let most = self.settings.population.max(MIN);
+        let room = (self.settings.archive * self.population.len() as f64) as usize;
+        let is_asked = if self.trials.is_empty() { self.population.len() < MIN } else { true };
+        self.round <= generations
+            && self.idle < self.settings.patience.max(1)
+            && self.population.len() <= most
+            && self.archive.len() <= room
+            && population.chain(&self.archive).all(|genome| is_individual(genome, space))
+            && self.history.suits(self.settings.history)
+            // Trials that were told stay until the next are asked for.
+            && (self.trials.is_empty() || pending == 0 || pending == self.trials.len())
+            && (self.trials.is_empty() || pending == 0 || pending == self.population.len())
+            && (pending == 0 || is_asked)
     }
 }

@@ -1,10 +1,13 @@
 //! The driver on functions whose minimum is known.
 
 use super::*;
-use crate::settings::Optimizer;
+use crate::budget::Clock;
+use crate::control::CheckpointSettings;
+use crate::optimizer::Optimizer;
 use crate::space::{Freedom, TreeSeed};
 use crate::testing::{Function, choice, flagged, integer, params, real};
 use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
 
 /// Distance from a needle in a mixed space.
 fn needle(values: &[f64]) -> f64 {
@@ -146,4 +149,40 @@ fn observers_see_every_generation_of_a_resumed_run() {
     assert_eq!(seen.rows, outcome.history);
     assert_eq!(seen.last, 300);
     assert!(seen.rows.windows(2).all(|w| w[0].best_cost >= w[1].best_cost));
+}
+
+/// States that were changed in a few places, with a checksum that is right: the run goes on or refuses.
+#[test]
+fn forged_states_are_refused_or_searched_on_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("checkpoint");
+    let file = CheckpointSettings { resume: true, ..CheckpointSettings::new(path.clone()) };
+    let mut draws = crate::stream::Stream::at(7, 0, 0, 0);
+    let (mut refused, mut taken) = (0, 0);
+    // In the middle of a generation and between two.
+    for (name, evaluations) in Optimizer::NAMES.into_iter().flat_map(|name| [(name, 407), (name, 620)]) {
+        let _ = std::fs::remove_file(&path);
+        run(&settings(name, Budget::evaluations(evaluations)), Some(file.clone())).unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        let end = bytes.iter().position(|byte| *byte == b'\n').unwrap();
+        for _ in 0..400 {
+            let mut body = bytes[end + 1..].to_vec();
+            for _ in 0..1 + draws.below(3) {
+                let at = draws.below(body.len());
+                match draws.below(4) {
+                    0 => body[at] = draws.bits() as u8,
+                    1 => body[at] ^= 1 << draws.below(8),
+                    2 => drop(body.drain(at..(at + 8).min(body.len()))),
+                    _ => drop(body.splice(at..at, [0xff; 9])),
+                }
+            }
+            std::fs::write(&path, crate::checkpoint::sealed("forged", &body)).unwrap();
+            match run(&settings(name, Budget::evaluations(evaluations + 60)), Some(file.clone())) {
+                Ok(_) => taken += 1,
+                Err(FitError::Checkpoint(_)) => refused += 1,
+                Err(error) => panic!("{name}: {error}"),
+            }
+        }
+    }
+    assert!(refused > 1000 && taken > 100, "{refused} refused, {taken} taken");
 }

@@ -1,0 +1,114 @@
+//! What is seen of a fit while it runs: bars in the terminal, files in the run folder.
+
+use super::drawing::Drawing;
+use super::live::Live;
+use super::progress::Bar;
+use super::run_folder::Claim;
+use super::start;
+use crate::{files, output};
+use indicatif::{ProgressBar, ProgressStyle};
+use pleach_fit::{Begun, CheckpointError, FitProblem, Observer, ObserverError, Progress, Row};
+use pleach_tree::Limits;
+use std::time::Duration;
+
+/// Watches one fit, and makes room for it in its folder once its search begins.
+pub(super) struct Watch<'a, 'g> {
+    claim: &'a mut Claim,
+    /// Draws individuals of a problem, once it is known.
+    draws: &'a dyn Fn(&FitProblem, Limits) -> Drawing<'g>,
+    /// If it is said what the goal looks like: whether leaves were looked for.
+    says: Option<bool>,
+    guessing: Option<ProgressBar>,
+    search: Option<Search<'g>>,
+    judging: Option<ProgressBar>,
+}
+
+/// What is shown of the search.
+struct Search<'g> {
+    bar: Bar,
+    live: Live,
+    drawing: Drawing<'g>,
+}
+
+impl<'a, 'g> Watch<'a, 'g> {
+    pub(super) fn new(
+        claim: &'a mut Claim,
+        draws: &'a dyn Fn(&FitProblem, Limits) -> Drawing<'g>,
+        says: Option<bool>,
+    ) -> Self {
+        Self { claim, draws, says, guessing: None, search: None, judging: None }
+    }
+
+    fn begin(&mut self, begun: &Begun) -> anyhow::Result<()> {
+        end(&mut self.guessing);
+        if let (Some(guess), Some(detected)) = (&begun.guess, self.says) {
+            output::note(start::said(guess, detected));
+        }
+        self.claim.begin()?;
+        let drawing = (self.draws)(&begun.problem, begun.settings.limits);
+        if let Some(mask) = &drawing.goals.mask {
+            files::write_whole(&self.claim.file("mask.png"), |file| Ok(mask.write_png(file)?))?;
+        }
+        self.search = Some(Search { bar: Bar::new(&begun.settings), live: Live::new(), drawing });
+        Ok(())
+    }
+}
+
+impl Observer for Watch<'_, '_> {
+    fn guessing(&mut self, done: usize, all: usize) {
+        let bar = self.guessing.get_or_insert_with(|| {
+            let bar = if output::is_watched() { ProgressBar::new(1) } else { ProgressBar::hidden() };
+            match ProgressStyle::with_template("first guess {wide_bar} {pos} of {len} trees") {
+                Ok(style) => bar.with_style(style),
+                Err(_) => bar,
+            }
+        });
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+    }
+
+    fn begun(&mut self, begun: &Begun) -> Result<(), ObserverError> {
+        Ok(self.begin(begun)?)
+    }
+
+    fn progress(&mut self, progress: &Progress<'_>) {
+        if let Some(Search { bar, live, drawing }) = &mut self.search {
+            bar.progress(progress);
+            live.progress(progress, drawing, self.claim);
+        }
+    }
+
+    fn generation(&mut self, row: &Row) {
+        if let Some(search) = &mut self.search {
+            search.live.generation(row);
+        }
+    }
+
+    fn checkpoint_failed(&mut self, error: &CheckpointError) {
+        if let Some(search) = &mut self.search {
+            search.bar.checkpoint_failed(error);
+        }
+    }
+
+    fn judging(&mut self) {
+        self.search = None;
+        let bar = if output::is_watched() { ProgressBar::new_spinner() } else { ProgressBar::hidden() };
+        bar.enable_steady_tick(Duration::from_millis(100));
+        bar.set_message("judging the result: other seeds, and every parameter");
+        self.judging = Some(bar);
+    }
+}
+
+/// Takes a bar from the terminal.
+fn end(bar: &mut Option<ProgressBar>) {
+    if let Some(bar) = bar.take() {
+        bar.finish_and_clear();
+    }
+}
+
+impl Drop for Watch<'_, '_> {
+    fn drop(&mut self) {
+        end(&mut self.guessing);
+        end(&mut self.judging);
+    }
+}

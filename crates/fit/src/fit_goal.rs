@@ -1,0 +1,199 @@
+//! A whole fit: a first guess, the search, and what the result is worth.
+
+use crate::begun::Begun;
+use crate::budget::StopReason;
+use crate::control::{Control, Outcome};
+use crate::error::FitError;
+use crate::genome::Scored;
+use crate::guess::{Candidate, FirstGuess, GuessLibrary, GuessSettings, References};
+use crate::judged::{Judge, Judged, Judging};
+use crate::problem::FitProblem;
+use crate::run::fit;
+use crate::settings::FitSettings;
+use crate::verdict::Verdict;
+use pleach_silhouette::score::ScoreCard;
+use pleach_tree::Species;
+use pleach_tree::param::SlotError;
+
+/// How a goal is fitted, from the first guess to the judging of the result.
+#[derive(Clone, Debug)]
+pub struct GoalSettings {
+    /// The search. A first guess replaces its `start`.
+    pub search: FitSettings,
+    /// Whether there is a first guess.
+    pub guess: Guessing,
+    /// The known species: a first guess is one of them, and a result's likeness stands beside theirs.
+    pub candidates: Vec<Candidate>,
+    /// How the result is judged; none leaves it as the search has found it.
+    pub judging: Option<Judging>,
+}
+
+/// Where the species comes from that a fit starts from.
+#[derive(Clone, Debug, Default)]
+pub enum Guessing {
+    /// It is the problem's; the search starts as its settings say.
+    #[default]
+    Off,
+    /// The candidates are compared with the goal.
+    Compare(GuessSettings),
+    /// They have been, with the same settings of the search.
+    Known(Box<FirstGuess>),
+}
+
+impl GoalSettings {
+    /// A search as by default, from the candidates that look most like the goal, and judged.
+    #[must_use]
+    pub fn new(candidates: Vec<Candidate>) -> Self {
+        Self {
+            search: FitSettings::default(),
+            guess: Guessing::Compare(GuessSettings::default()),
+            candidates,
+            judging: Some(Judging::default()),
+        }
+    }
+}
+
+/// What came of a whole fit.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// What was fitted, with the species that the search started from.
+    pub problem: FitProblem,
+    /// How it was searched, with the lists that the search started from.
+    pub settings: FitSettings,
+    /// The first guess, if there was one.
+    pub guess: Option<FirstGuess>,
+    /// The search. It stopped for [`StopReason::Interrupted`] too where the judging was interrupted.
+    pub outcome: Outcome,
+    /// The best individual; where it was judged, with numbers that the goal does not show back at the
+    /// start's values.
+    pub best: Scored,
+    /// What it is worth; none if the fit was interrupted or nobody asked.
+    pub judged: Option<Judged>,
+}
+
+impl Fitted {
+    /// The species that was found, called and coloured as the one that the search started from.
+    ///
+    /// # Errors
+    /// None: a fit finds allowed values.
+    pub fn species(&self) -> Result<Species, SlotError> {
+        self.problem.species(&self.best.genome)
+    }
+
+    /// What the likeness of the result stands beside, if it is known.
+    #[must_use]
+    pub fn references(&self) -> Option<&References> {
+        let judged = self.judged.as_ref().map(|judged| &judged.references);
+        judged.or_else(|| self.guess.as_ref().map(|guess| &guess.references))
+    }
+
+    /// The verdict on the result, whose silhouette scores `card` against the goal; none where there is no
+    /// other tree to compare with.
+    #[must_use]
+    pub fn verdict(&self, card: &ScoreCard) -> Option<Verdict> {
+        let held_out = self.judged.as_ref().and_then(|judged| judged.held_out.as_ref());
+        let fresh = held_out.map(|fresh| fresh.likeness.mean);
+        Verdict::of(card.likeness, fresh, self.references()?, &card.crown, &card.goal_crown)
+    }
+}
+
+/// Fits a goal: guesses the species that it looks like, searches from there, and judges what was found.
+///
+/// Observers are told of every step, and raising the flag of `control` ends the fit soon: what the search
+/// has found until then is returned, unjudged. The same problem and settings give the same result, as
+/// [`fit`] does. A resumed fit makes its first guess again and then goes on with the search.
+///
+/// ```
+/// use pleach_fit::{Budget, Candidate, Control, FitProblem, FitSettings, GoalSettings, GoalView, fit_goal};
+/// use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+/// use pleach_tree::Parts;
+///
+/// let known = ["palm", "lombardy_poplar"].map(|name| pleach_generators::preset(name).unwrap());
+/// // A goal: the picture of a tree. Those of photographs come from `pleach_silhouette::goal::Goal`.
+/// let tree = known[1].grow(7)?;
+/// let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 64, 64);
+/// let mut picture = Bitmap::default();
+/// Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut picture);
+///
+/// let problem = FitProblem::new(known[0].clone(), GoalView::new(picture, View::FRONT, frame));
+/// let search = FitSettings { budget: Budget::evaluations(100), ..FitSettings::default() };
+/// let settings = GoalSettings { search, ..GoalSettings::new(known.map(Candidate::from).into()) };
+/// let started = std::time::Instant::now();
+/// let (clock, stop) = (|| started.elapsed(), std::sync::atomic::AtomicBool::new(false));
+/// let fitted = fit_goal(&problem, &settings, Control::new(&clock, &stop))?;
+///
+/// assert_eq!(fitted.guess.as_ref().unwrap().names[0].0, "lombardy_poplar");
+/// println!("{}", fitted.species()?.to_toml(&[]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// See [`FitError`]: among others [`FitError::Interrupted`] before anything was found.
+pub fn fit_goal(
+    problem: &FitProblem,
+    settings: &GoalSettings,
+    control: Control<'_>,
+) -> Result<Fitted, FitError> {
+    fit_goal_with(problem, settings, &mut GuessLibrary::new(), control)
+}
+
+/// [`fit_goal`] with trees of the candidates that are kept from goal to goal.
+///
+/// # Errors
+/// As [`fit_goal`].
+pub fn fit_goal_with(
+    problem: &FitProblem,
+    settings: &GoalSettings,
+    library: &mut GuessLibrary,
+    mut control: Control<'_>,
+) -> Result<Fitted, FitError> {
+    let begun = begin(problem, settings, library, &mut control)?;
+    for observer in &mut control.observers {
+        observer.begun(&begun).map_err(FitError::Observer)?;
+    }
+    let mut outcome = fit(&begun.problem, &begun.settings, control.reborrow())?;
+    let found = outcome.best.clone().filter(|best| best.score.cost.is_finite());
+    let Some(mut best) = found else {
+        return Err(match outcome.stop {
+            StopReason::Interrupted => FitError::Interrupted,
+            _ => FitError::NothingGrew { evaluations: outcome.evaluations },
+        });
+    };
+    let mut judged = None;
+    if let (Some(judging), false) = (settings.judging, outcome.stop == StopReason::Interrupted) {
+        control.observers.iter_mut().for_each(|observer| observer.judging());
+        let (clock, stop) = (control.clock, control.stop);
+        let judge = Judge { begun: &begun, judging, candidates: &settings.candidates, clock, stop };
+        match judge.judge(&best, library) {
+            Ok((kept, of_kept)) => (best, judged) = (kept, Some(of_kept)),
+            // The search may have come to its end, the fit has not.
+            Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
+            Err(error) => return Err(error),
+        }
+    }
+    let Begun { problem, settings, guess } = begun;
+    Ok(Fitted { problem, settings, guess, outcome, best, judged })
+}
+
+/// Finds out where the search begins.
+fn begin(
+    problem: &FitProblem,
+    settings: &GoalSettings,
+    library: &mut GuessLibrary,
+    control: &mut Control<'_>,
+) -> Result<Begun, FitError> {
+    let search = &settings.search;
+    let guess = match &settings.guess {
+        Guessing::Off => {
+            return Ok(Begun { problem: problem.clone(), settings: search.clone(), guess: None });
+        }
+        Guessing::Known(guess) => (**guess).clone(),
+        Guessing::Compare(how) => {
+            let (stop, observers) = (control.stop, &mut control.observers);
+            let tell = |done, all| observers.iter_mut().for_each(|observer| observer.guessing(done, all));
+            library.first_guess(problem, search, &settings.candidates, how, stop, tell)?
+        }
+    };
+    let settings = FitSettings { start: guess.start(), ..search.clone() };
+    Ok(Begun { problem: guess.problem(problem), settings, guess: Some(guess) })
+}

@@ -1,0 +1,96 @@
+//! The trees that a goal is compared with: candidates as they are, and varied.
+
+use super::candidate::Candidate;
+use super::settings::GuessSettings;
+use crate::error::FitError;
+use crate::genome::Genome;
+use crate::settings::FitSettings;
+use crate::space::{Freedom, SearchSpace, TreeSeed};
+use crate::stream::Stream;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Lane of [`Stream::at`] for variations.
+const VARIATION: u32 = 0x6775;
+
+/// One tree that is compared.
+#[derive(Clone, Debug)]
+pub(super) struct Try {
+    pub(super) candidate: usize,
+    /// Whether it is the candidate as it is, and not a variation.
+    pub(super) is_species: bool,
+    /// Whether its seed is one that the search will use.
+    pub(super) may_start: bool,
+    pub(super) genome: Genome,
+}
+
+/// All of them: of each candidate a few seeds, and variations.
+pub(super) fn tries(
+    settings: &FitSettings,
+    candidates: &[Candidate],
+    guess: &GuessSettings,
+) -> Result<Vec<Try>, FitError> {
+    let mut list = Vec::new();
+    for (number, candidate) in candidates.iter().enumerate() {
+        let space = space_around(candidate)?;
+        let seeds = 0..u64::from(guess.seeds.max(1));
+        list.extend(seeds.map(|i| of_species(&space, settings, (number, candidate), i)));
+        for i in 0..guess.variants {
+            let draws = Stream::at(settings.seed, VARIATION, number as u64, i);
+            let genome = varied(&space, candidate.values(), first_seed(settings), guess.spread, draws);
+            list.push(Try { candidate: number, is_species: false, may_start: true, genome });
+        }
+    }
+    Ok(list)
+}
+
+/// Trees of one candidate as it is, of the seeds from `seeds.start` on.
+pub(super) fn trees_of(
+    settings: &FitSettings,
+    candidates: &[Candidate],
+    candidate: usize,
+    seeds: Range<u64>,
+) -> Result<Vec<Try>, FitError> {
+    let species = &candidates[candidate];
+    let space = space_around(species)?;
+    Ok(seeds.map(|i| of_species(&space, settings, (candidate, species), i)).collect())
+}
+
+/// `values` with every number that is read, but choices, moved by a normal draw of `spread` times itself.
+fn varied(space: &SearchSpace, values: &[f64], seed: u64, spread: f64, mut draws: Stream) -> Genome {
+    let mut genome = space.individual(values, seed);
+    let mut read = Vec::new();
+    space.active_genes(values, &mut read);
+    for gene in read.into_iter().map(|g| &space.genes()[g]).filter(|gene| !gene.is_choice()) {
+        let value = gene.clamp(gene.of(&genome) * (1.0 + spread * draws.normal()));
+        gene.set(&mut genome, value);
+    }
+    space.settle(&mut genome);
+    genome
+}
+
+fn space_around(candidate: &Candidate) -> Result<SearchSpace, FitError> {
+    let generator = Arc::clone(&candidate.species.generator);
+    let values = candidate.values();
+    let space = SearchSpace::new(generator, values, &Freedom::default(), TreeSeed::Any)?;
+    Ok(space.plausible(values).settling(true))
+}
+
+fn of_species(
+    space: &SearchSpace,
+    settings: &FitSettings,
+    (number, candidate): (usize, &Candidate),
+    i: u64,
+) -> Try {
+    let may_start = i == 0 || settings.tree_seed == TreeSeed::Any;
+    let mut genome = space.individual(candidate.values(), first_seed(settings).wrapping_add(i));
+    space.settle(&mut genome);
+    Try { candidate: number, is_species: true, may_start, genome }
+}
+
+const fn first_seed(settings: &FitSettings) -> u64 {
+    match settings.tree_seed {
+        TreeSeed::Fixed(seed) => seed,
+        TreeSeed::Any => settings.seed,
+    }
+}

@@ -1,0 +1,114 @@
+//! What a result is worth once the search has ended: how it does with other seeds, what of it the goal
+//! determines, and what its likeness stands beside.
+
+use crate::begun::Begun;
+use crate::budget::Clock;
+use crate::error::FitError;
+use crate::fresh::{FreshSeeds, fresh_seeds};
+use crate::genome::Scored;
+use crate::guess::{Candidate, GuessLibrary, References};
+use crate::method::Start;
+use crate::problem::FitProblem;
+use crate::profile::{Profile, profile, put_back_unseen};
+use crate::run::settled;
+use pleach_tree::{Limits, Slot};
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// How a result is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Judging {
+    /// Trees of other seeds.
+    pub seeds: usize,
+}
+
+impl Default for Judging {
+    /// By sixteen seeds.
+    fn default() -> Self {
+        Self { seeds: 16 }
+    }
+}
+
+/// What is known of a result beside its score.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// How trees of seeds do that the search has not seen; none if one of them does not grow.
+    pub held_out: Option<FreshSeeds>,
+    /// How well the goal determines each free number.
+    pub profiles: Vec<Profile>,
+    /// Slots that the goal does not show and that went back to the start's value.
+    pub put_back: Vec<Slot>,
+    /// Slots of variations of size, which are 0 because one tree does not show them.
+    pub settled: Vec<Slot>,
+    /// What its likeness stands beside.
+    pub references: References,
+    /// What judging took, by the caller's clock.
+    pub elapsed: Duration,
+}
+
+/// Cost beyond which a change is seen, where no spread over seeds is known.
+const TOLERANCE: f64 = 0.01;
+
+/// What judging needs beside the result.
+pub(crate) struct Judge<'a> {
+    pub(crate) begun: &'a Begun,
+    pub(crate) judging: Judging,
+    pub(crate) candidates: &'a [Candidate],
+    pub(crate) clock: &'a dyn Clock,
+    pub(crate) stop: &'a AtomicBool,
+}
+
+impl Judge<'_> {
+    /// Judges `best`; returns it with numbers that the goal does not show back at the start's.
+    ///
+    /// # Errors
+    /// Those of [`crate::fit`], and [`FitError::Interrupted`] once the flag is raised.
+    pub(crate) fn judge(
+        &self,
+        best: &Scored,
+        library: &mut GuessLibrary,
+    ) -> Result<(Scored, Judged), FitError> {
+        let Self { begun: Begun { problem, settings, guess }, candidates, clock, stop, .. } = *self;
+        let from = clock.elapsed();
+        let first = self.held_out(best)?;
+        let tolerance = first.as_ref().map_or(TOLERANCE, |fresh| fresh.cost.sd);
+        let profiles = profile(problem, settings, best, tolerance, stop)?;
+        let (kept, put_back) = match &settings.start {
+            Start::Random => (best.clone(), Vec::new()),
+            Start::Lists(lists) => {
+                put_back_unseen(problem, settings, best, &profiles, &lists[0], tolerance, stop)?
+            }
+        };
+        // Numbers that no tree reads went back for the reader of the file; the trees are the same.
+        let held_out = if same_trees(problem, &best.genome.values, &kept.genome.values, &put_back) {
+            first
+        } else {
+            self.held_out(&kept)?
+        };
+        let references = match guess {
+            Some(guess) => guess.references.clone(),
+            None => library.references(problem, settings, candidates, stop)?,
+        };
+        let settled = settled(problem, settings, &kept.genome)?;
+        let elapsed = clock.elapsed().saturating_sub(from);
+        Ok((kept, Judged { held_out, profiles, put_back, settled, references, elapsed }))
+    }
+
+    /// Other trees of the same numbers, in the limits of growing: a search gives up trees that are no
+    /// trouble to grow.
+    fn held_out(&self, best: &Scored) -> Result<Option<FreshSeeds>, FitError> {
+        let Begun { problem, settings, .. } = self.begun;
+        let limits = Limits::default();
+        fresh_seeds(problem, settings.objective, limits, &best.genome, self.judging.seeds, self.stop)
+    }
+}
+
+/// Whether lists that differ in `slots` only, one after the other, grow the same trees from any seed.
+fn same_trees(problem: &FitProblem, before: &[f64], after: &[f64], slots: &[Slot]) -> bool {
+    let mut values = before.to_vec();
+    slots.iter().all(|&slot| {
+        let is_active = problem.start.generator.is_active(&values, slot);
+        values[slot.index()] = after[slot.index()];
+        !is_active
+    })
+}

@@ -1,0 +1,139 @@
+//! What a fit fits: a species to the pictures of one tree.
+
+use crate::genome::Genome;
+use crate::nuisance::{Placement, Unknown};
+use pleach_silhouette::{Bitmap, Frame, View};
+use pleach_tree::param::SlotError;
+use pleach_tree::{Foliage, Species};
+
+/// One picture of the goal tree, and from where it was taken.
+#[derive(Clone, Debug)]
+pub struct GoalView {
+    /// The picture.
+    pub goal: Bitmap,
+    /// The direction of view.
+    pub view: View,
+    /// Scale and place; of the goal's size.
+    pub frame: Frame,
+    /// What of view and frame is not known. Of a problem's first goal, nothing should be.
+    pub unknown: Unknown,
+}
+
+impl GoalView {
+    /// A picture of which everything is known.
+    #[must_use]
+    pub fn new(goal: Bitmap, view: View, frame: Frame) -> Self {
+        Self { goal, view, frame, unknown: Unknown::default() }
+    }
+}
+
+/// A species, and the pictures of one tree that its numbers are fitted to.
+#[derive(Clone, Debug)]
+pub struct FitProblem {
+    /// Where the fit begins: its generator is searched, and its numbers are what slots keep that are not
+    /// free. A [first guess](crate::first_guess) may put another in its place, of any generator.
+    pub start: Species,
+    /// The pictures, at least one; all count the same.
+    pub goals: Vec<GoalView>,
+    /// Whether leaves and blossoms are grown and drawn.
+    pub foliage: Foliage,
+}
+
+/// Why a problem's goals cannot be compared with.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ProblemError {
+    /// No goal at all.
+    #[error("there is no goal image")]
+    NoGoal,
+    /// A goal and its frame differ in size.
+    #[error("goal {index} has {goal:?} pixels, its frame {frame:?}")]
+    FrameSize {
+        /// Which goal, from 0.
+        index: usize,
+        /// Width and height of the picture.
+        goal: (u32, u32),
+        /// Width and height of the frame.
+        frame: (u32, u32),
+    },
+    /// A goal without ink: everything and nothing fits it.
+    #[error("goal {index} is empty")]
+    EmptyGoal {
+        /// Which goal, from 0.
+        index: usize,
+    },
+    /// A frame that shows no part of the world.
+    #[error("goal {index} is at {meters_per_pixel} metres a pixel, expected a positive number")]
+    Scale {
+        /// Which goal, from 0.
+        index: usize,
+        /// What was given.
+        meters_per_pixel: String,
+    },
+}
+
+impl FitProblem {
+    /// Fits `start`, with leaves, to one picture of which everything is known.
+    #[must_use]
+    pub fn new(start: Species, goal: GoalView) -> Self {
+        Self { start, goals: vec![goal], foliage: Foliage::All }
+    }
+
+    /// The same problem with other numbers to start from, one for every slot of the generator.
+    ///
+    /// # Errors
+    /// The first value that the generator does not allow.
+    pub fn with_values(&self, values: Vec<f64>) -> Result<Self, SlotError> {
+        Ok(Self { start: with_values(&self.start, values)?, ..self.clone() })
+    }
+
+    /// The species that `genome` is: that of the start with its numbers and its tree seed.
+    ///
+    /// # Errors
+    /// The first value that the generator does not allow; none of an individual that a fit has found.
+    pub fn species(&self, genome: &Genome) -> Result<Species, SlotError> {
+        let species = with_values(&self.start, genome.values.clone())?;
+        Ok(Species { tree_seed: Some(genome.tree_seed), ..species })
+    }
+
+    /// Tells whether every goal can be compared with.
+    ///
+    /// # Errors
+    /// See [`ProblemError`].
+    pub fn check(&self) -> Result<(), ProblemError> {
+        if self.goals.is_empty() {
+            return Err(ProblemError::NoGoal);
+        }
+        for (index, GoalView { goal, frame, .. }) in self.goals.iter().enumerate() {
+            let sizes = ((goal.width(), goal.height()), (frame.width, frame.height));
+            if sizes.0 != sizes.1 {
+                return Err(ProblemError::FrameSize { index, goal: sizes.0, frame: sizes.1 });
+            }
+            if goal.ink() == 0 {
+                return Err(ProblemError::EmptyGoal { index });
+            }
+            let scale = frame.meters_per_pixel;
+            if !(scale > 0.0 && scale.is_finite()) {
+                return Err(ProblemError::Scale { index, meters_per_pixel: scale.to_string() });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// `species` with other numbers.
+pub(crate) fn with_values(species: &Species, values: Vec<f64>) -> Result<Species, SlotError> {
+    Ok(Species { params: species.generator.space().check(values)?, ..species.clone() })
+}
+
+/// The placement of each goal in an individual with these nuisances.
+#[must_use]
+pub fn placements(goals: &[GoalView], nuisances: &[f64]) -> Vec<Placement> {
+    let mut rest = nuisances;
+    let mut list = Vec::new();
+    for GoalView { view, unknown, .. } in goals {
+        let (own, others) = rest.split_at(unknown.count().min(rest.len()));
+        rest = others;
+        list.push(unknown.placement(view, own));
+    }
+    list
+}

@@ -1,0 +1,90 @@
+//! Generators of two families: a goal chooses between them, and the search keeps to the one it chose.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+#[path = "common/pole.rs"]
+mod pole;
+
+use common::goal_of;
+use pleach_fit::{
+    Budget, Candidate, Control, FirstGuess, FitProblem, FitSettings, Fitted, GoalSettings, GoalView,
+    GuessSettings, Start, first_guess, fit_goal,
+};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
+use pleach_tree::{Parts, Species};
+use pole::pole;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// Two species of one family, and three of the other.
+fn candidates() -> Vec<Candidate> {
+    let trees = ["palm", "acer"].map(|name| pleach_generators::preset(name).unwrap());
+    let poles = [("rod", 0.02), ("post", 0.1), ("drum", 0.4)].map(|(name, girth)| pole(name, 10.0, girth));
+    trees.into_iter().chain(poles).map(Candidate::from).collect()
+}
+
+/// The front of a pole, as a goal of a fit that would begin with a palm.
+fn goal_of_pole(species: &Species) -> FitProblem {
+    let tree = species.grow(1).unwrap();
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 64, 64);
+    let mut goal = Bitmap::default();
+    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
+    FitProblem::new(pleach_generators::preset("palm").unwrap(), GoalView::new(goal, View::FRONT, frame))
+}
+
+fn guess(problem: &FitProblem) -> FirstGuess {
+    let few = GuessSettings { variants: 3, ..GuessSettings::default() };
+    let go = AtomicBool::new(false);
+    first_guess(problem, &FitSettings::default(), &candidates(), &few, &go, |_, _| ()).unwrap()
+}
+
+fn fitted(problem: &FitProblem) -> Fitted {
+    let search = FitSettings { budget: Budget::evaluations(300), ..FitSettings::default() };
+    let settings = GoalSettings { search, ..GoalSettings::new(candidates()) };
+    let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
+    fit_goal(problem, &settings, Control::new(&clock, &stop)).unwrap()
+}
+
+#[test]
+fn a_goal_chooses_its_family_and_starts_from_lists_of_it_alone() {
+    let found = guess(&goal_of_pole(&pole("goal", 25.0, 0.09)));
+    assert_eq!(found.names[0].0, "post");
+    assert_eq!(found.species.name, "post");
+    assert_eq!(found.species.generator.family(), "pole");
+    assert!(found.nearest.iter().all(|guess| guess.values.len() == 2), "{:?}", found.nearest);
+    // At the goal's height, and as near as its nearest list.
+    assert!((found.species.params.values()[0] - 25.0).abs() < 1.0, "{:?}", found.species.params);
+    assert_eq!(found.species.params.values(), found.nearest[0].values);
+
+    let found = guess(&goal_of("palm", 3, 64));
+    assert_eq!((found.names[0].0.as_str(), found.species.generator.family()), ("palm", "weber-penn"));
+    let slots = found.species.generator.space().len();
+    assert!(found.nearest.iter().all(|guess| guess.values.len() == slots));
+    assert_eq!(found.start(), Start::Lists(found.nearest.iter().map(|one| one.values.clone()).collect()));
+}
+
+#[test]
+fn the_search_is_over_the_generator_that_was_chosen() {
+    let problem = goal_of_pole(&pole("goal", 25.0, 0.2));
+    let Fitted { best, judged, outcome, problem: fitted_problem, .. } = fitted(&problem);
+    assert_eq!(fitted_problem.start.generator.family(), "pole");
+    let [height, girth] = best.genome.values[..] else { panic!("a pole has two numbers") };
+    assert!((height - 25.0).abs() < 1.5 && (girth - 0.2).abs() < 0.02, "{height} {girth}");
+    assert!(best.score.iou > 0.95, "{:?} after {}", best.score, outcome.evaluations);
+    // Poles of all seeds are the same.
+    let judged = judged.unwrap();
+    assert_eq!(judged.held_out.unwrap().cost.sd, 0.0);
+    assert!(judged.references.same_species.is_some() && judged.references.other_species.is_some());
+    assert!(judged.profiles.iter().all(|profile| profile.slot.index() < 2));
+}
+
+#[test]
+fn threads_change_nothing_among_families() {
+    let problem = goal_of_pole(&pole("goal", 25.0, 0.2));
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| format!("{:?}", guess(&problem)))
+    };
+    assert_eq!(on(1), on(4));
+}
