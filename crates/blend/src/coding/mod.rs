@@ -234,6 +234,9 @@ mod tests {
         let code = coding.encode(aspen.generator.as_ref(), aspen.params.values());
         let height = code.values[feature(&coding, "g_scale")].unwrap();
         assert!((height - (13.0_f64 / 4.0).ln() / (45.0_f64 / 4.0).ln()).abs() < 1e-12, "a log of 4 to 45 m");
+        // Searched by ratio like a logarithm, averaged by difference.
+        let base = code.values[feature(&coding, "base_size[0]")].unwrap();
+        assert!((base - (0.3 - 0.01) / 0.95).abs() < 1e-12, "a length of 0.01 to 0.96: {base}");
         let branches = code.values[feature(&coding, "branches[1] where > 0")].unwrap();
         assert!((branches - 51.0_f64.ln() / 251.0_f64.ln()).abs() < 1e-12, "1 + n, a log of 1 to 251");
         let chosen = code.values[feature(&coding, "shape = tend_flame")].unwrap();

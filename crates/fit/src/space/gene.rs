@@ -183,6 +183,7 @@ mod tests {
         let linear = gene(Kind::integer(0, 1000), 1.0, 100.0);
         let count = Gene { scale: Scale::Count, ..linear.clone() };
         assert!(count.is_log() && !linear.is_log() && !Gene { high: 19.0, ..count.clone() }.is_log());
+        assert!(Gene { scale: Scale::FineNearZero, ..count.clone() }.is_log());
         assert_eq!(count.from_unit(0.5), 10.0);
         assert_eq!(count.to_unit(10.0), 0.5);
         assert_eq!(count.clamp(f64::NAN), 51.0);

@@ -11,9 +11,9 @@ use crate::species::Species;
 use std::sync::Arc;
 
 /// Random lists that are tried with each species.
-const LISTS: u64 = 20;
+const LISTS: u64 = 9;
 /// Limits of the trees that tests grow: tests should be quick.
-const LIMITS: Limits = Limits { stems: 20_000, leaves: 50_000, knots: 100_000, work: 1_000_000 };
+const LIMITS: Limits = Limits { stems: 20_000, leaves: 50_000, knots: 100_000, work: 300_000 };
 
 /// A list of allowed values, some of them the species' own.
 fn random(species: &Species, case: u64) -> CheckedParams {
@@ -68,14 +68,12 @@ pub fn inactive_numbers_change_nothing(family: &dyn Family) {
                 continue;
             }
             let (low, high) = space.search_range(slot);
-            for value in [low, high] {
-                let mut values = species.params.values().to_vec();
-                values[slot.index()] = value;
-                let params = checked(space, values);
-                let changed = Species { params, ..species.clone() }.grow(SEED).map(parts);
-                let slot = space.slot_name(slot);
-                assert!(changed == reference, "{name}: `{slot}` is said not to be active");
-            }
+            let mut values = species.params.values().to_vec();
+            values[slot.index()] = if values[slot.index()] == high { low } else { high };
+            let params = checked(space, values);
+            let changed = Species { params, ..species.clone() }.grow(SEED).map(parts);
+            let slot = space.slot_name(slot);
+            assert!(changed == reference, "{name}: `{slot}` is said not to be active");
         }
     }
 }

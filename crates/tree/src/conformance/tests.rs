@@ -80,7 +80,7 @@ impl Generator for BrokenBush {
     }
 
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
-        if self.how == Broken::ChecksInVain && values[2] > 8.0 {
+        if self.how == Broken::ChecksInVain && (values[1] != 0.2 || values[2] > 8.0) {
             return Err(Conflict::NothingLeft { blame: Blame::default() });
         }
         self.bush.check(values)
