@@ -58,7 +58,7 @@ static SPACE: LazyLock<Arc<ParamSpace>> = LazyLock::new(|| {
         Param::scalar("shrink", Kind::real(0.1, 1.0), 0.85)
             .search([(0.6, 1.0)])
             .doc("length and radius of a stem over those of the stem before it"),
-        metres("leaf_length", 0.08, (0.02, 0.3)).doc("length of a leaf"),
+        metres("leaf_length", 0.12, (0.02, 0.3)).doc("length of a leaf"),
     ];
     Arc::new(ParamSpace::new(params).expect("the declarations agree with themselves"))
 });
@@ -96,7 +96,7 @@ impl Generator for BinaryBush {
         let levels = levels as i32;
         let first = height / (0..levels).map(|level| shrink.powi(level)).sum::<f64>();
         let bush = Bush { growth, levels, angle: angle.to_radians(), shrink, leaf_length };
-        let root = Shoot { from: DVec3::ZERO, along: DVec3::Z * first, radius: 0.02 * first, parent: None };
+        let root = Shoot { from: DVec3::ZERO, along: DVec3::Z * first, radius: 0.06 * first, parent: None };
         bush.shoot(&root, 0, Key::root(growth.seed), tree)
     }
 }

@@ -25,8 +25,9 @@ mod conformance {
 #[test]
 fn it_is_drawn() {
     let tree = bush("low").grow(1).unwrap();
-    assert_eq!((tree.stems.len(), tree.leaves.len()), (127, 64));
-    assert!(pleach::silhouette(&tree, View::FRONT, 24).ink() > 20);
+    assert_eq!((tree.stems.len(), tree.leaves.len()), (511, 256));
+    let picture = pleach::silhouette(&tree, View::FRONT, 64);
+    assert!(picture.ink() > 150, "{}", picture.to_ascii());
     assert!(pleach::Bounds::new(&tree, Parts::LEAFY).unwrap().max.z > 0.5);
 }
 
@@ -37,7 +38,7 @@ fn it_is_fitted() {
     values[2] = 45.0;
     let params = bush("low").generator.space().check(values).unwrap();
     let tree = Species { params, ..bush("low") }.grow(7).unwrap();
-    let goal = Goal::from_bitmap(pleach::silhouette(&tree, View::FRONT, 64)).unwrap();
+    let goal = Goal::from_bitmap(pleach::silhouette(&tree, View::FRONT, 128)).unwrap();
     let height = pleach::Bounds::new(&tree, Parts::LEAFY).unwrap().max.z;
 
     // The first guess chooses among species of all families.
@@ -50,11 +51,11 @@ fn it_is_fitted() {
     let stop = AtomicBool::new(false);
     let fitted = pleach::fit_goal(&problem, &settings, Control::new(&|| Duration::ZERO, &stop)).unwrap();
 
-    assert_eq!(fitted.guess.as_ref().unwrap().names[0].0, "low");
-    let found = fitted.species().unwrap();
-    assert_eq!(found.generator.family(), "binary-bush");
-    let angle = found.params.values()[2];
-    assert!((40.0..60.0).contains(&angle), "{angle}");
+    let guess = fitted.guess.as_ref().unwrap();
+    assert_eq!(guess.names[0].0, "low", "{:?}", guess.names);
+    assert_eq!(fitted.species().unwrap().generator.family(), "binary-bush");
+    let (before, after) = (guess.nearest[0].score.cost, fitted.best.score.cost);
+    assert!(after < 0.95 * before, "{after} after {before}");
 }
 
 #[test]
