@@ -24,7 +24,7 @@ impl Weights {
     }
 
     /// From shares that are 0 or more and not all 0; they are divided by their sum.
-    pub(crate) fn of_shares(mut shares: Vec<f64>) -> Self {
+    pub(crate) fn from_shares(mut shares: Vec<f64>) -> Self {
         let sum: f64 = shares.iter().sum();
         debug_assert!(sum > 0.0 && sum.is_finite());
         shares.iter_mut().for_each(|share| *share /= sum);
@@ -49,7 +49,7 @@ impl Weights {
         let rest = |i: usize| scaled[i] - scaled[i].floor();
         order.sort_by(|&a, &b| rest(b).total_cmp(&rest(a)).then(a.cmp(&b)));
         order.iter().take(missing.round() as usize).for_each(|&i| whole[i] += 1.0);
-        Self::of_shares(whole)
+        Self::from_shares(whole)
     }
 
     /// The landmark with the largest weight, the first of equals.
@@ -180,7 +180,7 @@ impl Landmarks {
             return Err(BlendError::NoWeight);
         }
         // By the largest first, so that the sum of huge shares stays finite.
-        Ok(Weights::of_shares(shares.iter().map(|share| share / most).collect()))
+        Ok(Weights::from_shares(shares.iter().map(|share| share / most).collect()))
     }
 
     /// Weights of two landmarks: all of `first` at 0, all of `second` at 1.
@@ -194,7 +194,7 @@ impl Landmarks {
         let mut shares = vec![0.0; self.species.len()];
         shares[first] += 1.0 - at;
         shares[second] += at;
-        Ok(Weights::of_shares(shares))
+        Ok(Weights::from_shares(shares))
     }
 
     /// The average of the landmarks' features; each feature over those landmarks that have it,

@@ -90,7 +90,7 @@ impl Natural {
         } else {
             self.stolen_areas(place.point).into_iter().for_each(|(site, area)| give(site, area));
         }
-        (Weights::of_shares(shares), place)
+        (Weights::from_shares(shares), place)
     }
 
     /// The part of the box from `low` to `high` that is nearer to landmark number `landmark` than to

@@ -95,7 +95,7 @@ fn fitted(path: &str, like: &str, further: u64) -> anyhow::Result<Picture> {
     let seed = species.tree_seed.context("a fit has a seed")? + further;
     let mut tree = species.grow(seed)?;
     like.clone_into(&mut species.name);
-    let palette = Palette::of(&species, None);
+    let palette = Palette::new(&species, None);
     palette.dress(&mut tree);
     let white = Background::Plain(species::Color([255; 3]));
     let settings =

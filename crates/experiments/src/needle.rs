@@ -124,7 +124,7 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
     let mut goal = Bitmap::default();
     // As searches draw, so that the truth itself is a perfect match.
     Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
-    let ellipse = ScoreCard::of(&goal, &goal)?.best_ellipse_iou;
+    let ellipse = ScoreCard::new(&goal, &goal)?.best_ellipse_iou;
     let generator = &species.generator;
     let truth = Genome::new(species.params.values().to_vec(), TREE_SEED);
     let problem = FitProblem::new(species.clone(), GoalView::new(goal, View::FRONT, frame));

@@ -13,7 +13,7 @@ fn overhead(criterion: &mut Criterion) {
     // A cost that falls slowly, so that nobody restarts.
     let cost = |genome: &Genome| {
         let distance = |(value, base): (&f64, &f64)| (value - base).abs() / (1.0 + base.abs());
-        Score::of_cost(genome.values.iter().zip(&base).map(distance).sum())
+        Score::from_cost(genome.values.iter().zip(&base).map(distance).sum())
     };
     let mut group = criterion.benchmark_group("ask and tell, a member");
     group.throughput(Throughput::Elements(1));

@@ -16,7 +16,7 @@ pub(crate) struct Fingerprint {
 
 impl Fingerprint {
     /// That of a fit of `problem`.
-    pub(crate) fn of_fit(problem: &FitProblem, settings: &FitSettings) -> Self {
+    pub(crate) fn from_fit(problem: &FitProblem, settings: &FitSettings) -> Self {
         let limits = &settings.limits;
         let of = format!("{}/{}", problem.start.generator.family(), settings.optimizer.name());
         goal_parts(problem)

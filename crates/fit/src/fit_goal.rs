@@ -93,7 +93,7 @@ impl Fitted {
     pub fn verdict(&self, card: &ScoreCard) -> Option<Verdict> {
         let held_out = self.judged.as_ref().and_then(|judged| judged.held_out.as_ref());
         let fresh = held_out.map(|fresh| fresh.likeness.mean);
-        Verdict::of(card.likeness, fresh, self.references()?, &card.crown, &card.goal_crown)
+        Verdict::new(card.likeness, fresh, self.references()?, &card.crown, &card.goal_crown)
     }
 }
 

@@ -58,7 +58,7 @@ pub fn fresh_seeds(
     if scores.is_empty() || scores.iter().any(|score| !score.cost.is_finite()) {
         return Ok(None);
     }
-    let spread = |of: fn(&Score) -> f64| Spread::of(scores.iter().map(of));
+    let spread = |of: fn(&Score) -> f64| Spread::new(scores.iter().map(of));
     Ok(Some(FreshSeeds {
         count,
         iou: spread(|score| score.iou),
@@ -70,7 +70,7 @@ pub fn fresh_seeds(
 
 impl Spread {
     /// Of at least one value; one alone has no spread.
-    fn of(values: impl ExactSizeIterator<Item = f64> + Clone) -> Self {
+    fn new(values: impl ExactSizeIterator<Item = f64> + Clone) -> Self {
         let n = values.len() as f64;
         let mean = values.clone().sum::<f64>() / n;
         let squares: f64 = values.map(|v| (v - mean).powi(2)).sum();
@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn spreads_are_of_one_sample() {
-        assert_eq!(Spread::of([1.0, 3.0].into_iter()), Spread { mean: 2.0, sd: 2.0_f64.sqrt() });
-        assert_eq!(Spread::of([5.0].into_iter()), Spread { mean: 5.0, sd: 0.0 });
+        assert_eq!(Spread::new([1.0, 3.0].into_iter()), Spread { mean: 2.0, sd: 2.0_f64.sqrt() });
+        assert_eq!(Spread::new([5.0].into_iter()), Spread { mean: 5.0, sd: 0.0 });
     }
 }

@@ -62,7 +62,7 @@ impl Size {
 
     /// The size of `tree`.
     #[must_use]
-    pub const fn of(tree: &Tree) -> Self {
+    pub const fn new(tree: &Tree) -> Self {
         Self {
             stems: tree.stems.len(),
             leaves: tree.leaves.len() + tree.blossoms.len(),
@@ -73,11 +73,11 @@ impl Size {
 
 impl Score {
     /// The score of what does not grow.
-    pub const FAILED: Self = Self { cost: f64::INFINITY, ..Self::of_cost(0.0) };
+    pub const FAILED: Self = Self { cost: f64::INFINITY, ..Self::from_cost(0.0) };
 
     /// A bare cost, for problems that are no pictures.
     #[must_use]
-    pub const fn of_cost(cost: f64) -> Self {
+    pub const fn from_cost(cost: f64) -> Self {
         Self {
             cost,
             iou: 0.0,

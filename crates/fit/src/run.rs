@@ -27,12 +27,12 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
     if settings.optimizer.matches_height() && space.sizes_are_free() {
         evaluator = evaluator.matching_height();
     }
-    drive(&evaluator, space, settings, Fingerprint::of_fit(problem, settings), control)
+    drive(&evaluator, space, settings, Fingerprint::from_fit(problem, settings), control)
 }
 
 /// The space that a fit searches: the free slots, in ranges that hold every start.
 pub(crate) fn search_space(problem: &FitProblem, settings: &FitSettings) -> Result<SearchSpace, FitError> {
-    let mut space = SearchSpace::of_problem(problem, &settings.freedom, settings.tree_seed)?;
+    let mut space = SearchSpace::from_problem(problem, &settings.freedom, settings.tree_seed)?;
     if settings.start == Start::Lists(Vec::new()) {
         return Err(FitError::NoStart);
     }

@@ -212,7 +212,7 @@ mod tests {
 
     fn search() -> Search<Random> {
         let space =
-            SearchSpace::of_params(cube(3, -1.0, 1.0), &[0.5; 3], &Freedom::default(), TreeSeed::Fixed(1));
+            SearchSpace::from_params(cube(3, -1.0, 1.0), &[0.5; 3], &Freedom::default(), TreeSeed::Fixed(1));
         let settings = RandomSettings { population: 10 };
         Search::new(Random::new(settings, 1, Start::Random), &Start::Random, Arc::new(space.unwrap()))
     }

@@ -42,6 +42,6 @@ pub(crate) struct Function(pub(crate) fn(&[f64]) -> f64);
 
 impl Evaluate for Function {
     fn scores(&self, genomes: &[Genome], _: Size) -> Vec<Score> {
-        genomes.iter().map(|genome| Score::of_cost((self.0)(&genome.values))).collect()
+        genomes.iter().map(|genome| Score::from_cost((self.0)(&genome.values))).collect()
     }
 }

@@ -89,7 +89,7 @@ pub struct Verdict {
 impl Kindred {
     /// The verdict on a likeness at `share`: see the rule above.
     #[must_use]
-    pub fn of(share: f64) -> Self {
+    pub fn from_share(share: f64) -> Self {
         if share >= OF_ITS_KIND {
             Self::OfItsKind
         } else if share >= ROUGHLY {
@@ -116,7 +116,7 @@ impl fmt::Display for Kindred {
 impl Off {
     /// What of `crown` is farthest from `goal`, in its own tolerance, if anything is beyond it.
     #[must_use]
-    pub fn of(crown: &Crown, goal: &Crown) -> Option<Self> {
+    pub fn new(crown: &Crown, goal: &Crown) -> Option<Self> {
         let factor =
             |a: f64, b: f64, most: f64| if a > 0.0 && b > 0.0 { (a / b).ln() / most.ln() } else { 0.0 };
         let density = |crown: &Crown| crown.ink / (crown.width * crown.height).max(1e-9);
@@ -152,7 +152,7 @@ impl Verdict {
     /// one of `fresh` in the mean, none if nobody has grown them. Without a species to compare with
     /// there is no verdict.
     #[must_use]
-    pub fn of(
+    pub fn new(
         tree: f64,
         fresh: Option<f64>,
         references: &References,
@@ -164,10 +164,10 @@ impl Verdict {
         let share = |likeness: f64| (likeness - other) / (one - other).max(MIN_VERDICT_SPAN);
         let of_kind = share(fresh.unwrap_or(tree));
         Some(Self {
-            kind: Kindred::of(of_kind),
-            tree: Kindred::of(share(tree)),
+            kind: Kindred::from_share(of_kind),
+            tree: Kindred::from_share(share(tree)),
             share: of_kind,
-            off: Off::of(crown, goal),
+            off: Off::new(crown, goal),
         })
     }
 }
@@ -205,15 +205,15 @@ mod tests {
             (NOT_AT_ALL, Kindred::NotOfItsKind, Kindred::NoMoreThanAnother),
         ];
         for (edge, at, below) in cases {
-            assert_eq!((Kindred::of(edge), Kindred::of(before(edge))), (at, below));
+            assert_eq!((Kindred::from_share(edge), Kindred::from_share(before(edge))), (at, below));
         }
-        assert_eq!(Kindred::of(7.0), Kindred::OfItsKind);
-        assert_eq!(Kindred::of(-7.0), Kindred::NoMoreThanAnother);
+        assert_eq!(Kindred::from_share(7.0), Kindred::OfItsKind);
+        assert_eq!(Kindred::from_share(-7.0), Kindred::NoMoreThanAnother);
     }
 
     #[test]
     fn fresh_seeds_decide_and_references_say_where() {
-        let of = |tree, fresh, references: &References| Verdict::of(tree, fresh, references, &CROWN, &CROWN);
+        let of = |tree, fresh, references: &References| Verdict::new(tree, fresh, references, &CROWN, &CROWN);
         let verdict = of(0.8, Some(0.55), &references(0.8, 0.3)).unwrap();
         assert_eq!((verdict.kind, verdict.tree, verdict.off), (Kindred::Roughly, Kindred::OfItsKind, None));
         assert!((verdict.share - 0.5).abs() < 1e-12);
@@ -229,7 +229,7 @@ mod tests {
 
     #[test]
     fn what_is_most_off_is_said_from_its_edge_on() {
-        let off = |crown: Crown| Off::of(&crown, &CROWN);
+        let off = |crown: Crown| Off::new(&crown, &CROWN);
         assert_eq!(off(CROWN), None);
         let wide = |by: f64| Crown { width: by * CROWN.width, ink: by * CROWN.ink, ..CROWN };
         assert_eq!(off(wide(SIZE_OFF + 1e-9)), Some(Off::TooWide));
@@ -248,6 +248,6 @@ mod tests {
             Some(Off::TooSparse)
         );
         // Nothing drawn at all: no numbers, no nonsense.
-        assert_eq!(Off::of(&Crown::default(), &CROWN), Some(Off::StartsTooLow));
+        assert_eq!(Off::new(&Crown::default(), &CROWN), Some(Off::StartsTooLow));
     }
 }

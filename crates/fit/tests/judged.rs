@@ -59,7 +59,7 @@ fn other_seeds_of_the_truth_are_alike_but_not_the_same() {
 fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     let problem = goal_of("palm", 1, 96);
     let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
-    let best = Scored { genome: truth(&problem), score: Score::of_cost(0.0) };
+    let best = Scored { genome: truth(&problem), score: Score::from_cost(0.0) };
     let profiles = profile(&problem, &settings, &best, 0.05, &GO).unwrap();
     let space = problem.start.generator.space();
     let seen = |name: &str| {
@@ -124,7 +124,7 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
 fn asked_to_stop_nothing_is_judged() {
     let problem = goal_of("palm", 1, 64);
     let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
-    let best = Scored { genome: truth(&problem), score: Score::of_cost(0.0) };
+    let best = Scored { genome: truth(&problem), score: Score::from_cost(0.0) };
     let stop = AtomicBool::new(true);
     let fresh = fresh_seeds(&problem, Objective::Iou, FIT_LIMITS, &truth(&problem), 8, &stop);
     assert!(matches!(fresh, Err(FitError::Interrupted)));
@@ -144,7 +144,7 @@ fn asked_to_stop_nothing_is_judged() {
 fn going_back_step_by_step_is_the_same_on_any_number_of_threads() {
     let problem = goal_of("acer", 1, 64);
     let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
-    let best = Scored { genome: truth(&problem), score: Score::of_cost(0.0) };
+    let best = Scored { genome: truth(&problem), score: Score::from_cost(0.0) };
     let space = problem.start.generator.space();
     let all: Vec<_> = space
         .slots()

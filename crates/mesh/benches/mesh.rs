@@ -17,7 +17,7 @@ fn meshes(criterion: &mut Criterion) {
         let Ok(tree) = species.grow(1) else { continue };
         let scene = Scene {
             name: name.to_owned(),
-            palette: Palette::of(&species, None),
+            palette: Palette::new(&species, None),
             extras: serde_json::Value::Null,
             placed: vec![Placed::at_origin(name, 1)],
             rig: None,
@@ -26,7 +26,7 @@ fn meshes(criterion: &mut Criterion) {
         let mesher = || Mesher::new(&tree, MeshSettings::default());
         group.bench_function(format!("measure/{name}"), |b| b.iter(|| black_box(mesher().count())));
         group.bench_function(format!("memory/{name}"), |b| {
-            b.iter(|| black_box(Mesh::of(&tree, MeshSettings::default()).triangles()));
+            b.iter(|| black_box(Mesh::new(&tree, MeshSettings::default()).triangles()));
         });
         group.bench_function(format!("glb/{name}"), |b| {
             b.iter_batched_ref(

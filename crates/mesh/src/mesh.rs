@@ -17,7 +17,7 @@ pub struct Mesh {
 impl Mesh {
     /// The mesh of `tree`, in metres with z up. Empty for a tree without anything to draw.
     #[must_use]
-    pub fn of(tree: &Tree, settings: MeshSettings) -> Self {
+    pub fn new(tree: &Tree, settings: MeshSettings) -> Self {
         let mut mesh = Self::default();
         // The only error is that there is nothing, and this sink never fails.
         let _ = send(&[Mesher::new(tree, settings)], &mut mesh);

@@ -29,7 +29,7 @@ impl Palette {
     /// Colours are those of the species' [`Appearance`](pleach_tree::species::Appearance) and of
     /// nothing else: its name does not matter.
     #[must_use]
-    pub fn of(species: &Species, season: Option<Season>) -> Self {
+    pub fn new(species: &Species, season: Option<Season>) -> Self {
         Self::in_season(&species.appearance.look(), season)
     }
 
@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     fn palette(name: &str, season: Option<Season>) -> Palette {
-        Palette::of(&pleach_generators::preset(name).unwrap(), season)
+        Palette::new(&pleach_generators::preset(name).unwrap(), season)
     }
 
     #[test]
@@ -116,10 +116,10 @@ mod tests {
         let red = Color([255, 0, 0]);
         species.appearance.autumn = Some(red);
         species.appearance.season = Some(Season::Autumn);
-        assert_eq!(Palette::of(&species, None).leaf, red);
-        assert_ne!(Palette::of(&species, Some(Season::Spring)).leaf, red, "an argument wins over the file");
+        assert_eq!(Palette::new(&species, None).leaf, red);
+        assert_ne!(Palette::new(&species, Some(Season::Spring)).leaf, red, "an argument wins over the file");
         species.appearance.evergreen = Some(true);
-        assert_eq!(Palette::of(&species, None).leaf, summer, "an evergreen does not turn");
+        assert_eq!(Palette::new(&species, None).leaf, summer, "an evergreen does not turn");
     }
 
     #[test]
@@ -127,9 +127,9 @@ mod tests {
         for name in pleach_generators::names() {
             let species = pleach_generators::preset(name).unwrap();
             let renamed = Species { name: "mine".to_owned(), ..species.clone() };
-            assert_eq!(Palette::of(&renamed, None), Palette::of(&species, None), "{name}");
+            assert_eq!(Palette::new(&renamed, None), Palette::new(&species, None), "{name}");
             let appearance = pleach_tree::species::Appearance::default();
-            let silent = Palette::of(&Species { appearance, ..species.clone() }, None);
+            let silent = Palette::new(&Species { appearance, ..species.clone() }, None);
             assert_eq!(silent, Palette::in_season(&Look::PLAIN, None), "{name}");
             assert!(species.appearance.bark.is_some() && species.appearance.bark_pattern.is_some(), "{name}");
             assert!(species.appearance.leaf.is_some(), "{name}");

@@ -42,7 +42,7 @@ struct Bones {
 impl Rig {
     /// Joints for trunks and their branches; everything smaller moves with what carries it.
     #[must_use]
-    pub fn of(tree: &Tree) -> Self {
+    pub fn new(tree: &Tree) -> Self {
         let mut rig = Self::default();
         for (i, stem) in tree.stems.iter().enumerate() {
             let parent = stem.parent.map(|p| rig.joint_at(p, stem.offset));
@@ -65,7 +65,7 @@ impl Rig {
 
     fn add(&mut self, tree: &Tree, i: usize, parent: Option<u16>, count: u32, length: f64) -> Bones {
         let stem = &tree.stems[i];
-        let whole = Sway::of(tree, i);
+        let whole = Sway::new(tree, i);
         let sway = Sway { amplitude: whole.amplitude / f64::from(count), ..whole };
         let first = self.joints.len() as u16;
         let pieces: Vec<_> = tree.pieces_of(stem).map(|(piece, ..)| piece).collect();
@@ -103,7 +103,7 @@ mod tests {
     fn every_stem_hangs_on_a_joint_and_parents_come_first() {
         for name in ["quaking_aspen", "black_tupelo", "palm"] {
             let tree = pleach_generators::preset(name).unwrap().grow_bare(3).unwrap();
-            let rig = Rig::of(&tree);
+            let rig = Rig::new(&tree);
             assert!(rig.joints.len() <= MAX_JOINTS && rig.joints.len() >= 4, "{name}");
             for (i, joint) in rig.joints.iter().enumerate() {
                 assert!(joint.parent.is_none_or(|p| usize::from(p) < i));

@@ -42,7 +42,7 @@ pub struct Sway {
 impl Sway {
     /// How stem number `index` of `tree` sways.
     #[must_use]
-    pub fn of(tree: &Tree, index: usize) -> Self {
+    pub fn new(tree: &Tree, index: usize) -> Self {
         let stem = &tree.stems[index];
         let radius = tree.knots_of(stem).iter().map(|k| k.radius).fold(0.0, f64::max).max(1e-4);
         let length = tree.length_of(stem).max(0.05);
@@ -59,7 +59,7 @@ impl Sway {
 pub(crate) fn of_stem(tree: &Tree, index: usize) -> Wind {
     let stem = &tree.stems[index];
     let pivot = tree.knots_of(stem)[0].point.as_vec3();
-    let sway = Sway::of(tree, index);
+    let sway = Sway::new(tree, index);
     wind(pivot, sway, stem.level)
 }
 
@@ -88,9 +88,9 @@ mod tests {
     #[test]
     fn thick_stems_sway_less_and_slower_than_twigs() {
         let tree = pleach_generators::preset("quaking_aspen").unwrap().grow_bare(1).unwrap();
-        let trunk = Sway::of(&tree, 0);
+        let trunk = Sway::new(&tree, 0);
         let twig = tree.stems.iter().position(|s| s.level == 2).unwrap();
-        let twig = Sway::of(&tree, twig);
+        let twig = Sway::new(&tree, twig);
         assert!(trunk.amplitude < 0.5 * twig.amplitude, "{trunk:?} {twig:?}");
         assert!(trunk.frequency < twig.frequency);
         assert!((0.15..=3.0).contains(&trunk.frequency));

@@ -24,7 +24,7 @@ fn grow(name: &str) -> (Species, Tree) {
 fn scene<'a>(species: &Species, _: &Tree, levels: usize) -> Scene<'a> {
     Scene {
         name: species.name.clone(),
-        palette: Palette::of(species, None),
+        palette: Palette::new(species, None),
         extras: serde_json::json!({"species": species.name, "seed": 1}),
         placed: vec![Placed::at_origin(&species.name, levels)],
         rig: None,
@@ -52,7 +52,7 @@ fn levels_glb(name: &str, count: u32) -> Vec<u8> {
 
 fn rigged(name: &str) -> Vec<u8> {
     let (species, tree) = grow(name);
-    let rig = Rig::of(&tree);
+    let rig = Rig::new(&tree);
     let scene = Scene { rig: Some(&rig), ..scene(&species, &tree, 1) };
     glb(&[Mesher::new(&tree, MeshSettings::default()).with_rig(&rig)], &scene)
 }
@@ -115,7 +115,7 @@ fn the_gltf_crate_reads_every_corner_back() {
     for name in ["acer", "palm", "hill_cherry", "small_pine"] {
         let bytes = plain(name, MeshSettings::default());
         let (_, tree) = grow(name);
-        let mesh = Mesh::of(&tree, MeshSettings::default());
+        let mesh = Mesh::new(&tree, MeshSettings::default());
         let file = gltf::Gltf::from_slice(&bytes).unwrap();
         let blob = file.blob.as_deref().unwrap();
         let found: Vec<_> = file.meshes().flat_map(|m| m.primitives().collect::<Vec<_>>()).collect();
@@ -259,7 +259,7 @@ fn the_sway_moves_every_joint_and_comes_back() {
 #[test]
 fn wind_data_name_level_and_place() {
     let (_, tree) = grow("acer");
-    let mesh = Mesh::of(&tree, MeshSettings { wind: true, ..MeshSettings::default() });
+    let mesh = Mesh::new(&tree, MeshSettings { wind: true, ..MeshSettings::default() });
     for (part, block) in &mesh.parts {
         assert_eq!(block.wind.len(), block.vertices.len(), "{:?}", part.material);
         for Wind { phase, level, place, frequency, amplitude, .. } in &block.wind {
@@ -323,7 +323,7 @@ fn the_usd_library_finds_nothing_wrong() {
     let dir = tempfile::tempdir().unwrap();
     for (name, leaves) in [("acer", LeafStyle::Outline), ("apple", LeafStyle::CrossedCards)] {
         let (species, tree) = grow(name);
-        let palette = Palette::of(&species, None);
+        let palette = Palette::new(&species, None);
         let mesher = Mesher::new(&tree, MeshSettings { leaves, ..MeshSettings::default() });
         let mesher = if name == "acer" { mesher } else { mesher.with_instanced_leaves() };
         let count = mesher.count();
@@ -364,7 +364,7 @@ fn ply_holds_what_its_head_promises() {
     for wind in [false, true] {
         let mesher = Mesher::new(&tree, MeshSettings { wind, ..MeshSettings::default() });
         let count = mesher.count();
-        let palette = Palette::of(&species, None);
+        let palette = Palette::new(&species, None);
         let mut bytes = Vec::new();
         send(&[mesher], &mut ply::Ply::new(&mut bytes, palette)).unwrap();
         let end = b"end_header\n";
@@ -396,7 +396,7 @@ fn obj_counts_corners_from_one_and_names_its_materials() {
     assert!(text.contains("mtllib palm.mtl") && text.contains("o a_palm") && text.contains("usemtl leaves"));
     let highest = text.lines().filter(|l| l.starts_with("f ")).flat_map(|l| l.split([' ', '/']).skip(1));
     assert_eq!(highest.map(|n| n.parse::<u64>().unwrap()).max(), Some(count.vertices));
-    let materials = obj::materials(&Palette::of(&species, None), &[]);
+    let materials = obj::materials(&Palette::new(&species, None), &[]);
     assert_eq!(materials.matches("newmtl").count(), 3);
 }
 
@@ -407,7 +407,7 @@ fn usda_arrays_have_their_lengths() {
     let mesher = Mesher::new(&tree, MeshSettings::default()).with_instanced_leaves();
     let parts = mesher.parts(0);
     let notes = usda::Notes { name: "1 hill cherry".into(), ..usda::Notes::default() };
-    let palette = Palette::of(&species, None);
+    let palette = Palette::new(&species, None);
     let mut bytes = Vec::new();
     send(&[mesher], &mut usda::Usda::new(&mut bytes, &notes, palette)).unwrap();
     let text = String::from_utf8(bytes).unwrap();

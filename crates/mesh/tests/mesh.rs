@@ -20,7 +20,7 @@ fn grow(name: &str, seed: u64) -> Tree {
 fn bark_is_closed_and_no_face_is_degenerate_or_twice_there() {
     for name in SPECIES {
         let tree = pleach_generators::preset(name).unwrap().grow_bare(2).unwrap();
-        let mesh = Mesh::of(&tree, MeshSettings::default());
+        let mesh = Mesh::new(&tree, MeshSettings::default());
         let bark = mesh.part(Material::Bark).unwrap();
         let bits = |i: u32| bark.vertices[i as usize].position.to_array().map(f32::to_bits);
         let mut edges: HashMap<_, i32> = HashMap::new();
@@ -43,7 +43,7 @@ fn bark_is_closed_and_no_face_is_degenerate_or_twice_there() {
 #[test]
 fn corners_are_finite_with_unit_normals_and_textures_in_range() {
     for name in SPECIES {
-        let mesh = Mesh::of(&grow(name, 1), MeshSettings::default());
+        let mesh = Mesh::new(&grow(name, 1), MeshSettings::default());
         for (part, block) in &mesh.parts {
             for v in &block.vertices {
                 assert!(v.to_array().iter().all(|x| x.is_finite()), "{name}: {v:?}");
@@ -65,7 +65,7 @@ fn every_leaf_is_there_with_its_area() {
     for name in SPECIES {
         let tree = grow(name, 1);
         for (style, triangles) in [(LeafStyle::Outline, None), (LeafStyle::CrossedCards, Some(4))] {
-            let mesh = Mesh::of(&tree, MeshSettings { leaves: style, ..MeshSettings::default() });
+            let mesh = Mesh::new(&tree, MeshSettings { leaves: style, ..MeshSettings::default() });
             let Some(leaves) = mesh.part(Material::Leaf) else {
                 assert!(tree.leaves.is_empty(), "{name}");
                 continue;
@@ -88,7 +88,7 @@ fn every_leaf_is_there_with_its_area() {
 
 #[test]
 fn leaves_face_the_way_of_their_normals() {
-    let mesh = Mesh::of(&grow("quaking_aspen", 1), MeshSettings::default());
+    let mesh = Mesh::new(&grow("quaking_aspen", 1), MeshSettings::default());
     let leaves = mesh.part(Material::Leaf).unwrap();
     for t in &leaves.triangles {
         let [a, b, c] = t.map(|i| leaves.vertices[i as usize].position);
@@ -102,7 +102,7 @@ fn the_number_of_threads_changes_nothing() {
     let settings = MeshSettings { wind: true, ..MeshSettings::default() };
     let [one, three] = [1, 3].map(|n| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
-        pool.install(|| Mesh::of(&tree, settings))
+        pool.install(|| Mesh::new(&tree, settings))
     });
     assert!(one == three);
 }
@@ -110,11 +110,11 @@ fn the_number_of_threads_changes_nothing() {
 #[test]
 fn a_tree_without_leaves_and_one_without_anything() {
     let bare = pleach_generators::preset("acer").unwrap().grow_bare(1).unwrap();
-    let mesh = Mesh::of(&bare, MeshSettings::default());
+    let mesh = Mesh::new(&bare, MeshSettings::default());
     assert_eq!(mesh.parts.len(), 1);
-    assert!(Mesh::of(&Tree::default(), MeshSettings::default()).parts.is_empty());
+    assert!(Mesh::new(&Tree::default(), MeshSettings::default()).parts.is_empty());
     for level in lod::levels(&bare, MeshSettings::default(), 6) {
-        assert_eq!(Mesh::of(&level.tree, level.settings).parts.len(), 1);
+        assert_eq!(Mesh::new(&level.tree, level.settings).parts.len(), 1);
     }
 }
 
@@ -123,7 +123,7 @@ fn settings_out_of_range_are_moved_into_it() {
     let tree = pleach_generators::preset("palm").unwrap().grow_bare(1).unwrap();
     let settings =
         MeshSettings { tolerance: f64::NAN, min_sides: 0, max_sides: 0, ..MeshSettings::default() };
-    let mesh = Mesh::of(&tree, settings);
+    let mesh = Mesh::new(&tree, settings);
     assert!(mesh.triangles() > tree.stems.len() && mesh.triangles() < 100 * tree.knots.len());
 }
 
@@ -158,7 +158,7 @@ fn mixed() -> Tree {
 fn leaves_of_several_shapes_and_blobs_are_one_part() {
     let tree = mixed();
     tree.well_formed().unwrap();
-    let rig = Rig::of(&tree);
+    let rig = Rig::new(&tree);
     let settings = MeshSettings { wind: true, ..MeshSettings::default() };
     let mut mesh = Mesh::default();
     send(&[Mesher::new(&tree, settings).with_rig(&rig)], &mut mesh).unwrap();
@@ -179,12 +179,12 @@ fn leaves_of_several_shapes_and_blobs_are_one_part() {
 fn roots_are_meshed_where_they_are_asked_for() {
     let tree = mixed();
     let width = |parts| {
-        let mesh = Mesh::of(&tree, MeshSettings { parts, ..MeshSettings::default() });
+        let mesh = Mesh::new(&tree, MeshSettings { parts, ..MeshSettings::default() });
         mesh.part(Material::Bark).unwrap().vertices.iter().map(|v| v.position.x).fold(0.0, f32::max)
     };
     assert!(width(Parts::LEAFY) < 0.2 && width(Parts::ALL) > 1.9);
     assert!(
-        Mesh::of(&tree, MeshSettings { parts: Parts::BARE, ..MeshSettings::default() })
+        Mesh::new(&tree, MeshSettings { parts: Parts::BARE, ..MeshSettings::default() })
             .part(Material::Leaf)
             .is_none()
     );

@@ -21,7 +21,7 @@ fn meshes_have_the_silhouette_of_their_tree() {
             let frame = Frame::automatic(&tree, &view, Parts::with_foliage(foliage), 512, 512);
             let mut direct = Bitmap::new(512, 512);
             Rasterizer::new().draw(&tree, &view, &frame, Parts::with_foliage(foliage), &mut direct);
-            let mesh = Mesh::of(&tree, MeshSettings::default());
+            let mesh = Mesh::new(&tree, MeshSettings::default());
             let found = iou(&direct, &silhouette(&mesh, &view, &frame));
             assert!(found >= least, "{name} {view:?}: {found}");
         }
@@ -37,7 +37,7 @@ fn bare_meshes_have_the_ink_of_their_tree() {
         let frame = Frame::automatic(&tree, &View::FRONT, Parts::BARE, 512, 512);
         let mut direct = Bitmap::new(512, 512);
         Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::BARE, &mut direct);
-        let mesh = silhouette(&Mesh::of(&tree, MeshSettings::default()), &View::FRONT, &frame);
+        let mesh = silhouette(&Mesh::new(&tree, MeshSettings::default()), &View::FRONT, &frame);
         let ink = mesh.ink() as f64 / direct.ink() as f64;
         assert!((0.92..=1.09).contains(&ink), "{name}: {ink} times the ink");
         assert!(iou(&direct, &mesh) > 0.88, "{name}: {}", iou(&direct, &mesh));
@@ -76,7 +76,7 @@ fn meshes_have_the_ink_of_the_reference() {
                 let species = pleach_generators::preset(name).unwrap();
                 let tree = if foliage { species.grow(seed) } else { species.grow_bare(seed) }.unwrap();
                 let frame = Frame::automatic(&tree, &View::FRONT, Parts::with_foliage(foliage), 512, 512);
-                let seen = silhouette(&Mesh::of(&tree, MeshSettings::default()), &View::FRONT, &frame);
+                let seen = silhouette(&Mesh::new(&tree, MeshSettings::default()), &View::FRONT, &frame);
                 ink_in_height(512, 512, |x, y| seen.get(x, y))
             });
             let ratio = ours.sum::<f64>() / 3.0 / ink_of_reference(name, what);
@@ -98,7 +98,7 @@ fn levels_of_detail_keep_the_silhouette_and_lose_triangles() {
         let mut last = usize::MAX;
         let mut finest = None;
         for (n, level) in levels.iter().enumerate() {
-            let mesh = Mesh::of(&level.tree, level.settings);
+            let mesh = Mesh::new(&level.tree, level.settings);
             assert!(mesh.triangles() < last, "{name}: level {n} has {} triangles", mesh.triangles());
             last = mesh.triangles();
             let seen = silhouette(&mesh, &View::FRONT, &frame);

@@ -10,10 +10,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let name = std::env::args().nth(1).unwrap_or_else(|| "acer".to_owned());
     let species = pleach::species(&name)?;
     let mut tree = species.grow(1)?;
-    let palette = Palette::of(&species, Some(Season::Autumn));
+    let palette = Palette::new(&species, Some(Season::Autumn));
     palette.dress(&mut tree); // a winter tree would lose its leaves
 
-    let mesh = Mesh::of(&tree, MeshSettings::with_tolerance(0.005));
+    let mesh = Mesh::new(&tree, MeshSettings::with_tolerance(0.005));
     println!("{} triangles", mesh.triangles());
     pleach::write_glb(File::create(format!("{name}.glb"))?, &name, &tree, &palette)?;
     pleach::render(&tree, &palette, 512).write_png(&mut File::create(format!("{name}.png"))?)?;

@@ -77,7 +77,7 @@
 //!
 //! let species = pleach::species("acer")?;
 //! let tree = species.grow(1)?;
-//! let palette = Palette::of(&species, None);
+//! let palette = Palette::new(&species, None);
 //! let mut glb = std::io::Cursor::new(Vec::new());
 //! pleach::write_glb(&mut glb, "acer", &tree, &palette)?;
 //! let picture = pleach::render(&tree, &palette, 128);

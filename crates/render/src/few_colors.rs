@@ -28,7 +28,7 @@ impl Cell {
 }
 
 impl FewColors {
-    pub(crate) fn of(picture: &Picture) -> Self {
+    pub(crate) fn new(picture: &Picture) -> Self {
         let mut cells = cells(picture);
         let mut boxes = Vec::with_capacity(MAX);
         boxes.push(0..cells.len());
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn few_colours_stay_as_they_are() {
         let picture = picture(|i| if i % 7 == 0 { [10, 200, 30] } else { [250, 250, 250] });
-        let few = FewColors::of(&picture);
+        let few = FewColors::new(&picture);
         assert_eq!(few.colors.len(), 2);
         for (pixel, number) in picture.rgba.chunks_exact(4).zip(&few.pixels) {
             assert_eq!(few.colors[usize::from(*number)], pixel[..3]);
@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn many_colours_come_out_near() {
         let picture = picture(|i| [i % 64 * 4, i / 64 * 4, (i * 37 % 256) / 8].map(|c| c as u8));
-        let few = FewColors::of(&picture);
+        let few = FewColors::new(&picture);
         assert_eq!(few.colors.len(), MAX);
         let strays = picture.rgba.chunks_exact(4).zip(&few.pixels).map(|(pixel, number)| {
             let near = few.colors[usize::from(*number)];

@@ -62,7 +62,7 @@ pub fn bytes(picture: &Picture) -> io::Result<Vec<u8>> {
 /// # Errors
 /// What the system says.
 pub fn write_indexed(out: &mut impl Write, picture: &Picture) -> io::Result<()> {
-    let few = FewColors::of(picture);
+    let few = FewColors::new(picture);
     let mut encoder = png::Encoder::new(out, picture.width, picture.height);
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_depth(png::BitDepth::Eight);

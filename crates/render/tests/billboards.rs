@@ -15,7 +15,7 @@ fn billboards_show_the_silhouette_of_their_tree() {
     for name in SPECIES {
         let species = pleach_generators::preset(name).unwrap();
         let tree = species.grow(1).unwrap();
-        let palette = Palette::of(&species, None);
+        let palette = Palette::new(&species, None);
         let Billboards { picture, cards } = Billboards::paint(&[&tree], &palette, 2);
         assert_eq!(cards[0].len(), 2);
         for (card, view) in cards[0].iter().zip([View::FRONT, View::degrees(90.0, 0.0)]) {

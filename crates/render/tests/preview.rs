@@ -11,7 +11,7 @@ use pleach_tree::species::{Color, Season};
 fn preview(name: &str, season: Option<Season>) -> Preview {
     let species = pleach_generators::preset(name).unwrap();
     let mut tree = species.grow(1).unwrap();
-    let palette = Palette::of(&species, season);
+    let palette = Palette::new(&species, season);
     palette.dress(&mut tree);
     Preview::new(&tree, &palette, 96)
 }
@@ -101,7 +101,7 @@ fn a_turn_table_keeps_the_tree_inside_and_nothing_is_no_panic() {
         assert!(edge.into_iter().all(|(x, y)| picture.rgba[(y * 96 + x) * 4 + 3] == 0), "turn {i}");
     }
     let species = pleach_generators::preset("acer").unwrap();
-    let palette = Palette::of(&species, None);
+    let palette = Palette::new(&species, None);
     let nothing = Preview::new(&Tree::default(), &palette, 96).picture(&small());
     assert!(nothing.rgba.iter().all(|b| *b == 0));
 }

@@ -59,12 +59,12 @@ fn score(c: &mut Criterion) {
     // What a search does for each tree; a willow is the most work, its curtain has the most runs.
     for name in ["black_oak", "weeping_willow"] {
         let (picture, mut scratch) = (draw(name), likeness::Scratch::default());
-        let prepared = Descriptor::of(&goal, &mut scratch);
+        let prepared = Descriptor::new(&goal, &mut scratch);
         c.bench_function(&format!("score/likeness/{name}"), |b| {
-            b.iter(|| prepared.compare(&Descriptor::of(black_box(&picture), &mut scratch)));
+            b.iter(|| prepared.compare(&Descriptor::new(black_box(&picture), &mut scratch)));
         });
     }
-    c.bench_function("score/card", |b| b.iter(|| ScoreCard::of(black_box(&picture), &goal)));
+    c.bench_function("score/card", |b| b.iter(|| ScoreCard::new(black_box(&picture), &goal)));
 }
 
 criterion_group! {

@@ -348,7 +348,7 @@ proptest! {
         let (result, memory) = measured(|| {
             let result = goal(&bytes);
             if let Ok(photo) = Photo::from_bytes("picture", bytes.clone()) {
-                let _ = Mask::of(&photo, &MaskOptions::default());
+                let _ = Mask::from_photo(&photo, &MaskOptions::default());
             }
             result
         });

@@ -27,7 +27,7 @@ pub(crate) struct Certain {
 
 /// The error of a tree that is certain to be too large.
 pub(crate) fn refusal(model: &Model, growth: &Growth) -> Option<GrowError> {
-    let certain = Certain::of(model);
+    let certain = Certain::new(model);
     let limits = growth.limits;
     let deepest = model.level_count - 1;
     if certain.stems.iter().sum::<f64>() > limits.stems as f64 {
@@ -42,7 +42,7 @@ pub(crate) fn refusal(model: &Model, growth: &Growth) -> Option<GrowError> {
 }
 
 impl Certain {
-    pub(crate) fn of(model: &Model) -> Self {
+    pub(crate) fn new(model: &Model) -> Self {
         let mut certain = Self::default();
         if model.prune_ratio > 0.0 {
             return certain;
@@ -156,7 +156,7 @@ mod tests {
         let (mut grown, mut said) = (0, 0);
         for case in 0..80 {
             let values = values(case);
-            let certain = Certain::of(&Model::new(&values));
+            let certain = Certain::new(&Model::new(&values));
             let params = space().check(values).unwrap();
             // Bounded by work, of which the numbers say nothing.
             let limits = Limits { work: 600_000, ..Limits::default() };

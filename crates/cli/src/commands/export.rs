@@ -184,7 +184,7 @@ impl MeshArgs {
 
     /// The colours of the season that was asked for.
     pub(super) fn palette(&self, species: &Species) -> Palette {
-        Palette::of(species, self.season)
+        Palette::new(species, self.season)
     }
 
     /// Writes a tree as a mesh.
@@ -234,7 +234,7 @@ impl MeshArgs {
     fn write_glb(&self, export: &Export<'_>, bark: Option<&Block>) -> anyhow::Result<()> {
         let Export { species, seed, tree, palette, .. } = *export;
         let levels = lod::levels(tree, self.settings(), self.levels());
-        let rig = self.sway.then(|| Rig::of(tree));
+        let rig = self.sway.then(|| Rig::new(tree));
         let billboards = self.billboard.map(|sides| Billboards::paint(&[tree], &palette, sides));
         let mut sources = self.sources(&levels, rig.as_ref(), bark);
         sources.extend(billboards.iter().map(|b| cards(&b.cards[0])));
@@ -287,7 +287,7 @@ impl MeshArgs {
         let mut palette = None;
         for &variant in &used {
             let mut tree = grow(seed + u64::from(variant))?;
-            let colors = Palette::of(species, season);
+            let colors = Palette::new(species, season);
             colors.dress(&mut tree);
             palette = palette.or(Some(colors));
             trees.push(tree);

@@ -107,7 +107,7 @@ impl Render {
         let seed = self.seed.or(species.tree_seed).unwrap_or(1);
         let file = self.file()?;
         let mut tree = self.grow(species, seed)?;
-        let mut palette = Palette::of(species, self.season);
+        let mut palette = Palette::new(species, self.season);
         palette.leaves &= !self.no_leaves;
         palette.blossoms &= !self.no_leaves;
         palette.dress(&mut tree);

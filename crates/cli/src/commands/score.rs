@@ -39,7 +39,7 @@ impl Score {
         );
         let image = Goal::from_encoded(&input::picture(&self.image)?, &options)?;
         let goal = Goal::from_encoded(&input::picture(&self.goal)?, &options)?;
-        let scores = ScoreCard::of(&image.bitmap, &goal.bitmap)?;
+        let scores = ScoreCard::new(&image.bitmap, &goal.bitmap)?;
         if self.json { output::json(&scores) } else { output::line(card(&scores)) }
     }
 }

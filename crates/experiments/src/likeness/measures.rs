@@ -39,8 +39,8 @@ pub(super) struct Seen {
 impl Seen {
     pub(super) fn new(bitmap: Bitmap) -> Self {
         Self {
-            descriptor: Descriptor::of(&bitmap, &mut Scratch::default()),
-            blurred: Blurred::of(&bitmap, BLUR * f64::from(bitmap.height())),
+            descriptor: Descriptor::new(&bitmap, &mut Scratch::default()),
+            blurred: Blurred::new(&bitmap, BLUR * f64::from(bitmap.height())),
             bitmap,
         }
     }

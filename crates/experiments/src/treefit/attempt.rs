@@ -108,12 +108,12 @@ pub(super) fn fit(
     };
     let card = |species: &Species| -> anyhow::Result<ScoreCard> {
         let goal = &fitted.problem.goals[0];
-        Ok(ScoreCard::of(&drawn(species, goal)?, &goal.goal)?)
+        Ok(ScoreCard::new(&drawn(species, goal)?, &goal.goal)?)
     };
     // Likeness and IoU of the result in `view`.
     let alike = |view: &GoalView| -> anyhow::Result<[f64; 2]> {
         let picture = drawn(&best, view)?;
-        Ok([Likeness::of(&picture, &view.goal).value(), goals::iou(&picture, &view.goal)])
+        Ok([Likeness::between(&picture, &view.goal).value(), goals::iou(&picture, &view.goal)])
     };
     let scores = card(&best)?;
     let guessed = guess.as_ref().map(card).transpose()?;

@@ -131,7 +131,7 @@ fn others(folder: &Path, goal: &FileGoal, picture: &Bitmap) -> anyhow::Result<Op
     let mut sum = Ceiling { likeness: 0.0, iou: 0.0 };
     for file in &goal.others {
         let other = load(folder, file)?.bitmap;
-        sum.likeness += Likeness::of(&other, picture).value();
+        sum.likeness += Likeness::between(&other, picture).value();
         sum.iou += iou(&other, picture);
     }
     let n = goal.others.len() as f64;

@@ -9,8 +9,10 @@ fn sample() -> Checkpoint<Hewitt> {
         SearchState::new(Hewitt::new(HewittSettings::default(), 7, Start::Random), &Start::Random);
     let genome =
         Genome { nuisances: vec![40.0 / 3.0], ..Genome::new(vec![0.1 + 0.2, -0.0, 1e-300], u64::MAX) };
-    search.best =
-        Some(Scored { genome, score: Score { cost: f64::INFINITY, iou: 1.0 / 3.0, ..Score::of_cost(0.0) } });
+    search.best = Some(Scored {
+        genome,
+        score: Score { cost: f64::INFINITY, iou: 1.0 / 3.0, ..Score::from_cost(0.0) },
+    });
     let fingerprint = Fingerprint::named("palm-trees/hewitt").with("goal", &1).with("settings", &2);
     Checkpoint { fingerprint, search, history: Vec::new(), elapsed_s: 0.3, before_search_s: 0.1 }
 }

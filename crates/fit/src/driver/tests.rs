@@ -20,7 +20,7 @@ const NEEDLE: Function = Function(needle);
 fn space() -> SearchSpace {
     let list = vec![real("a", 0.0, 1.0), flagged("f", 90.0), integer("n", 0, 9), choice("c")];
     let freedom = Freedom::default();
-    SearchSpace::of_params(params(list), &[0.0, 0.0, 0.0, 0.0], &freedom, TreeSeed::Any).unwrap()
+    SearchSpace::from_params(params(list), &[0.0, 0.0, 0.0, 0.0], &freedom, TreeSeed::Any).unwrap()
 }
 
 fn settings(name: &str, budget: Budget) -> FitSettings {

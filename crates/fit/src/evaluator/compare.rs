@@ -57,7 +57,7 @@ impl PreparedView {
             first += unknown.count();
             Self {
                 prepared: PreparedGoal::new(goal),
-                descriptor: Descriptor::of(goal, &mut likeness::Scratch::default()),
+                descriptor: Descriptor::new(goal, &mut likeness::Scratch::default()),
                 goal: goal.clone(),
                 view: *view,
                 frame: *frame,
@@ -87,7 +87,7 @@ impl PreparedView {
         let iou = overlaps.iou();
         let is_measured = likeness == Likeness::Always || objective.looks();
         let likeness = is_measured.then(|| {
-            let descriptor = Descriptor::of(bitmap, &mut memory.likeness);
+            let descriptor = Descriptor::new(bitmap, &mut memory.likeness);
             self.descriptor.compare(&descriptor).value()
         });
         let alike = likeness.unwrap_or_default();

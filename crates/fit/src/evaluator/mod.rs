@@ -121,7 +121,7 @@ impl Evaluator {
     ) -> Score {
         let mut growth = self.growth(genome.tree_seed, self.foliage, most);
         let Some(resized) = self.grow_matched(genome, &growth, memory) else { return Score::FAILED };
-        let size = Size::of(&memory.tree);
+        let size = Size::new(&memory.tree);
         let mut sum = Sum::new();
         for number in 0..self.seeds {
             if number > 0 {
@@ -249,7 +249,7 @@ impl Sum {
             iou: self.iou / pictures,
             accuracy: self.accuracy / pictures,
             likeness: self.likeness.map(|sum| sum / pictures),
-            ..Score::of_cost(self.cost / pictures)
+            ..Score::from_cost(self.cost / pictures)
         }
     }
 }

@@ -150,7 +150,7 @@ impl GuessLibrary {
             species.appearance = candidates[named].species.appearance;
         }
         let pictures = pictures_of(&shown, named, (entries, &found), foliage)?;
-        let references = References::of(&known, candidates, (entries, &found), named, &pictures);
+        let references = References::new(&known, candidates, (entries, &found), named, &pictures);
         Ok(FirstGuess {
             species,
             nearest: nearest.into_iter().map(|(_, guess)| guess).collect(),
@@ -182,7 +182,7 @@ impl GuessLibrary {
         let (costs, _) = ranked(&shown, (entries, &found), 0);
         let named = first_of(&costs);
         let pictures = pictures_of(&shown, named, (entries, &found), known.foliage)?;
-        Ok(References::of(&known, candidates, (entries, &found), named, &pictures))
+        Ok(References::new(&known, candidates, (entries, &found), named, &pictures))
     }
 }
 

@@ -34,7 +34,7 @@ pub struct References {
 impl References {
     /// From the comparisons of `entries` with the goals of `problem`; `named` is the candidate that they
     /// look like, and `trees` are pictures of it, view by view.
-    pub(super) fn of(
+    pub(super) fn new(
         problem: &FitProblem,
         candidates: &[Candidate],
         (entries, found): (&[Entry], &[Option<Resemblance>]),
@@ -71,7 +71,7 @@ fn compare(one: &[Bitmap], other: &[Bitmap]) -> Option<Reference> {
         let both = a.intersection(b);
         let either = a.ink() + b.ink() - both;
         let iou = if either == 0 { 1.0 } else { both as f64 / either as f64 };
-        Reference { likeness: Likeness::of(a, b).value(), iou }
+        Reference { likeness: Likeness::between(a, b).value(), iou }
     }))
 }
 

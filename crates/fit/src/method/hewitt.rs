@@ -218,7 +218,7 @@ mod tests {
     fn space() -> SearchSpace {
         let list = vec![real("a", 0.0, 4.0), flagged("f", 90.0), integer("n", 0, 9), choice("c")];
         let base = [2.0, 45.0, 5.0, 2.0];
-        SearchSpace::of_params(params(list), &base, &Freedom::default(), TreeSeed::Fixed(1)).unwrap()
+        SearchSpace::from_params(params(list), &base, &Freedom::default(), TreeSeed::Fixed(1)).unwrap()
     }
 
     fn started(settings: HewittSettings) -> (SearchSpace, Hewitt) {
@@ -229,7 +229,7 @@ mod tests {
         hewitt.ask(&space, &mut members);
         assert_eq!(members.len(), 1);
         assert_eq!(members[0].values, space.base());
-        hewitt.tell(&space, &members, &[Score::of_cost(0.5)]);
+        hewitt.tell(&space, &members, &[Score::from_cost(0.5)]);
         (space, hewitt)
     }
 
@@ -273,7 +273,7 @@ mod tests {
                 genome([3.0, 45.0, 5.0, 2.0]),
                 genome([2.0, 45.0, 5.0, 4.0]),
             ];
-            let costs = [0.9, 0.7, 0.6, f64::INFINITY].map(Score::of_cost);
+            let costs = [0.9, 0.7, 0.6, f64::INFINITY].map(Score::from_cost);
             hewitt.tell(&space, &members, &costs);
             assert_eq!(hewitt.base().unwrap().values, expected, "{merge:?}");
         }
@@ -288,7 +288,7 @@ mod tests {
             let mut members = Vec::new();
             hewitt.ask(&space, &mut members);
             assert_eq!(members.len(), 1);
-            hewitt.tell(&space, &members, &[Score::of_cost(cost)]);
+            hewitt.tell(&space, &members, &[Score::from_cost(cost)]);
             tried.push(members.remove(0));
         }
         assert_ne!(tried[0], tried[1]);

@@ -16,7 +16,7 @@ fn reached(name: &str, function: fn(&[f64]) -> f64, params: &Arc<ParamSpace>, ev
     let run = |seed| {
         let base = params.defaults();
         let space =
-            SearchSpace::of_params(params.clone(), &base, &Freedom::default(), TreeSeed::Fixed(1)).unwrap();
+            SearchSpace::from_params(params.clone(), &base, &Freedom::default(), TreeSeed::Fixed(1)).unwrap();
         let optimizer: Optimizer = name.parse().unwrap();
         let mut search = Search::new(optimizer.method(seed, Start::Random), &Start::Random, Arc::new(space));
         search.evaluation_limit = evaluations;

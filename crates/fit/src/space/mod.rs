@@ -115,7 +115,7 @@ impl SearchSpace {
         freedom: &Freedom,
         tree_seed: TreeSeed,
     ) -> Result<Self, SpaceError> {
-        let mut space = Self::of_params(Arc::clone(generator.space()), base, freedom, tree_seed)?;
+        let mut space = Self::from_params(Arc::clone(generator.space()), base, freedom, tree_seed)?;
         space.generator = Some(generator);
         Ok(space)
     }
@@ -124,7 +124,7 @@ impl SearchSpace {
     ///
     /// # Errors
     /// As [`SearchSpace::new`].
-    pub fn of_problem(
+    pub fn from_problem(
         problem: &FitProblem,
         freedom: &Freedom,
         tree_seed: TreeSeed,
@@ -141,7 +141,7 @@ impl SearchSpace {
     ///
     /// # Errors
     /// As [`SearchSpace::new`].
-    pub fn of_params(
+    pub fn from_params(
         params: Arc<ParamSpace>,
         base: &[f64],
         freedom: &Freedom,
@@ -397,7 +397,7 @@ mod tests {
     fn patterns_choose_and_starts_widen() {
         let space = params(vec![real("a", 0.0, 1.0), real("b", 0.0, 1.0), integer("n", 1, 9)]);
         let build =
-            |f: Freedom, base: &[f64]| SearchSpace::of_params(space.clone(), base, &f, TreeSeed::Fixed(1));
+            |f: Freedom, base: &[f64]| SearchSpace::from_params(space.clone(), base, &f, TreeSeed::Fixed(1));
         let names = |s: &SearchSpace| -> Vec<usize> {
             s.genes().iter().filter_map(Gene::slot).map(Slot::index).collect()
         };
@@ -420,7 +420,7 @@ mod tests {
     fn random_individuals_are_allowed_and_keep_what_is_fixed() {
         let space = params(vec![real("a", 0.0, 1.0), real("b", 0.0, 1.0), integer("n", 1, 9)]);
         let fixed = freedom(&[], &["b"]);
-        let space = SearchSpace::of_params(space, &[0.5, 0.25, 3.0], &fixed, TreeSeed::Any).unwrap();
+        let space = SearchSpace::from_params(space, &[0.5, 0.25, 3.0], &fixed, TreeSeed::Any).unwrap();
         let mut seeds = Vec::new();
         for member in 0..100 {
             let genome = space.random(&mut Stream::at(1, 0, 0, member));

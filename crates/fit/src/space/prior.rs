@@ -53,7 +53,7 @@ mod tests {
     fn the_nearest_start_counts() {
         let space = params(vec![real("a", 0.0, 2.0), choice("c")]);
         let space =
-            SearchSpace::of_params(space, &[0.0, 0.0], &Freedom::default(), TreeSeed::Fixed(1)).unwrap();
+            SearchSpace::from_params(space, &[0.0, 0.0], &Freedom::default(), TreeSeed::Fixed(1)).unwrap();
         let prior = Prior { lists: vec![vec![0.0, 1.0], vec![2.0, 2.0]], weight: 4.0 };
         let of = |values: [f64; 2]| prior.of(space.genes(), &values);
         assert_eq!((of([0.0, 1.0]), of([2.0, 2.0])), (0.0, 0.0));

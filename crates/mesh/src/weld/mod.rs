@@ -48,7 +48,7 @@ pub fn surface(tree: &Tree, cell: f64) -> Result<Block, WeldError> {
     if cones.is_empty() {
         return Ok(Block::default());
     }
-    let Surface { corners, triangles } = Surface::of(&Field::new(&cones, cell)?);
+    let Surface { corners, triangles } = Surface::new(&Field::new(&cones, cell)?);
     let mut normals = vec![Vec3::ZERO; corners.len()];
     for t in &triangles {
         let [a, b, c] = t.map(|i| corners[i as usize]);

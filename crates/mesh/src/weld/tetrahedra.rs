@@ -23,7 +23,7 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    pub(super) fn of(field: &Field) -> Self {
+    pub(super) fn new(field: &Field) -> Self {
         let mut edges = Vec::new();
         let diagonal = (field.cell * 3.0_f64.sqrt()) as f32;
         for (i, &start) in field.places.iter().enumerate() {

@@ -138,7 +138,7 @@ mod tests {
             for (name, background) in scenes {
                 for grain in [4.0, 12.0] {
                     let scene = scene(species, grain, background);
-                    let Ok(mask) = Mask::of(&scene.photo, &MaskOptions::default()) else { continue };
+                    let Ok(mask) = Mask::from_photo(&scene.photo, &MaskOptions::default()) else { continue };
                     let true_iou = iou(&mask.bitmap, &scene.truth);
                     assert!((0.0..=1.0).contains(&mask.confidence), "{species}, {name}, {grain}");
                     seen.push((true_iou, mask.confidence));

@@ -36,7 +36,7 @@ impl Horizon {
     /// The line through both sides' horizons. Where they disagree, or one sees none, the lower of the
     /// rows at which both sides change stands for both: a crown that touches a side also ends the sky
     /// there, but only there.
-    pub(super) fn of(left: &[Oklab], right: &[Oklab], clear: StepThreshold) -> Option<Self> {
+    pub(super) fn detect(left: &[Oklab], right: &[Oklab], clear: StepThreshold) -> Option<Self> {
         let height = left.len().min(right.len()) as f64;
         let found = [step(left, clear), step(right, clear)];
         if let [Some(left), Some(right)] = found
@@ -162,16 +162,16 @@ mod tests {
         for color in &mut left[75..120] {
             *color = [0.2, 0.0, 0.05];
         }
-        let horizon = Horizon::of(&left, &side(160), StepThreshold::STRICT).unwrap();
+        let horizon = Horizon::detect(&left, &side(160), StepThreshold::STRICT).unwrap();
         assert!((horizon.at(50, 100) - 160.0).abs() < 1.0, "{horizon:?}");
         // Without a lawn there is none.
         let mut left = side(200);
         for color in &mut left[75..120] {
             *color = [0.2, 0.0, 0.05];
         }
-        assert_eq!(Horizon::of(&left, &side(200), StepThreshold::LENIENT), None);
-        assert_eq!(Horizon::of(&side(200), &left, StepThreshold::LENIENT), None);
-        let slope = Horizon::of(&side(140), &side(160), StepThreshold::STRICT).unwrap();
+        assert_eq!(Horizon::detect(&left, &side(200), StepThreshold::LENIENT), None);
+        assert_eq!(Horizon::detect(&side(200), &left, StepThreshold::LENIENT), None);
+        let slope = Horizon::detect(&side(140), &side(160), StepThreshold::STRICT).unwrap();
         assert_eq!((slope.at(0, 100).round(), slope.at(99, 100).round()), (140.0, 160.0));
     }
 }

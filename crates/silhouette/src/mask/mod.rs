@@ -132,7 +132,7 @@ impl Mask {
     ///
     /// # Errors
     /// See [`MaskError`]: no tree, or a seed point that is not on one.
-    pub fn of(photo: &Photo, options: &MaskOptions) -> Result<Self, MaskError> {
+    pub fn from_photo(photo: &Photo, options: &MaskOptions) -> Result<Self, MaskError> {
         let (width, height) = (photo.width(), photo.height());
         if let Some((x, y)) = options.seed_point
             && (x >= width || y >= height)

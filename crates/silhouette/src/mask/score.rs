@@ -53,7 +53,7 @@ pub(super) fn foreground(photo: &Photo, background: Background) -> Result<Foregr
         Background::Auto => Some(StepThreshold::STRICT),
     };
     let horizon =
-        clear.and_then(|clear| Horizon::of(&frame.side(0), &frame.side(width - frame.width), clear));
+        clear.and_then(|clear| Horizon::detect(&frame.side(0), &frame.side(width - frame.width), clear));
     let (above, below) = frame.samples(horizon);
     let untold = MaskError::NoTree { why: "the frame has too few pixels to tell the background by" };
     let above = Backdrop::fit(&above).ok_or(untold)?;

@@ -113,7 +113,8 @@ fn trees_are_found_before_sky_clouds_lawn_and_wall() {
         for (name, background, kind) in scenes {
             let scene = scene(species, 6.0, background);
             for background in [kind, Background::Auto] {
-                let mask = Mask::of(&scene.photo, &MaskOptions { background, ..MaskOptions::default() });
+                let mask =
+                    Mask::from_photo(&scene.photo, &MaskOptions { background, ..MaskOptions::default() });
                 let mask = mask.unwrap_or_else(|error| panic!("{species}, {name}: {error}"));
                 let iou = iou(&mask.bitmap, &scene.truth);
                 assert!(iou >= 0.9, "{species}, {name}, {background:?}: {iou:.3}");
@@ -141,29 +142,29 @@ fn nothing_is_made_up_where_there_is_no_tree() {
     };
     for grain in [0.0, 6.0] {
         for background in [sky, sky_and_lawn, wall] {
-            let error = Mask::of(&empty(background, grain), &MaskOptions::default()).unwrap_err();
+            let error = Mask::from_photo(&empty(background, grain), &MaskOptions::default()).unwrap_err();
             assert!(matches!(error, MaskError::NoTree { .. }), "{error}");
             assert!(error.to_string().contains("--seed-point"), "{error}");
         }
     }
     let even = Photo::from_fn(64, 64, |_, _| [90, 120, 60, 255]);
-    assert!(matches!(Mask::of(&even, &MaskOptions::default()), Err(MaskError::NoTree { .. })));
+    assert!(matches!(Mask::from_photo(&even, &MaskOptions::default()), Err(MaskError::NoTree { .. })));
     // What fills the picture up to a thin frame is not a tree either, nor is a spot.
     let filled = Photo::from_fn(200, 200, |x, y| {
         if (5..195).contains(&x) && (5..195).contains(&y) { [20, 60, 20, 255] } else { [200, 220, 250, 255] }
     });
-    assert!(matches!(Mask::of(&filled, &MaskOptions::default()), Err(MaskError::NoTree { .. })));
+    assert!(matches!(Mask::from_photo(&filled, &MaskOptions::default()), Err(MaskError::NoTree { .. })));
     let spot = Photo::from_fn(200, 200, |x, y| {
         if (90..99).contains(&x) && (90..99).contains(&y) { [20, 60, 20, 255] } else { [200, 220, 250, 255] }
     });
-    assert!(matches!(Mask::of(&spot, &MaskOptions::default()), Err(MaskError::NoTree { .. })));
+    assert!(matches!(Mask::from_photo(&spot, &MaskOptions::default()), Err(MaskError::NoTree { .. })));
     // Whatever the picture, there is an answer.
     for (width, height) in [(8, 8), (8, 300), (300, 8), (61, 47)] {
         let random = Photo::from_fn(width, height, |x, y| {
             [0, 1, 2, 3].map(|c| if c == 3 { 255 } else { (256.0 * chance(x, y, 40 + c)) as u8 })
         });
         for background in [Background::Auto, Background::Sky, Background::Plain] {
-            let _ = Mask::of(&random, &MaskOptions { background, ..MaskOptions::default() });
+            let _ = Mask::from_photo(&random, &MaskOptions { background, ..MaskOptions::default() });
         }
     }
 }
@@ -180,11 +181,12 @@ fn posts(left: u32) -> Photo {
 #[test]
 fn the_seed_point_chooses_the_tree() {
     let photo = posts(20);
-    let at = |x, y| Mask::of(&photo, &MaskOptions { seed_point: Some((x, y)), ..MaskOptions::default() });
+    let at =
+        |x, y| Mask::from_photo(&photo, &MaskOptions { seed_point: Some((x, y)), ..MaskOptions::default() });
     let ink = |left: u32, right: u32| Bitmap::from_fn(120, 100, |x, y| x >= left && x < right && y >= 30);
     assert_eq!(at(24, 60).unwrap().bitmap, ink(20, 28));
     assert_eq!(at(80, 60).unwrap().bitmap, ink(70, 90));
-    let largest = Mask::of(&photo, &MaskOptions::default()).unwrap();
+    let largest = Mask::from_photo(&photo, &MaskOptions::default()).unwrap();
     assert_eq!((largest.bitmap, largest.dropped), (ink(70, 90), 8 * 70));
     assert_eq!(at(50, 50), Err(MaskError::SeedOnBackground { x: 50, y: 50 }));
     assert_eq!(at(120, 5), Err(MaskError::SeedOutside { x: 120, y: 5, width: 120, height: 100 }));
@@ -200,7 +202,7 @@ fn a_crown_that_touches_the_frame_is_told() {
         if crown || trunk { [40, 80, 30, 255] } else { [r, g, b, 255] }
     });
     let options = MaskOptions { background: Background::Sky, ..MaskOptions::default() };
-    let mask = Mask::of(&photo, &options).unwrap();
+    let mask = Mask::from_photo(&photo, &options).unwrap();
     assert_eq!(mask.touches, Touches { left: true, ..Touches::default() });
     assert_eq!(mask.bitmap.ink(), 50 * 40 + 7 * 40);
 }
@@ -208,7 +210,7 @@ fn a_crown_that_touches_the_frame_is_told() {
 #[test]
 fn an_alpha_channel_is_the_mask() {
     let photo = Photo::from_fn(60, 60, |x, y| [10, 200, 10, if x > 20 && y > 9 { 255 } else { 30 }]);
-    let mask = Mask::of(&photo, &MaskOptions::default()).unwrap();
+    let mask = Mask::from_photo(&photo, &MaskOptions::default()).unwrap();
     assert_eq!(mask.means, Means::Opacity);
     assert_eq!(mask.bitmap, Bitmap::from_fn(60, 60, |x, y| x > 20 && y > 9));
 }
@@ -224,7 +226,7 @@ fn small_holes_are_filled_as_far_as_is_asked() {
     });
     for (most, filled) in [(Some(0), 0), (None, 0), (Some(4), 4), (Some(64), 68)] {
         let options = MaskOptions { fill_holes: most, background: Background::Sky, ..MaskOptions::default() };
-        let mask = Mask::of(&photo, &options).unwrap();
+        let mask = Mask::from_photo(&photo, &options).unwrap();
         assert_eq!(mask.filled, filled, "{most:?}");
         assert_eq!(mask.bitmap.ink(), 40 * 79 - 68 + filled);
     }
@@ -233,7 +235,7 @@ fn small_holes_are_filled_as_far_as_is_asked() {
 #[test]
 fn an_overlay_keeps_the_tree_and_fades_the_rest() {
     let photo = posts(20);
-    let overlay = Mask::of(&photo, &MaskOptions::default()).unwrap().overlay(&photo);
+    let overlay = Mask::from_photo(&photo, &MaskOptions::default()).unwrap().overlay(&photo);
     assert_eq!((overlay.width(), overlay.height()), (120, 100));
     assert_eq!(overlay.get(80, 60), [60, 50, 30]);
     assert_eq!(overlay.get(69, 60), MISSED);

@@ -15,7 +15,7 @@ pub struct Blurred {
 impl Blurred {
     /// Blurs `bitmap` with a sigma in pixels.
     #[must_use]
-    pub fn of(bitmap: &Bitmap, sigma: f64) -> Self {
+    pub fn new(bitmap: &Bitmap, sigma: f64) -> Self {
         Self { field: blurred(bitmap, sigma) }
     }
 
@@ -35,14 +35,14 @@ impl Blurred {
 /// Soft intersection over union of the two pictures blurred by a Gaussian of `sigma` pixels, see
 /// [`Blurred`].
 pub fn blurred_iou(a: &Bitmap, b: &Bitmap, sigma: f64) -> f64 {
-    Blurred::of(a, sigma).iou(&Blurred::of(b, sigma))
+    Blurred::new(a, sigma).iou(&Blurred::new(b, sigma))
 }
 
 /// The picture blurred by a Gaussian of `sigma` pixels, inked where it is at least half: its masses
 /// without their texture.
 #[must_use]
 pub fn blob(bitmap: &Bitmap, sigma: f64) -> Bitmap {
-    let Blurred { field } = Blurred::of(bitmap, sigma);
+    let Blurred { field } = Blurred::new(bitmap, sigma);
     let width = bitmap.width();
     Bitmap::from_fn(width, bitmap.height(), |x, y| field[(y * width + x) as usize] >= 0.5)
 }

@@ -89,7 +89,7 @@ impl ScoreCard {
     ///
     /// # Errors
     /// If they differ in size.
-    pub fn of(image: &Bitmap, goal: &Bitmap) -> Result<Self, SizeMismatch> {
+    pub fn new(image: &Bitmap, goal: &Bitmap) -> Result<Self, SizeMismatch> {
         let sizes = ((image.width(), image.height()), (goal.width(), goal.height()));
         if sizes.0 != sizes.1 {
             return Err(SizeMismatch { image: sizes.0, goal: sizes.1 });
@@ -99,7 +99,7 @@ impl ScoreCard {
         let both = image.intersection(goal);
         let ratio = |part: u64, whole: u64| if whole == 0 { 1.0 } else { part as f64 / whole as f64 };
         let (boundary_f, chamfer) = outlines(image, goal);
-        let likeness = Likeness::of(image, goal);
+        let likeness = Likeness::between(image, goal);
         let blurred = |part: f64| blurred_iou(image, goal, f64::from(goal.height()) / part);
         Ok(Self {
             pixel_accuracy: 1.0 - image.differing(goal) as f64 / area,
@@ -116,8 +116,8 @@ impl ScoreCard {
             },
             likeness: likeness.value(),
             likeness_parts: likeness,
-            crown: Crown::of(image),
-            goal_crown: Crown::of(goal),
+            crown: Crown::new(image),
+            goal_crown: Crown::new(goal),
         })
     }
 }
@@ -167,7 +167,7 @@ fn outlines(image: &Bitmap, goal: &Bitmap) -> (f64, f64) {
 impl Crown {
     /// Measures `bitmap`.
     #[must_use]
-    pub fn of(bitmap: &Bitmap) -> Self {
+    pub fn new(bitmap: &Bitmap) -> Self {
         let Some((left, top, right, bottom)) = bitmap.ink_box() else { return Self::default() };
         let unit = 1.0 / f64::from(bitmap.height());
         let reach = |y: u32| {
@@ -203,7 +203,7 @@ mod tests {
     #[test]
     fn a_perfect_picture_has_perfect_scores() {
         let goal = disc(64.0, 64.0, 30.0);
-        let card = ScoreCard::of(&goal, &goal).unwrap();
+        let card = ScoreCard::new(&goal, &goal).unwrap();
         assert_eq!(
             (card.pixel_accuracy, card.iou, card.dice, card.boundary_f, card.chamfer),
             (1.0, 1.0, 1.0, 1.0, 0.0)
@@ -218,7 +218,7 @@ mod tests {
     fn scores_fall_as_a_picture_walks_away() {
         let goal = disc(64.0, 64.0, 20.0);
         let cards: Vec<ScoreCard> = (0..5)
-            .map(|i| ScoreCard::of(&disc(64.0 + 6.0 * f64::from(i), 64.0, 20.0), &goal).unwrap())
+            .map(|i| ScoreCard::new(&disc(64.0 + 6.0 * f64::from(i), 64.0, 20.0), &goal).unwrap())
             .collect();
         for w in cards.windows(2) {
             assert!(w[1].iou < w[0].iou && w[1].dice < w[0].dice && w[1].chamfer > w[0].chamfer);
@@ -235,17 +235,17 @@ mod tests {
     #[test]
     fn empty_pictures_score_without_nonsense() {
         let (empty, goal) = (Bitmap::new(128, 128), disc(64.0, 64.0, 20.0));
-        let card = ScoreCard::of(&empty, &goal).unwrap();
+        let card = ScoreCard::new(&empty, &goal).unwrap();
         assert_eq!((card.iou, card.dice, card.boundary_f), (0.0, 0.0, 0.0));
         assert_eq!(card.pixel_accuracy, card.empty_accuracy);
         assert!((card.chamfer - 2.0_f64.sqrt()).abs() < 1e-12);
-        let card = ScoreCard::of(&empty, &empty).unwrap();
+        let card = ScoreCard::new(&empty, &empty).unwrap();
         assert_eq!((card.iou, card.dice, card.boundary_f, card.chamfer), (1.0, 1.0, 1.0, 0.0));
     }
 
     #[test]
     fn sizes_must_agree() {
-        let error = ScoreCard::of(&Bitmap::new(3, 4), &Bitmap::new(5, 4)).unwrap_err();
+        let error = ScoreCard::new(&Bitmap::new(3, 4), &Bitmap::new(5, 4)).unwrap_err();
         assert_eq!(
             error.to_string(),
             "the picture has 3 × 4 pixels and the goal 5 × 4; both must have one size"
@@ -257,7 +257,7 @@ mod tests {
         let tree = Bitmap::from_fn(100, 100, |x, y| {
             if y >= 60 { (48..52).contains(&x) } else { y >= 20 && (20..80).contains(&x) }
         });
-        let crown = Crown::of(&tree);
+        let crown = Crown::new(&tree);
         assert!((crown.height - 0.8).abs() < 1e-12 && (crown.width - 0.6).abs() < 1e-12);
         assert!((crown.bare_height - 0.4).abs() < 1e-12);
         assert!((crown.ink - 0.256).abs() < 1e-12);

@@ -64,7 +64,7 @@ impl Drawn {
     /// Writes a shaded picture of `size` pixels a side: a silhouette hides absurd stems and leaves.
     pub(super) fn write_render(&self, path: &Path, size: u32) -> anyhow::Result<()> {
         let mut tree = self.tree.clone();
-        let palette = Palette::of(&self.species, None);
+        let palette = Palette::new(&self.species, None);
         palette.dress(&mut tree);
         let settings = PreviewSettings { width: size, height: size, ..PreviewSettings::default() };
         let picture = Preview::new(&tree, &palette, size).picture(&settings);

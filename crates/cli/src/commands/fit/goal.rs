@@ -72,7 +72,7 @@ impl Goals {
         let small = GoalOptions { max_side: Some(args.size), ..options.clone() };
         let source = input::picture(path)?;
         let (full, working, how, found) = if matches!(args.mask, Some(MaskSource::Auto)) {
-            let found = Mask::of(&Photo::from_encoded(&source)?, &MaskOptions::default())
+            let found = Mask::from_photo(&Photo::from_encoded(&source)?, &MaskOptions::default())
                 .with_context(|| cannot(path))?;
             let how = describe::means(&found);
             let full = Goal::from_ink(found.bitmap.clone(), &options)?;

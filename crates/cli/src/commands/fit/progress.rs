@@ -73,7 +73,7 @@ mod tests {
 
     #[test]
     fn what_is_made_small_comes_first() {
-        let score = Score { iou: 0.25, ..Score::of_cost(0.5) };
+        let score = Score { iou: 0.25, ..Score::from_cost(0.5) };
         let best = Scored { genome: Genome::new(Vec::new(), 1), score };
         let progress = |likeness, best| Progress {
             generation: 1,

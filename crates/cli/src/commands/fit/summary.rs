@@ -127,7 +127,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
     let Fitted { settings, outcome, best, judged, .. } = fitted;
     let (goal, working) = (&drawing.goals.full, &drawing.goals.working);
     let species = &drawn.species;
-    let scores = ScoreCard::of(&drawn.bitmap, &goal.bitmap)?;
+    let scores = ScoreCard::new(&drawn.bitmap, &goal.bitmap)?;
     claim.ensure_there()?;
 
     let mut comments = vec![

@@ -164,7 +164,7 @@ impl Picture {
         let mut bitmap = Bitmap::default();
         let (view, frame) = (placement.view(&self.view), placement.frame(&goal.frame(height)));
         Rasterizer::new().draw(tree, &view, &frame, foliage.into(), &mut bitmap);
-        let card = ScoreCard::of(&bitmap, &goal.bitmap)?;
+        let card = ScoreCard::new(&bitmap, &goal.bitmap)?;
         let overlay = picture::overlay(&bitmap, &goal.bitmap);
         let score = ViewScore {
             file: self.file.clone(),

@@ -51,7 +51,7 @@ impl Format {
     }
 
     /// The format that the suffix of `path` names.
-    pub(crate) fn of(path: &Path) -> anyhow::Result<Self> {
+    pub(crate) fn from_path(path: &Path) -> anyhow::Result<Self> {
         let suffix = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match Self::ALL.into_iter().find(|format| format.suffix() == suffix) {
             Some(format) => Ok(format),
@@ -202,7 +202,7 @@ mod tests {
         for format in Format::ALL {
             assert_eq!(format.to_possible_value().unwrap().get_name(), format.suffix());
             assert_eq!(
-                Format::of(Path::new(&format!("a.b.{}", format.suffix().to_uppercase()))).unwrap(),
+                Format::from_path(Path::new(&format!("a.b.{}", format.suffix().to_uppercase()))).unwrap(),
                 format
             );
         }

@@ -113,13 +113,13 @@ impl Grow {
             return Ok(asked().unwrap_or(vec![Goes::Into(Format::Json)]));
         }
         let slash = path.to_string_lossy().ends_with(std::path::is_separator);
-        if path.is_dir() && !slash && Format::of(path).is_ok_and(Format::is_mesh) {
+        if path.is_dir() && !slash && Format::from_path(path).is_ok_and(Format::is_mesh) {
             bail!("{} is a folder, expected a file", path.display());
         }
         if !files::is_file(path) {
             return Ok(asked().unwrap_or_else(Self::usual));
         }
-        match (Format::of(path), self.format) {
+        match (Format::from_path(path), self.format) {
             (Ok(named), Some(format)) if named != format => {
                 let (named, format) = (named.suffix(), format.suffix());
                 bail!("{} ends in .{named}, but --format says {format}", path.display())
@@ -153,7 +153,7 @@ impl Grow {
             .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
         self.dress(species, &mut tree);
         let written = if self.stats_only { Vec::new() } else { self.write_all(species, seed, &tree)? };
-        let report = Report::of(species, seed, &tree);
+        let report = Report::new(species, seed, &tree);
         if self.out.as_deref().is_some_and(files::is_stdout) {
             output::note(statistics::describe(&report));
         } else if self.json {
@@ -184,7 +184,7 @@ impl Grow {
                     self.write_all(species, seed, tree)?;
                 }
                 bar.inc(1);
-                Ok(Report::of(species, seed, tree))
+                Ok(Report::new(species, seed, tree))
             })
             .collect::<anyhow::Result<_>>()?;
         bar.finish_and_clear();

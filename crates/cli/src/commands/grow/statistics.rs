@@ -16,7 +16,7 @@ pub(super) struct Report<'a> {
 
 impl<'a> Report<'a> {
     /// The statistics of `tree` as it stands there: in winter without the leaves that it has shed.
-    pub(super) fn of(species: &'a Species, seed: u64, tree: &Tree) -> Self {
+    pub(super) fn new(species: &'a Species, seed: u64, tree: &Tree) -> Self {
         Self {
             species: &species.name,
             generator: species.generator.family(),

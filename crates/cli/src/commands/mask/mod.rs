@@ -161,7 +161,7 @@ impl MaskCommand {
             fill_holes: self.fill_holes,
         };
         let picture = Photo::from_encoded(&input::picture(photo)?)?;
-        let mask = Mask::of(&picture, &options).with_context(|| cannot(photo))?;
+        let mask = Mask::from_photo(&picture, &options).with_context(|| cannot(photo))?;
         let goal = Goal::from_bitmap(mask.bitmap.clone()).with_context(|| cannot(photo))?;
         Ok(Made { photo: picture, mask, goal })
     }

@@ -97,7 +97,7 @@ impl Area for Pictures {
         // Larger ones take long and say the same.
         if goal.findings.original_size.0.max(goal.findings.original_size.1) <= 4 * SIDE {
             let mask = match Photo::load(&file) {
-                Ok(photo) => Mask::of(&photo, &MaskOptions::default()).map_err(|e| e.to_string()),
+                Ok(photo) => Mask::from_photo(&photo, &MaskOptions::default()).map_err(|e| e.to_string()),
                 Err(error) => Err(error.to_string()),
             };
             if let Err(message) = mask {

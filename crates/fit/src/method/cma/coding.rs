@@ -59,7 +59,7 @@ mod tests {
     fn cells_hold_the_values_that_they_stand_for() {
         let params = params(vec![real("a", 0.0, 2.0), integer("n", 1, 9), integer("m", 1, 500), choice("c")]);
         let base = params.defaults();
-        let space = SearchSpace::of_params(params, &base, &Freedom::default(), TreeSeed::Fixed(1)).unwrap();
+        let space = SearchSpace::from_params(params, &base, &Freedom::default(), TreeSeed::Fixed(1)).unwrap();
         let [real, wholes @ ..] = space.genes() else { panic!("four genes") };
         assert_eq!((decode(real, -0.25), decode(real, 1.25), decode(real, 2.25)), (0.5, 1.5, 0.5));
         assert_eq!(cell(real, 0.5), None);

@@ -69,9 +69,9 @@ impl Likeness {
 
     /// The likeness of two pictures, which should have the same proportions.
     #[must_use]
-    pub fn of(a: &Bitmap, b: &Bitmap) -> Self {
+    pub fn between(a: &Bitmap, b: &Bitmap) -> Self {
         let mut scratch = Scratch::default();
-        Descriptor::of(a, &mut scratch).compare(&Descriptor::of(b, &mut scratch))
+        Descriptor::new(a, &mut scratch).compare(&Descriptor::new(b, &mut scratch))
     }
 
     /// The parts in the order of [`Likeness::PARTS`], each in 0..=1.
@@ -130,7 +130,7 @@ pub struct Scratch {
 impl Descriptor {
     /// Describes `picture`.
     #[must_use]
-    pub fn of(picture: &Bitmap, scratch: &mut Scratch) -> Self {
+    pub fn new(picture: &Bitmap, scratch: &mut Scratch) -> Self {
         let Scratch { transposed, columns, runs } = scratch;
         transpose::transpose(picture, transposed);
         let [strokes, gaps] = runs.of(picture, transposed);

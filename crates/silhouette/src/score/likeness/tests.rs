@@ -17,26 +17,26 @@ fn pictures() -> impl Strategy<Value = [Bitmap; 2]> {
 proptest! {
     #[test]
     fn likeness_is_bounded_symmetric_and_one_for_equal_pictures([a, b] in pictures()) {
-        let there = Likeness::of(&a, &b);
+        let there = Likeness::between(&a, &b);
         for part in there.parts().into_iter().chain([there.value()]) {
             prop_assert!((0.0..=1.0).contains(&part), "{:?}", there);
         }
-        prop_assert_eq!(there, Likeness::of(&b, &a));
-        prop_assert_eq!(Likeness::of(&a, &a).value(), 1.0);
+        prop_assert_eq!(there, Likeness::between(&b, &a));
+        prop_assert_eq!(Likeness::between(&a, &a).value(), 1.0);
     }
 
     #[test]
     fn memory_that_was_used_before_leaves_no_trace([a, b] in pictures(), [c, d] in pictures()) {
         let mut used = Scratch::default();
-        let _ = [Descriptor::of(&c, &mut used), Descriptor::of(&d, &mut used)];
+        let _ = [Descriptor::new(&c, &mut used), Descriptor::new(&d, &mut used)];
         for picture in [a, b] {
-            prop_assert_eq!(Descriptor::of(&picture, &mut used), Descriptor::of(&picture, &mut Scratch::default()));
+            prop_assert_eq!(Descriptor::new(&picture, &mut used), Descriptor::new(&picture, &mut Scratch::default()));
         }
     }
 }
 
 fn value(a: &Bitmap, b: &Bitmap) -> f64 {
-    Likeness::of(a, b).value()
+    Likeness::between(a, b).value()
 }
 
 #[test]
