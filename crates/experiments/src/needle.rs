@@ -27,7 +27,7 @@ struct Around {
     distance: Exact,
     /// Numbers that move.
     moved: usize,
-    /// Means over lists.
+    /// Segmentation over lists.
     iou: Fixed<4>,
     iou_sd: Fixed<4>,
     pixel_accuracy: Fixed<4>,

@@ -20,7 +20,12 @@ fn our_own_goals_stand_in_the_middle_of_the_bottom_edge() {
         seen += 1;
         let goal = Goal::load(&path, &GoalOptions::default()).unwrap();
         let (width, height) = (f64::from(goal.bitmap.width()), f64::from(goal.bitmap.height()));
-        assert_eq!((goal.axis_column, goal.ground_row), (width / 2.0, height), "{name}: {:?}", goal.findings);
+        assert_eq!(
+            (goal.axis_column, goal.ground_row),
+            (width / 2.0, height),
+            "{name}: {:?}",
+            goal.detection
+        );
     }
     assert!(seen >= 15, "{seen} goals");
 }

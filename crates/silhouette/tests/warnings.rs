@@ -77,7 +77,7 @@ fn nothing_is_said_about_good_goals() {
                 goal.bitmap.get(left + x, top + y)
             });
             assert_eq!(said(crop), [""; 0], "{} cropped", path.display());
-            assert_eq!(said(goal.bitmap.shrunk(0.5)), [""; 0], "{} at half the size", path.display());
+            assert_eq!(said(goal.bitmap.downscaled(0.5)), [""; 0], "{} at half the size", path.display());
             let picture = image::open(&path).unwrap().to_luma8().into();
             let jpeg = read(&picture, ImageFormat::Jpeg);
             assert_eq!(jpeg.warnings, [], "{} as JPEG", path.display());

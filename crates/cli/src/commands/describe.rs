@@ -1,7 +1,7 @@
 //! What is said of goals and masks: `fit` and `mask` use the same words.
 
 use pleach_silhouette::goal::{Goal, Origin};
-use pleach_silhouette::mask::{Mask, Means};
+use pleach_silhouette::mask::{Mask, Segmentation};
 use std::path::Path;
 
 /// How much is tree, and where it stands.
@@ -15,9 +15,9 @@ pub(super) fn places(goal: &Goal) -> String {
     format!(
         "{ink:.1} % ink\nground at row {:.1} ({}), trunk at column {:.1} ({}), top at row {:.1}",
         goal.ground_row,
-        origin(goal.findings.ground),
+        origin(goal.detection.ground),
         goal.axis_column,
-        origin(goal.findings.axis),
+        origin(goal.detection.axis),
         goal.top_row,
     )
 }
@@ -29,9 +29,9 @@ pub(super) fn cannot(photo: &Path) -> String {
 
 /// How the tree was told from the background.
 pub(super) fn means(mask: &Mask) -> String {
-    match mask.means {
-        Means::Opacity => "the picture has an alpha channel: the tree is what is opaque".to_owned(),
-        Means::Color { threshold, horizon } => {
+    match mask.segmentation {
+        Segmentation::Opacity => "the picture has an alpha channel: the tree is what is opaque".to_owned(),
+        Segmentation::Color { threshold, horizon } => {
             let behind = horizon.map_or_else(
                 || "one background".to_owned(),
                 |h| format!("sky down to row {:.0}, ground below", (h.left + h.right) / 2.0),

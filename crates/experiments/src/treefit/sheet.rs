@@ -18,7 +18,7 @@ pub(super) fn draw(folder: &Path, spec: &TreefitSpec, outputs: &Outputs) -> anyh
     for goal in spec.goals() {
         let problem = Problem::of(folder, goal)?;
         let view = &problem.fit.goals[0];
-        let small = |bitmap: &Bitmap| bitmap.shrunk(0.5);
+        let small = |bitmap: &Bitmap| bitmap.downscaled(0.5);
         let drawn = |file: String, further: u64| -> anyhow::Result<Bitmap> {
             let path = folder.join(file);
             let species = pleach_generators::species(&path.to_string_lossy())?;

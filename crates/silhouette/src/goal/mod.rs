@@ -52,7 +52,7 @@ pub struct GoalOptions {
 
 /// How a goal was understood, to be shown to its user.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Findings {
+pub struct Detection {
     /// Width and height of the picture as it came, in pixels.
     pub original_size: (u32, u32),
     /// Pixels of the working picture to one of the original, at most 1.
@@ -79,7 +79,7 @@ pub struct Goal {
     /// The upper edge of the highest ink, in pixels of `bitmap` from its top edge; above the ground.
     pub top_row: f64,
     /// How the picture was understood.
-    pub findings: Findings,
+    pub detection: Detection,
     /// What about the picture is not as a fit expects, in the order of [`GoalWarning`]'s variants.
     pub warnings: Vec<GoalWarning>,
 }
@@ -208,7 +208,7 @@ impl Goal {
             ground_row: ground_row * reduction,
             axis_column: axis_column * reduction,
             top_row: top_row * reduction,
-            findings: Findings { original_size, reduction, split, masked, ground, axis },
+            detection: Detection { original_size, reduction, split, masked, ground, axis },
             warnings,
         })
     }

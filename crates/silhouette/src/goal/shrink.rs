@@ -14,7 +14,7 @@ impl Bitmap {
     /// # Panics
     /// If `factor` is not above 0 and at most 1.
     #[must_use]
-    pub fn shrunk(&self, factor: f64) -> Self {
+    pub fn downscaled(&self, factor: f64) -> Self {
         assert!(factor > 0.0 && factor <= 1.0, "a factor of {factor} makes no smaller picture");
         shrink(self, factor)
     }

@@ -71,7 +71,7 @@ fn our_own_pictures_come_back() {
     let path = room.bytes("own.png", &expected().to_png());
     let goal = load(&path).unwrap();
     assert_eq!(goal.bitmap, expected());
-    assert_eq!(Goal { findings: goal.findings, ..Goal::from_bitmap(expected()).unwrap() }, goal);
+    assert_eq!(Goal { detection: goal.detection, ..Goal::from_bitmap(expected()).unwrap() }, goal);
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn places_set_by_hand_stand_and_scale() {
     let goal = Goal::load(&path, &options).unwrap();
     assert_eq!((goal.bitmap.width(), goal.bitmap.height()), (60, 50));
     assert_eq!((goal.ground_row, goal.axis_column, goal.top_row), (40.0, 15.0, 8.0));
-    assert_eq!(goal.findings.ground, Origin::Given);
+    assert_eq!(goal.detection.ground, Origin::Given);
     for (ground_row, axis_column) in [(Some(101.0), None), (None, Some(-1.0)), (Some(f64::NAN), None)] {
         let options = GoalOptions { ground_row, axis_column, ..GoalOptions::default() };
         assert!(matches!(Goal::load(&path, &options), Err(GoalError::OutsidePicture { .. })));
@@ -113,7 +113,7 @@ fn a_mask_says_what_is_tree() {
     let options = GoalOptions { mask: Some(mask.clone()), ..GoalOptions::default() };
     let goal = Goal::load(&photo, &options).unwrap();
     assert_eq!(goal.bitmap, expected());
-    assert!(goal.findings.masked);
+    assert!(goal.detection.masked);
     let small = room.picture("small.png", &GrayImage::new(50, 50).into(), ImageFormat::Png);
     let error = Goal::load(&small, &options).unwrap_err();
     assert!(matches!(error, GoalError::MaskSize { .. }), "{error}");

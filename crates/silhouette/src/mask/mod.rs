@@ -59,7 +59,7 @@ pub struct MaskOptions {
 
 /// How the tree was told from the background.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Means {
+pub enum Segmentation {
     /// The tree is what is at least half opaque.
     Opacity,
     /// The tree is what differs in colour.
@@ -97,7 +97,7 @@ pub struct Mask {
     /// The tree as ink, of the photograph's size.
     pub bitmap: Bitmap,
     /// How it was told.
-    pub means: Means,
+    pub segmentation: Segmentation,
     /// Pixels that stood out and were not taken for tree.
     pub dropped: u64,
     /// Pixels of holes that were filled.
@@ -146,7 +146,7 @@ impl Mask {
                 touches: touches(&bitmap),
                 warnings: warnings(&bitmap, photo, 1.0),
                 bitmap,
-                means: Means::Opacity,
+                segmentation: Segmentation::Opacity,
                 dropped: 0,
                 filled: 0,
                 confidence: 1.0,
@@ -171,7 +171,10 @@ impl Mask {
             touches: touches(&bitmap),
             warnings: warnings(&bitmap, photo, confidence),
             bitmap,
-            means: Means::Color { threshold: foreground.threshold, horizon: foreground.horizon },
+            segmentation: Segmentation::Color {
+                threshold: foreground.threshold,
+                horizon: foreground.horizon,
+            },
             dropped,
             filled,
             confidence,

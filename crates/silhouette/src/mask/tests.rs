@@ -120,7 +120,7 @@ fn trees_are_found_before_sky_clouds_lawn_and_wall() {
                 assert!(iou >= 0.9, "{species}, {name}, {background:?}: {iou:.3}");
                 assert_eq!(mask.touches, Touches::default(), "{species}, {name}");
                 if name == "sky and lawn" {
-                    let Means::Color { horizon: Some(horizon), .. } = mask.means else {
+                    let Segmentation::Color { horizon: Some(horizon), .. } = mask.segmentation else {
                         panic!("{species}: no horizon")
                     };
                     assert!((horizon.left - GROUND * f64::from(SIDE)).abs() <= 2.0, "{horizon:?}");
@@ -211,7 +211,7 @@ fn a_crown_that_touches_the_frame_is_told() {
 fn an_alpha_channel_is_the_mask() {
     let photo = Photo::from_fn(60, 60, |x, y| [10, 200, 10, if x > 20 && y > 9 { 255 } else { 30 }]);
     let mask = Mask::from_photo(&photo, &MaskOptions::default()).unwrap();
-    assert_eq!(mask.means, Means::Opacity);
+    assert_eq!(mask.segmentation, Segmentation::Opacity);
     assert_eq!(mask.bitmap, Bitmap::from_fn(60, 60, |x, y| x > 20 && y > 9));
 }
 

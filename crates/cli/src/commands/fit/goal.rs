@@ -87,7 +87,7 @@ impl Goals {
             None => (full.warnings.clone(), None),
         };
         if verbose {
-            let (width, height) = full.findings.original_size;
+            let (width, height) = full.detection.original_size;
             output::note(format!("goal of {width} × {height} pixels: {how}; {}", places(&full)));
         }
         for warning in &warnings {
@@ -99,7 +99,7 @@ impl Goals {
 
 /// How the tree was told from the paper.
 fn means(goal: &Goal) -> String {
-    let how = match goal.findings.split {
+    let how = match goal.detection.split {
         Split::Opacity => "the tree is what is opaque".to_owned(),
         Split::Brightness { threshold, dark_tree } => {
             let side = if dark_tree { "up to" } else { "above" };
@@ -107,5 +107,5 @@ fn means(goal: &Goal) -> String {
         }
         Split::None => "the picture has one bit a pixel".to_owned(),
     };
-    how + if goal.findings.masked { ", in the mask" } else { "" }
+    how + if goal.detection.masked { ", in the mask" } else { "" }
 }

@@ -7,7 +7,7 @@ use crate::choice::{Choice, one_of};
 use crate::{files, input, output};
 use anyhow::{Context, bail, ensure};
 use pleach_silhouette::goal::{Goal, GoalWarning};
-use pleach_silhouette::mask::{Background, Mask, MaskOptions, Means, Photo};
+use pleach_silhouette::mask::{Background, Mask, MaskOptions, Photo, Segmentation};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -179,9 +179,9 @@ impl Made {
 
     fn found(&self) -> Found {
         let (mask, goal) = (&self.mask, &self.goal);
-        let (by, threshold, horizon) = match mask.means {
-            Means::Opacity => ("opacity", None, None),
-            Means::Color { threshold, horizon } => ("colour", Some(threshold), horizon),
+        let (by, threshold, horizon) = match mask.segmentation {
+            Segmentation::Opacity => ("opacity", None, None),
+            Segmentation::Color { threshold, horizon } => ("colour", Some(threshold), horizon),
         };
         Found {
             width: mask.bitmap.width(),

@@ -95,7 +95,7 @@ impl Area for Pictures {
             return Verdict::Wrong(format!("a goal of {} pixels and height {height}", goal.bitmap.ink()));
         }
         // Larger ones take long and say the same.
-        if goal.findings.original_size.0.max(goal.findings.original_size.1) <= 4 * SIDE {
+        if goal.detection.original_size.0.max(goal.detection.original_size.1) <= 4 * SIDE {
             let mask = match Photo::load(&file) {
                 Ok(photo) => Mask::from_photo(&photo, &MaskOptions::default()).map_err(|e| e.to_string()),
                 Err(error) => Err(error.to_string()),

@@ -13,14 +13,14 @@
 //!   tree does not depend on ([`pleach_tree::Generator::is_active`]) are left alone;
 //! - the population begins with the best of a batch of random lists, in which numbers that may be
 //!   zero often are: variations, bends and splits are absent from most trees;
-//! - a population that has not improved for a while ends its *lane*. Its best goes to the hall of
-//!   champions, and the next lane begins with new random lists; after a few lanes the champions
+//! - a population that has not improved for a while ends its *island*. Its best joins an archive of
+//!   elites, and the next island begins with new random lists; after a few islands the elites
 //!   themselves meet in one.
 //!
 //! Nothing depends on the budget: longer is never worse, and a run may be resumed with more.
 
-mod lane;
-mod moves;
+mod island;
+mod operators;
 mod settings;
 
 pub use settings::EvolutionSettings;
@@ -30,7 +30,7 @@ use super::{Method, MethodSettings, Start, is_individual};
 use crate::genome::{Genome, Score, Scored};
 use crate::space::SearchSpace;
 use crate::stream::Stream;
-use lane::Lane;
+use island::Island;
 use serde::{Deserialize, Serialize};
 
 /// The population, and what has been learnt about moves and numbers.
@@ -40,10 +40,10 @@ pub struct Evolution {
     seed: u64,
     start: Start,
     round: u64,
-    lanes_begun: u64,
-    lane: Lane,
-    /// The best of each lane since the champions last met, theirs included.
-    champions: Vec<Scored>,
+    islands_begun: u64,
+    island: Island,
+    /// The best of each island since the elites last met, theirs included.
+    elites: Vec<Scored>,
 }
 
 /// Purposes of the draws.
@@ -54,23 +54,31 @@ impl Evolution {
     /// Starts from the lists of `start` and variations of them, or from random lists.
     #[must_use]
     pub fn new(settings: EvolutionSettings, seed: u64, start: Start) -> Self {
-        Self { settings, seed, start, round: 0, lanes_begun: 0, lane: Lane::default(), champions: Vec::new() }
+        Self {
+            settings,
+            seed,
+            start,
+            round: 0,
+            islands_begun: 0,
+            island: Island::default(),
+            elites: Vec::new(),
+        }
     }
 
-    /// The individuals that a lane begins with.
+    /// The individuals that an island begins with.
     fn begin(&self, space: &SearchSpace, members: &mut Vec<Genome>) {
-        let lists = if self.lanes_begun == 0 { self.start.lists() } else { &[] };
+        let lists = if self.islands_begun == 0 { self.start.lists() } else { &[] };
         let draws = |member| Stream::at(self.seed, FIRST, self.round, member);
         first(space, lists, self.settings.first.max(2), self.settings.sparsity, draws, members);
     }
 
-    /// Ends the lane and prepares the next.
+    /// Ends the island and prepares the next.
     fn change_lanes(&mut self) {
-        self.champions.extend(self.lane.best().cloned());
-        self.lane = Lane::default();
-        self.lanes_begun += 1;
-        if self.champions.len() > self.settings.lanes.max(1) {
-            self.lane.settle(std::mem::take(&mut self.champions), usize::MAX);
+        self.elites.extend(self.island.best().cloned());
+        self.island = Island::default();
+        self.islands_begun += 1;
+        if self.elites.len() > self.settings.lanes.max(1) {
+            self.island.settle(std::mem::take(&mut self.elites), usize::MAX);
         }
     }
 }
@@ -101,14 +109,14 @@ impl Method for Evolution {
     }
 
     fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>) {
-        if self.lane.is_empty() {
+        if self.island.is_empty() {
             self.begin(space, members);
             return;
         }
-        self.lane.prepare(space, &self.settings);
+        self.island.prepare(space, &self.settings);
         for member in 0..self.settings.children.max(1) {
             let mut draws = Stream::at(self.seed, CHILD, self.round, member as u32);
-            members.push(self.lane.breed(space, &self.settings, &mut draws));
+            members.push(self.island.breed(space, &self.settings, &mut draws));
         }
     }
 
@@ -116,23 +124,23 @@ impl Method for Evolution {
         self.round += 1;
         let newborn = members.iter().zip(scores).filter(|(_, score)| score.cost < f64::INFINITY);
         let newborn = newborn.map(|(genome, score)| Scored { genome: genome.clone(), score: *score });
-        if self.lane.is_empty() {
-            self.lane.settle(newborn.collect(), self.settings.parents);
+        if self.island.is_empty() {
+            self.island.settle(newborn.collect(), self.settings.parents);
             return;
         }
-        self.lane.learn(scores);
-        self.lane.settle(newborn.collect(), self.settings.parents);
+        self.island.learn(scores);
+        self.island.settle(newborn.collect(), self.settings.parents);
         let patience = (self.settings.patience * self.settings.parents) as u64;
-        if self.lane.idle() * members.len() as u64 > patience {
+        if self.island.stagnation() * members.len() as u64 > patience {
             self.change_lanes();
         }
     }
 
     fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
         self.round <= generations
-            && self.lanes_begun <= generations
-            && self.champions.len() <= self.settings.lanes.max(1)
-            && self.champions.iter().all(|champion| is_individual(&champion.genome, space))
-            && self.lane.suits(space, &self.settings, generations, pending)
+            && self.islands_begun <= generations
+            && self.elites.len() <= self.settings.lanes.max(1)
+            && self.elites.iter().all(|elite| is_individual(&elite.genome, space))
+            && self.island.suits(space, &self.settings, generations, pending)
     }
 }

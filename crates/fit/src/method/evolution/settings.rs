@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Settings of [`Evolution`](super::Evolution). The defaults were chosen by `examples/compare.rs`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvolutionSettings {
-    /// Random lists at the beginning of a lane.
+    /// Random lists at the beginning of an island.
     pub first: usize,
     /// Individuals that survive a generation, at least 2.
     pub parents: usize,
@@ -20,7 +20,7 @@ pub struct EvolutionSettings {
     pub greed: f64,
     /// Evaluations without a gain of a thousandth, over the number of parents, after which a lane ends.
     pub patience: usize,
-    /// Lanes from random lists between two lanes in which champions meet.
+    /// Islands from random lists between two islands in which elites meet.
     pub lanes: usize,
     /// Whether trees are resized to the goal's height before they are compared, if all sizes are free.
     pub match_height: bool,

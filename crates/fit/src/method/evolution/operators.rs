@@ -5,46 +5,46 @@ use crate::space::{Gene, SearchSpace, TreeSeed};
 use crate::stream::Stream;
 use serde::{Deserialize, Serialize};
 
-/// A way to make a child.
+/// A way to vary a parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum Move {
+pub(super) enum Operator {
     /// One number by its step.
-    One,
+    StepOne,
     /// Two to seven numbers by their steps.
-    Few,
+    StepFew,
     /// Numbers of another parent, a tenth or half of all, and one step.
     Cross,
     /// Some numbers along the difference of two others, and one step (differential evolution).
     Difference,
     /// Every number a little.
-    All,
+    Jitter,
     /// One number anywhere in its range, sometimes with a step of another.
-    Anywhere,
+    Resample,
     /// One or two numbers to zero.
-    Nothing,
-    /// Another tree of the same parameters, if any tree will do; otherwise as [`Move::One`].
+    Zero,
+    /// Another tree of the same parameters, if any tree will do; otherwise as [`Operator::StepOne`].
     Seed,
 }
 
-impl Move {
-    /// All moves, in the order of their numbers.
+impl Operator {
+    /// All operators, in the order of their numbers.
     pub(super) const ALL: [Self; 8] = [
-        Self::One,
-        Self::Few,
+        Self::StepOne,
+        Self::StepFew,
         Self::Cross,
         Self::Difference,
-        Self::All,
-        Self::Anywhere,
-        Self::Nothing,
+        Self::Jitter,
+        Self::Resample,
+        Self::Zero,
         Self::Seed,
     ];
 }
 
 /// Where a child comes from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Birth {
-    pub(super) by: Move,
+pub(super) struct Offspring {
+    pub(super) by: Operator,
     pub(super) parent_cost: f64,
     /// Genes that were changed by their steps.
     pub(super) genes: Vec<usize>,
@@ -52,12 +52,12 @@ pub(super) struct Birth {
 
 /// Makes children of a population.
 #[derive(Clone, Copy)]
-pub(super) struct Breeder<'a> {
+pub(super) struct Variation<'a> {
     pub(super) space: &'a SearchSpace,
     pub(super) population: &'a [Scored],
     pub(super) steps: &'a [f64],
-    pub(super) promise: &'a [f64],
-    pub(super) credit: &'a [f64],
+    pub(super) weight: &'a [f64],
+    pub(super) operator_credit: &'a [f64],
     pub(super) greed: f64,
 }
 
@@ -68,31 +68,32 @@ const NEAR: f64 = 0.7;
 const FAR: f64 = 0.05;
 const FARTHEST: f64 = 20.0;
 
-impl Breeder<'_> {
-    pub(super) fn child(&self, draws: &mut Stream) -> (Genome, Birth) {
+impl Variation<'_> {
+    pub(super) fn child(&self, draws: &mut Stream) -> (Genome, Offspring) {
         let parent = &self.population[self.parent(draws)];
         let mut child = parent.genome.clone();
         let mut read = Vec::new();
         self.space.active_genes(&child.values, &mut read);
-        let mut birth = Birth { by: self.choose(draws), parent_cost: parent.score.cost, genes: Vec::new() };
-        if read.is_empty() || (birth.by == Move::Seed && self.space.tree_seed() == TreeSeed::Any) {
-            birth.by = Move::Seed;
+        let mut offspring =
+            Offspring { by: self.choose(draws), parent_cost: parent.score.cost, genes: Vec::new() };
+        if read.is_empty() || (offspring.by == Operator::Seed && self.space.tree_seed() == TreeSeed::Any) {
+            offspring.by = Operator::Seed;
             child.tree_seed = SearchSpace::random_seed(draws);
-            return (child, birth);
+            return (child, offspring);
         }
-        match birth.by {
-            Move::One | Move::Seed => {
-                birth.by = Move::One;
-                birth.genes.push(self.step(&read, &mut child, draws));
+        match offspring.by {
+            Operator::StepOne | Operator::Seed => {
+                offspring.by = Operator::StepOne;
+                offspring.genes.push(self.step(&read, &mut child, draws));
             }
-            Move::Few => {
+            Operator::StepFew => {
                 for _ in 0..2 + (6.0 * draws.unit().powi(3)) as usize {
-                    birth.genes.push(self.step(&read, &mut child, draws));
+                    offspring.genes.push(self.step(&read, &mut child, draws));
                 }
             }
-            Move::Cross => self.cross(&read, &mut child, draws),
-            Move::Difference => self.follow_difference(&read, &mut child, draws),
-            Move::All => {
+            Operator::Cross => self.cross(&read, &mut child, draws),
+            Operator::Difference => self.follow_difference(&read, &mut child, draws),
+            Operator::Jitter => {
                 let scale = 1.0 / (read.len() as f64).sqrt();
                 for &g in read.iter().filter(|&&g| !self.gene(g).is_choice()) {
                     let gene = self.gene(g);
@@ -100,7 +101,7 @@ impl Breeder<'_> {
                     gene.set(&mut child, gene.from_unit(unit));
                 }
             }
-            Move::Anywhere => {
+            Operator::Resample => {
                 let gene = self.gene(read[draws.below(read.len())]);
                 let value = gene.random(draws);
                 gene.set(&mut child, value);
@@ -108,7 +109,7 @@ impl Breeder<'_> {
                     self.step(&read, &mut child, draws);
                 }
             }
-            Move::Nothing => {
+            Operator::Zero => {
                 for _ in 0..1 + draws.below(2) {
                     let candidate = |&g: &usize| {
                         let gene = self.gene(g);
@@ -123,7 +124,7 @@ impl Breeder<'_> {
                 }
             }
         }
-        (child, birth)
+        (child, offspring)
     }
 
     /// Takes numbers of another parent, and one step.
@@ -165,14 +166,14 @@ impl Breeder<'_> {
         (self.population.len() as f64 * draws.unit().powf(self.greed)) as usize
     }
 
-    /// A move, as likely as its credit.
-    fn choose(&self, draws: &mut Stream) -> Move {
-        Move::ALL[weighted(self.credit.iter().copied(), draws)]
+    /// An operator, as likely as its credit.
+    fn choose(&self, draws: &mut Stream) -> Operator {
+        Operator::ALL[weighted(self.operator_credit.iter().copied(), draws)]
     }
 
     /// Changes one gene of those `read` by its step; returns which.
     fn step(&self, read: &[usize], child: &mut Genome, draws: &mut Stream) -> usize {
-        let number = read[weighted(read.iter().map(|&g| self.promise[g]), draws)];
+        let number = read[weighted(read.iter().map(|&g| self.weight[g]), draws)];
         let gene = self.gene(number);
         let old = gene.of(child);
         let value = if gene.is_choice() {
