@@ -138,7 +138,7 @@ fn shards_together_are_the_whole() {
     assert_eq!(column(&first, "goal"), [ALL[0], ALL[2]]);
     assert_eq!(column(&second, "goal"), [ALL[1]]);
     assert!(!dir.path("parts/summary.csv").exists());
-    // More shards than goals: one without work is no failure.
+    // More shards than goals: one without work is not a failure.
     let _ = dir.run(fit(&ALL, &["--out", "parts", "--shard", "4/4"])).ok();
     assert_eq!(table(&dir.path("parts/summary-4-of-4.csv")).len(), 1);
 }

@@ -109,7 +109,7 @@ fn maps_that_cannot_be() {
     dir.run(["map", "--species", "empty", "--out", "m"]).fails(1, &["empty", ".toml"]);
     let _ = dir.file("file", "");
     dir.run(["map", "--no-thumbnails", "--out", "file"]).fails(1, &["file"]);
-    // A twin of one species under another name is no error on a map of many.
+    // A twin of one species under another name is not an error on a map of many.
     let twin = species_file(&dir, "twin", |t| t);
     let run = dir.run(["map", "--no-thumbnails", "--species", &twin, "--out", "m"]);
     let _ = run.ok();

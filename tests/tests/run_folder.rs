@@ -133,7 +133,7 @@ fn a_summary_says_what_it_is_of_and_is_replaced_only_by_the_same() {
     other.fails(1, &["its goal was a/tree.png and is b/tree.png", "--overwrite"]);
     assert!(files(&dir.path("run")) == before);
 
-    // The same once more is no loss, nor is the same picture from another place.
+    // The same once more loses nothing, nor is the same picture from another place.
     std::fs::rename(dir.path("a/tree.png"), dir.path("a/moved.png")).unwrap();
     let _ = dir.run(fit("a/moved.png", &["--evaluations", "30", "--out", "run"])).ok();
     assert_eq!(summary(&dir.path("run"))["goal"], "a/moved.png");

@@ -78,7 +78,7 @@ pub enum BlendError {
     },
     /// A point that is nowhere.
     #[error("({}, {}) is not a point of the plane", readable(*x), readable(*y))]
-    NowherePoint {
+    NotFinitePoint {
         /// First coordinate.
         x: f64,
         /// Second coordinate.

@@ -1,6 +1,6 @@
 //! The species that a map or a blend is made of, and averaging them.
 
-use crate::coding::{Code, Coding, Features};
+use crate::coding::{Code, Coding, Encoding};
 use crate::error::BlendError;
 use pleach_tree::param::Effect;
 use pleach_tree::species::Appearance;
@@ -40,7 +40,7 @@ impl Weights {
     /// The nearest weights that are whole numbers of thirds: those of the counts of a blend. Nearest by
     /// largest remainders, of equals the first.
     #[must_use]
-    pub fn in_thirds(&self) -> Self {
+    pub fn quantized(&self) -> Self {
         const PARTS: f64 = 3.0;
         let scaled: Vec<f64> = self.0.iter().map(|w| w * PARTS).collect();
         let mut whole: Vec<f64> = scaled.iter().map(|s| s.floor()).collect();
@@ -88,7 +88,7 @@ impl Landmarks {
     /// # Errors
     /// Fewer than two, not all of one generator with the same parameters, two of one name, or all
     /// with the same numbers.
-    pub fn new(species: Vec<Species>, features: Features) -> Result<Self, BlendError> {
+    pub fn new(species: Vec<Species>, features: Encoding) -> Result<Self, BlendError> {
         let [first, second, ..] = species.as_slice() else {
             return Err(BlendError::TooFew { found: species.len() });
         };
@@ -115,11 +115,11 @@ impl Landmarks {
         let codes = species.iter().map(|s| coding.encode(s.generator.as_ref(), s.params.values())).collect();
         let active_of = |s: &Species| {
             let is_active =
-                |slot| features == Features::Raw || s.generator.is_active(s.params.values(), slot);
+                |slot| features == Encoding::Raw || s.generator.is_active(s.params.values(), slot);
             space.slots().map(is_active).collect()
         };
         let active = species.iter().map(active_of).collect();
-        let arranges = |slot| features == Features::Declared && space.effect_of(slot) == Effect::Layout;
+        let arranges = |slot| features == Encoding::Declared && space.effect_of(slot) == Effect::Layout;
         let arranges = space.slots().map(arranges).collect();
         Ok(Self { species, coding, codes, active, arranges })
     }
@@ -217,7 +217,7 @@ impl Landmarks {
     ///
     /// Real numbers change gradually with the weights. Choices and signs take the side with more
     /// weight among those landmarks to which they matter. Counts, and other numbers that arrange the
-    /// parts of a tree anew ([`Effect::Layout`]), change together, by the nearest weights
+    /// layout of a tree ([`Effect::Layout`]), change together, by the nearest weights
     /// in [thirds](Weights::in_thirds): of 250 branches each one more would shuffle all the others, so
     /// they come in three larger steps with peace in between. A slot on which all landmarks with weight
     /// agree keeps their number bit for bit, so all weight on one landmark gives that landmark exactly.
@@ -235,7 +235,7 @@ impl Landmarks {
         moved: impl Fn(Slot) -> bool,
     ) -> CheckedParams {
         let space = self.space();
-        let whole = weights.in_thirds();
+        let whole = weights.quantized();
         let whole_features = self.average(&whole);
         let dominant = weights.dominant();
         let mut params = self.species[dominant].params.clone();
@@ -294,7 +294,7 @@ mod tests {
     use crate::testing::{fifteen, species};
 
     fn pair(first: &str, second: &str) -> Landmarks {
-        Landmarks::new(vec![species(first), species(second)], Features::Declared).unwrap()
+        Landmarks::new(vec![species(first), species(second)], Encoding::Declared).unwrap()
     }
 
     fn value(params: &CheckedParams, landmarks: &Landmarks, slot: &str) -> f64 {
@@ -303,7 +303,7 @@ mod tests {
 
     #[test]
     fn all_weight_on_one_gives_it_exactly() {
-        for kind in [Features::Declared, Features::Raw] {
+        for kind in [Encoding::Declared, Encoding::Raw] {
             let landmarks = Landmarks::new(fifteen(), kind).unwrap();
             for (i, species) in landmarks.species().iter().enumerate() {
                 assert_eq!(landmarks.mix(&Weights::only(i, 15)), species.params, "{}", species.name);
@@ -392,7 +392,7 @@ mod tests {
         let message = two.named("quaking_aspn").unwrap_err().to_string();
         assert!(message.contains("did you mean `quaking_aspen`"), "{message}");
 
-        let one = |species| Landmarks::new(species, Features::Declared).map(|_| ()).unwrap_err();
+        let one = |species| Landmarks::new(species, Encoding::Declared).map(|_| ()).unwrap_err();
         assert_eq!(one(vec![species("palm")]), BlendError::TooFew { found: 1 });
         assert_eq!(
             one(vec![species("palm"), species("palm")]),

@@ -41,6 +41,7 @@ mod error;
 pub mod landmarks;
 pub mod looks;
 pub mod map;
+pub mod measures;
 mod mix;
 pub mod natural;
 pub mod pca;
@@ -48,13 +49,12 @@ pub mod picture;
 pub mod plane;
 #[cfg(test)]
 mod testing;
-pub mod traits;
 
-pub use coding::{Coding, Features};
+pub use coding::{Coding, Encoding};
 pub use error::BlendError;
 pub use landmarks::{Landmarks, Weights};
 pub use map::{Blend, BlendMap, Settings};
+pub use measures::Measure;
 pub use mix::mix;
 pub use pca::Pca;
 pub use plane::{Hull, Point};
-pub use traits::Trait;

@@ -1,9 +1,9 @@
 //! The map: point → parameters and parameters → point.
 
-use crate::coding::Features;
+use crate::coding::Encoding;
 use crate::error::BlendError;
 use crate::landmarks::{Landmarks, Weights};
-use crate::natural::Natural;
+use crate::natural::NaturalNeighbor;
 use crate::pca::Pca;
 use crate::plane::{Hull, Point};
 use pleach_tree::{CheckedParams, Slot, Species};
@@ -13,9 +13,9 @@ use pleach_tree::{CheckedParams, Slot, Species};
 pub struct Settings {
     /// How numbers become features.
     ///
-    /// [`Features::Raw`] gives the dissertation's map: the plain numbers, and of a point only what its
+    /// [`Encoding::Raw`] gives the dissertation's map: the plain numbers, and of a point only what its
     /// two axes hold, so that not even a species' own dot gives that species.
-    pub features: Features,
+    pub features: Encoding,
     /// Where the dots stand instead of at their principal components: one point a species. The
     /// layout by looks gives these.
     pub dots: Option<Vec<Point>>,
@@ -47,7 +47,7 @@ pub struct BlendMap {
     landmarks: Landmarks,
     pca: Pca,
     dots: Vec<Point>,
-    natural: Natural,
+    natural: NaturalNeighbor,
     by_components: bool,
 }
 
@@ -56,7 +56,7 @@ impl BlendMap {
     ///
     /// # Errors
     /// See [`Landmarks::new`]; [`BlendError::WeightCount`] for the wrong number of dots, and
-    /// [`BlendError::NowherePoint`] for one that is not finite.
+    /// [`BlendError::NotFinitePoint`] for one that is not finite.
     pub fn new(species: Vec<Species>, settings: Settings) -> Result<Self, BlendError> {
         let landmarks = Landmarks::new(species, settings.features)?;
         let rows: Vec<&[Option<f64>]> = landmarks.codes().iter().map(|c| c.values.as_slice()).collect();
@@ -73,9 +73,9 @@ impl BlendMap {
                 .collect(),
         };
         if let Some(&Point { x, y }) = dots.iter().find(|dot| !dot.is_finite()) {
-            return Err(BlendError::NowherePoint { x, y });
+            return Err(BlendError::NotFinitePoint { x, y });
         }
-        let natural = Natural::new(&dots);
+        let natural = NaturalNeighbor::new(&dots);
         Ok(Self { landmarks, pca, dots, natural, by_components })
     }
 
@@ -120,16 +120,16 @@ impl BlendMap {
     /// Inside the hull it is made of the landmarks around, by [natural-neighbour weights](Natural);
     /// on a landmark's dot it is that landmark, bit for bit. Outside, the blend of the nearest place
     /// of the hull is moved along the principal axes, and says that it is extrapolated. With
-    /// [`Features::Raw`] it is the axes' back-projection and nothing else.
+    /// [`Encoding::Raw`] it is the axes' back-projection and nothing else.
     ///
     /// # Errors
-    /// [`BlendError::NowherePoint`] if a coordinate is not finite.
+    /// [`BlendError::NotFinitePoint`] if a coordinate is not finite.
     pub fn at(&self, point: Point) -> Result<Blend, BlendError> {
         if !point.is_finite() {
-            return Err(BlendError::NowherePoint { x: point.x, y: point.y });
+            return Err(BlendError::NotFinitePoint { x: point.x, y: point.y });
         }
         let (weights, place) = self.natural.weights(point);
-        let params = if self.landmarks.coding().kind() == Features::Raw && self.by_components {
+        let params = if self.landmarks.coding().kind() == Encoding::Raw && self.by_components {
             let features: Vec<_> = self.pca.back(&[point.x, point.y]).into_iter().map(Some).collect();
             self.landmarks.decode(&weights, &features, |_| true)
         } else if place.distance > 0.0 && self.by_components {
@@ -208,7 +208,7 @@ impl BlendMap {
     /// unit of the axis, the heaviest first. The weight of a slot is the length of its part of the
     /// axis.
     #[must_use]
-    pub fn heaviest(&self, axis: usize) -> Vec<Loading> {
+    pub fn top_loadings(&self, axis: usize) -> Vec<Loading> {
         let coding = self.landmarks.coding();
         let mut loadings: Vec<Loading> = self
             .landmarks

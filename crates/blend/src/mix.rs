@@ -1,6 +1,6 @@
 //! A blend in one call.
 
-use crate::coding::Features;
+use crate::coding::Encoding;
 use crate::error::BlendError;
 use crate::landmarks::Landmarks;
 use pleach_tree::Species;
@@ -13,7 +13,7 @@ use pleach_tree::Species;
 /// # Errors
 /// See [`Landmarks::new`] and [`Landmarks::weights`].
 pub fn mix(species: Vec<Species>, shares: &[f64], name: &str) -> Result<Species, BlendError> {
-    let landmarks = Landmarks::new(species, Features::default())?;
+    let landmarks = Landmarks::new(species, Encoding::default())?;
     let weights = landmarks.weights(shares)?;
     Ok(landmarks.species_of(&weights, landmarks.mix(&weights), name))
 }

@@ -30,7 +30,7 @@ const SAME: f64 = 1e-9;
 
 /// Sites on the plane, ready to give weights.
 #[derive(Clone, Debug)]
-pub struct Natural {
+pub struct NaturalNeighbor {
     /// Distinct places, with the landmarks at each.
     sites: Vec<(Point, Vec<usize>)>,
     /// Which site a landmark is on.
@@ -40,7 +40,7 @@ pub struct Natural {
     diameter: f64,
 }
 
-impl Natural {
+impl NaturalNeighbor {
     /// Sites at `dots`, one a landmark; landmarks on one place share its weight equally.
     #[must_use]
     pub fn new(dots: &[Point]) -> Self {
@@ -185,8 +185,8 @@ mod tests {
         Point { x, y }
     }
 
-    fn square() -> Natural {
-        Natural::new(&[p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0)])
+    fn square() -> NaturalNeighbor {
+        NaturalNeighbor::new(&[p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0)])
     }
 
     #[test]
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn two_sites_have_a_line_between_them_and_twins_share() {
-        let line = Natural::new(&[p(0.0, 0.0), p(4.0, 0.0), p(4.0, 0.0)]);
+        let line = NaturalNeighbor::new(&[p(0.0, 0.0), p(4.0, 0.0), p(4.0, 0.0)]);
         assert_eq!(line.weights(p(1.0, 0.0)).0.values(), [0.75, 0.125, 0.125]);
         assert_eq!(line.weights(p(1.0, 2.0)).1.distance, 2.0);
     }
@@ -229,7 +229,7 @@ mod tests {
             at in (0.0..1.0_f64, 0.0..1.0_f64),
         ) {
             let sites: Vec<Point> = raw.iter().map(|&(x, y)| p(x, y)).collect();
-            let natural = Natural::new(&sites);
+            let natural = NaturalNeighbor::new(&sites);
             // A point inside: between a point of one edge and the third corner.
             let point = sites[0].towards(sites[1], at.0).towards(sites[2], at.1);
             let (weights, place) = natural.weights(point);
@@ -247,7 +247,7 @@ mod tests {
             at in (0.0..1.0_f64, 0.0..1.0_f64),
         ) {
             let sites: Vec<Point> = raw.iter().map(|&(x, y)| p(x, y)).collect();
-            let natural = Natural::new(&sites);
+            let natural = NaturalNeighbor::new(&sites);
             let spread = sites.iter().enumerate().flat_map(|(i, a)| sites[..i].iter().map(|b| a.distance(*b)));
             prop_assume!(spread.fold(f64::INFINITY, f64::min) > 0.1);
             let point = sites[0].towards(sites[1], at.0).towards(sites[2], at.1);

@@ -96,7 +96,7 @@ fn fitted(path: &str, like: &str, further: u64) -> anyhow::Result<Picture> {
     let mut tree = species.grow(seed)?;
     like.clone_into(&mut species.name);
     let palette = Palette::new(&species, None);
-    palette.dress(&mut tree);
+    palette.apply_season(&mut tree);
     let white = Background::Plain(species::Color([255; 3]));
     let settings =
         PreviewSettings { width: SIZE, height: SIZE, background: white, ..PreviewSettings::default() };

@@ -57,13 +57,13 @@ impl Journal {
             if whole.lines().count() > 1 {
                 if !part.resume {
                     bail!(
-                        "{} has rows of an unfinished run: --resume goes on with it, --overwrite begins anew",
+                        "{} has rows of an unfinished run: --resume goes on with it, --overwrite starts over",
                         path.display()
                     );
                 }
                 if marked.is_some() && !found.starts_with(&head) {
                     bail!(
-                        "{} is of another experiment.toml: put that one back, or --overwrite begins anew",
+                        "{} is of another experiment.toml: put that one back, or --overwrite starts over",
                         path.display()
                     );
                 }

@@ -39,7 +39,7 @@ pub struct Part {
     pub methods: Vec<String>,
     /// Go on with a run that was interrupted or killed: rows that it had finished are kept.
     pub resume: bool,
-    /// Begin anew although an unfinished run has left rows.
+    /// Start over although an unfinished run has left rows.
     pub overwrite: bool,
 }
 

@@ -134,7 +134,7 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
     let is_moved =
         |gene: &&Gene| !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_active(&truth.values, gene);
     let moved: Vec<_> = space.genes().iter().filter(is_moved).collect();
-    let evaluator = Evaluator::new(&problem, Objective::Iou, FIT_LIMITS)?.matching_height();
+    let evaluator = Evaluator::new(&problem, Objective::Iou, FIT_LIMITS)?.with_height_matching();
     let mut rows = Vec::new();
     for (round, distance) in (0..).zip(&spec.distances) {
         let distance = **distance.get_ref();

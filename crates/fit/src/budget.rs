@@ -20,7 +20,7 @@ impl<F: Fn() -> Duration> Clock for F {
 
 /// What a fit may use up; whatever comes first ends it. Nothing set means until interrupted.
 ///
-/// A budget is no part of what makes two runs the same: a run may be resumed with a larger one, and
+/// A budget is not part of what makes two runs the same: a run may be resumed with a larger one, and
 /// comes to the same bits as a run that had it from the beginning.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Budget {

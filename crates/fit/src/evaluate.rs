@@ -8,7 +8,7 @@ pub trait Evaluate {
     /// `most` may be given up as one that does not grow.
     fn scores(&self, genomes: &[Genome], most: Size) -> Vec<Score>;
 
-    /// Likeness of `genome` to the goal, in 0..=1; none for what is no picture.
+    /// Likeness of `genome` to the goal, in 0..=1; none for what is not a picture.
     fn likeness(&self, genome: &Genome) -> Option<f64> {
         let _ = genome;
         None

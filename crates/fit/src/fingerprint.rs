@@ -6,7 +6,7 @@ use pleach_tree::Foliage;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// Named hashes of everything that decides the course of a fit; budgets are no part of it.
+/// Named hashes of everything that decides the course of a fit; budgets are not part of it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Fingerprint {
     /// Family of generators and optimiser, without spaces: for people.

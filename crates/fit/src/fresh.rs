@@ -1,11 +1,11 @@
 //! What parameters are worth with other seeds than the one that was fitted.
 
+use crate::cancellable;
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
 use crate::genome::{Genome, Score};
 use crate::objective::Objective;
 use crate::problem::FitProblem;
-use crate::stoppable;
 use pleach_tree::Limits;
 use serde::Serialize;
 use std::sync::atomic::AtomicBool;
@@ -54,7 +54,7 @@ pub fn fresh_seeds(
     let seeds = (0..count as u64).map(|i| genome.tree_seed.wrapping_add(FIRST + i));
     let trees: Vec<Genome> = seeds.map(|tree_seed| Genome { tree_seed, ..genome.clone() }).collect();
     let evaluator = Evaluator::new(problem, objective, limits)?;
-    let scores = stoppable::map(&trees, stop, |tree| evaluator.evaluate_and_look(tree))?;
+    let scores = cancellable::map(&trees, stop, |tree| evaluator.evaluate_with_likeness(tree))?;
     if scores.is_empty() || scores.iter().any(|score| !score.cost.is_finite()) {
         return Ok(None);
     }

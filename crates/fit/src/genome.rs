@@ -73,9 +73,9 @@ impl Size {
 
 impl Score {
     /// The score of what does not grow.
-    pub const FAILED: Self = Self { cost: f64::INFINITY, ..Self::from_cost(0.0) };
+    pub const INVALID: Self = Self { cost: f64::INFINITY, ..Self::from_cost(0.0) };
 
-    /// A bare cost, for problems that are no pictures.
+    /// A bare cost, for problems that are not pictures.
     #[must_use]
     pub const fn from_cost(cost: f64) -> Self {
         Self {

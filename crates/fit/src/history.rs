@@ -17,7 +17,7 @@ pub struct Row {
     pub iou: f64,
     /// Pixel accuracy of the best individual so far, in 0..=1.
     pub accuracy: f64,
-    /// Likeness of the best individual so far, in 0..=1; none for what is no picture.
+    /// Likeness of the best individual so far, in 0..=1; none for what is not a picture.
     pub likeness: Option<f64>,
     /// Seconds so far by the caller's clock: the one column that differs between two runs.
     pub elapsed_s: f64,

@@ -9,7 +9,7 @@ use crate::genome::Scored;
 use crate::guess::{Candidate, GuessLibrary, References};
 use crate::method::Start;
 use crate::problem::FitProblem;
-use crate::profile::{Profile, profile, put_back_unseen};
+use crate::profile::{Profile, profile, reset_unidentified};
 use crate::run::settled;
 use pleach_tree::{Limits, Slot};
 use std::sync::atomic::AtomicBool;
@@ -76,7 +76,7 @@ impl Judge<'_> {
         let (kept, put_back) = match &settings.start {
             Start::Random => (best.clone(), Vec::new()),
             Start::Lists(lists) => {
-                put_back_unseen(problem, settings, best, &profiles, &lists[0], tolerance, stop)?
+                reset_unidentified(problem, settings, best, &profiles, &lists[0], tolerance, stop)?
             }
         };
         // Numbers that no tree reads went back for the reader of the file; the trees are the same.

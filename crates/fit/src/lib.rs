@@ -25,6 +25,7 @@
 
 mod begun;
 mod budget;
+mod cancellable;
 mod checkpoint;
 mod control;
 mod driver;
@@ -51,7 +52,6 @@ mod setting;
 mod settings;
 mod solver;
 mod space;
-mod stoppable;
 mod stream;
 #[cfg(test)]
 mod testing;
@@ -81,7 +81,7 @@ pub use objective::{Objective, UnknownObjective};
 pub use observer::{Observer, Progress};
 pub use optimizer::{AnyMethod, Optimizer, UnknownOptimizer};
 pub use problem::{FitProblem, GoalView, ProblemError, placements};
-pub use profile::{PROFILE_STEPS, Profile, Seen, profile, put_back_unseen};
+pub use profile::{Identifiability, PROFILE_STEPS, Profile, profile, reset_unidentified};
 pub use run::{fit, settled};
 pub use search::{Search, SearchState};
 pub use setting::{SETTINGS, Setting, SettingKind};

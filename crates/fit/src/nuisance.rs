@@ -1,7 +1,7 @@
 //! What is not known of a picture: from where it was taken, at what scale, and where in it the tree
 //! stands.
 //!
-//! Such numbers are no part of the tree. They are searched beside its parameters
+//! Such numbers are not part of the tree. They are searched beside its parameters
 //! ([`crate::Genome::nuisances`]), view by view in the order of the problem's goals, and reported
 //! beside them. Of the first goal everything is taken as known: azimuths are counted from it, and its
 //! scale is the tree's.

@@ -59,7 +59,7 @@ macro_rules! optimizers {
             }
 
             /// Whether it wants trees resized to the goal's height before they are compared: see
-            /// [`crate::Evaluator::matching_height`]. The dissertation's algorithm and the random floor do
+            /// [`crate::Evaluator::with_height_matching`]. The dissertation's algorithm and the random floor do
             /// not.
             #[must_use]
             pub fn matches_height(&self) -> bool {

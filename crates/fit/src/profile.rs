@@ -1,5 +1,6 @@
 //! What a picture cannot tell: how far each number can move before anyone sees it.
 
+use crate::cancellable;
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
 use crate::genome::{Genome, Scored};
@@ -7,7 +8,6 @@ use crate::problem::FitProblem;
 use crate::run::search_space;
 use crate::settings::FitSettings;
 use crate::space::{Gene, SearchSpace};
-use crate::stoppable;
 use pleach_tree::Slot;
 use serde::Serialize;
 use std::collections::VecDeque;
@@ -16,7 +16,7 @@ use std::sync::atomic::AtomicBool;
 /// How well a goal determines a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Seen {
+pub enum Identifiability {
     /// A twentieth of its range to one side or the other makes the fit worse; another choice does.
     Determined,
     /// A fifth of its range does.
@@ -31,7 +31,7 @@ pub struct Profile {
     /// The slot in the generator's parameter space.
     pub slot: Slot,
     /// How well it is determined.
-    pub seen: Seen,
+    pub seen: Identifiability,
     /// By how much the cost rises when the number goes down, and up, by [`PROFILE_STEPS`] of its search range;
     /// for a choice only the least of all other choices. None beyond the range.
     pub rises: [[Option<f64>; 2]; 2],
@@ -61,7 +61,7 @@ pub fn profile(
     let mut plan: Vec<(Slot, Vec<Move>)> = Vec::new();
     // They move this tree, and its size can make up for it: a picture does not tell them.
     let hidden = space.hidden_jitters(&best.genome.values);
-    // Nuisances stay as they are: they are no parameters of the tree.
+    // Nuisances stay as they are: they are not parameters of the tree.
     for (gene, slot) in space.genes().iter().filter_map(|gene| Some((gene, gene.slot()?))) {
         let mut of_gene = Vec::new();
         if !hidden.contains(&slot) && space.is_active(&best.genome.values, gene) {
@@ -74,7 +74,7 @@ pub fn profile(
         }
         plan.push((slot, of_gene));
     }
-    let scores = stoppable::map(&moves, stop, |genome| evaluator.score(genome))?;
+    let scores = cancellable::map(&moves, stop, |genome| evaluator.score(genome))?;
     Ok(plan
         .into_iter()
         .map(|(slot, of_gene)| {
@@ -86,9 +86,9 @@ pub fn profile(
             }
             let is_seen = |step: usize| rises[step].iter().flatten().any(|rise| *rise > tolerance);
             let seen = match (is_seen(0), is_seen(1)) {
-                (true, _) => Seen::Determined,
-                (_, true) => Seen::Loosely,
-                _ => Seen::NotSeen,
+                (true, _) => Identifiability::Determined,
+                (_, true) => Identifiability::Loosely,
+                _ => Identifiability::NotSeen,
             };
             Profile { slot, seen, rises }
         })
@@ -132,7 +132,7 @@ fn alternatives(gene: &Gene, value: f64) -> Vec<((usize, usize), f64)> {
 /// # Errors
 /// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once `stop`
 /// is raised.
-pub fn put_back_unseen(
+pub fn reset_unidentified(
     problem: &FitProblem,
     settings: &FitSettings,
     best: &Scored,
@@ -147,7 +147,7 @@ pub fn put_back_unseen(
     let back = Back { space: &space, evaluator: &evaluator, most, stop };
     let moved: Vec<(Slot, f64)> = profiles
         .iter()
-        .filter(|profile| profile.seen == Seen::NotSeen && !hidden.contains(&profile.slot))
+        .filter(|profile| profile.seen == Identifiability::NotSeen && !hidden.contains(&profile.slot))
         .map(|profile| (profile.slot, start[profile.slot.index()]))
         .filter(|&(slot, there)| best.genome.values[slot.index()] != there)
         .collect();
@@ -185,7 +185,7 @@ impl Back<'_> {
                 genome
             })
             .collect();
-        let costs = stoppable::map(&alone, self.stop, |genome| {
+        let costs = cancellable::map(&alone, self.stop, |genome| {
             let slot = genome.values.iter().zip(&kept.genome.values).position(|(a, b)| a != b);
             // What is not active leaves the tree and its score as they are.
             if slot.is_some_and(|slot| self.is_active(&kept.genome, Slot::new(slot))) {
@@ -203,7 +203,7 @@ impl Back<'_> {
             let trials: Vec<&Genome> =
                 steps.iter().filter(|step| step.is_read).map(|step| &step.genome).collect();
             let mut scores =
-                stoppable::map(&trials, self.stop, |genome| self.evaluator.score(genome))?.into_iter();
+                cancellable::map(&trials, self.stop, |genome| self.evaluator.score(genome))?.into_iter();
             for Step { slot, genome, is_read } in steps {
                 waiting.pop_front();
                 let score = if is_read { scores.next() } else { Some(kept.score) };
@@ -254,6 +254,6 @@ struct Step {
 }
 
 fn prepare(problem: &FitProblem, settings: &FitSettings) -> Result<(SearchSpace, Evaluator), FitError> {
-    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?.over_seeds(settings.robust);
+    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?.with_seeds(settings.robust);
     Ok((search_space(problem, settings)?, evaluator))
 }

@@ -22,10 +22,10 @@ use pleach_tree::Slot;
 /// See [`FitError`]; once the search runs, it ends with an [`Outcome`].
 pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -> Result<Outcome, FitError> {
     let mut evaluator =
-        Evaluator::new(problem, settings.objective, settings.limits)?.over_seeds(settings.robust);
+        Evaluator::new(problem, settings.objective, settings.limits)?.with_seeds(settings.robust);
     let space = search_space(problem, settings)?;
     if settings.optimizer.matches_height() && space.sizes_are_free() {
-        evaluator = evaluator.matching_height();
+        evaluator = evaluator.with_height_matching();
     }
     drive(&evaluator, space, settings, Fingerprint::from_fit(problem, settings), control)
 }

@@ -1,7 +1,7 @@
 //! The settings of optimisers, declared: what each may be.
 //!
 //! The types of settings, such as [`crate::CmaSettings`], say what a setting does; this says which values make sense, so that
-//! whoever reads one from a command line can refuse the others in plain words.
+//! a program that reads one from a command line can refuse the others in plain words.
 
 use SettingKind::{Count, Flag, Number, Word};
 use std::fmt;

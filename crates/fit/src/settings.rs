@@ -24,7 +24,7 @@ pub struct FitSettings {
     pub seed: u64,
     /// Seed of the tree: fixed, or searched.
     pub tree_seed: TreeSeed,
-    /// Trees that each individual is judged by: see [`crate::Evaluator::over_seeds`].
+    /// Trees that each individual is judged by: see [`crate::Evaluator::with_seeds`].
     pub robust: NonZeroU32,
     /// What is made small.
     pub objective: Objective,

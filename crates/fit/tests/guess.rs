@@ -166,7 +166,7 @@ fn references_say_what_a_likeness_is_worth() {
     assert_eq!(found.species.as_deref(), Some("lombardy_poplar"));
     assert!(one.likeness > 0.7 && one.likeness > other.likeness + 0.3, "{found:?}");
     assert!(one.iou > other.iou && found.best_ellipse.iou > 0.5, "{found:?}");
-    // A shape like an ellipse overlaps best, and is no tree.
+    // A shape like an ellipse overlaps best, and is not a tree.
     assert!(found.best_ellipse.likeness < one.likeness - 0.2, "{found:?}");
 
     // Without a first guess they are about the same, and without candidates there is the ellipse.

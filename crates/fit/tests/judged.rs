@@ -7,8 +7,8 @@ mod common;
 use common::goal_of;
 use pleach_fit::{
     Budget, Control, EvalWorkspace, Evaluator, FIT_LIMITS, FitError, FitProblem, FitSettings, Freedom,
-    Genome, Objective, Score, Scored, Seen, Start, TreeSeed, fit, fresh_seeds, profile, put_back_unseen,
-    settled,
+    Genome, Identifiability, Objective, Score, Scored, Start, TreeSeed, fit, fresh_seeds, profile,
+    reset_unidentified, settled,
 };
 use pleach_tree::Slot;
 use std::num::NonZeroU32;
@@ -38,7 +38,7 @@ fn several_seeds_are_judged_by_their_mean() {
     let mean = (cost(1) + cost(2) + cost(3)) / 3.0;
     assert!(cost(1) == 0.0 && mean > 0.1, "only the goal's own tree fits: {mean}");
     let three = Evaluator::new(&problem, Objective::Iou, FIT_LIMITS).unwrap();
-    let three = three.over_seeds(NonZeroU32::new(3).unwrap());
+    let three = three.with_seeds(NonZeroU32::new(3).unwrap());
     assert!((evaluate(&three, &truth(&problem)).cost - mean).abs() < 1e-12);
 }
 
@@ -66,17 +66,17 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
         let slot = space.select(name).unwrap()[0];
         profiles.iter().find(|profile| profile.slot == slot).unwrap().seen
     };
-    assert_eq!(seen("g_scale"), Seen::Determined);
+    assert_eq!(seen("g_scale"), Identifiability::Determined);
     // A palm has two levels.
-    assert_eq!(seen("length[3]"), Seen::NotSeen);
-    assert_eq!(seen("blossom_shape"), Seen::NotSeen);
+    assert_eq!(seen("length[3]"), Identifiability::NotSeen);
+    assert_eq!(seen("blossom_shape"), Identifiability::NotSeen);
 
     // What is not seen goes back to the start, and nothing else does.
     let mut start = base(&problem).to_vec();
     let slot = |name: &str| space.select(name).unwrap()[0];
     start[slot("length[3]").index()] = 0.123;
     start[slot("g_scale").index()] = 5.0;
-    let (kept, slots) = put_back_unseen(&problem, &settings, &best, &profiles, &start, 0.05, &GO).unwrap();
+    let (kept, slots) = reset_unidentified(&problem, &settings, &best, &profiles, &start, 0.05, &GO).unwrap();
     assert_eq!(slots, [slot("length[3]")]);
     assert_eq!(kept.genome.values[slot("length[3]").index()], 0.123);
     assert_eq!(kept.genome.values[slot("g_scale").index()], base(&problem)[slot("g_scale").index()]);
@@ -105,11 +105,11 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
     let (kept, told, settings, best) = result(Freedom::default(), "evolution");
     assert!(kept.iter().all(|value| *value == 0.0) && told == slots, "{kept:?} {told:?}");
     let profiles = profile(&problem, &settings, &best, 0.01, &GO).unwrap();
-    let unseen = |slot| profiles.iter().any(|p| p.slot == slot && p.seen == Seen::NotSeen);
+    let unseen = |slot| profiles.iter().any(|p| p.slot == slot && p.seen == Identifiability::NotSeen);
     assert!(slots.iter().all(|&slot| unseen(slot)));
     // Nor do they go back to the start.
     let (kept, _) =
-        put_back_unseen(&problem, &settings, &best, &profiles, base(&problem), 0.01, &GO).unwrap();
+        reset_unidentified(&problem, &settings, &best, &profiles, base(&problem), 0.01, &GO).unwrap();
     assert!(slots.iter().all(|&slot| kept.genome.values[slot.index()] == 0.0));
 
     // The dissertation's algorithm searches them, and what is fixed stays.
@@ -133,9 +133,9 @@ fn asked_to_stop_nothing_is_judged() {
     let profiles = profile(&problem, &settings, &best, 0.05, &GO).unwrap();
     // Something that is read but not seen: the tolerance is large.
     let all: Vec<_> =
-        profiles.into_iter().map(|p| pleach_fit::Profile { seen: Seen::NotSeen, ..p }).collect();
+        profiles.into_iter().map(|p| pleach_fit::Profile { seen: Identifiability::NotSeen, ..p }).collect();
     let start = pleach_generators::preset("acer").unwrap().params.values().to_vec();
-    let back = put_back_unseen(&problem, &settings, &best, &all, &start, 0.05, &stop);
+    let back = reset_unidentified(&problem, &settings, &best, &all, &start, 0.05, &stop);
     assert!(matches!(back, Err(FitError::Interrupted)));
 }
 
@@ -148,13 +148,13 @@ fn going_back_step_by_step_is_the_same_on_any_number_of_threads() {
     let space = problem.start.generator.space();
     let all: Vec<_> = space
         .slots()
-        .map(|slot| pleach_fit::Profile { slot, seen: Seen::NotSeen, rises: [[None; 2]; 2] })
+        .map(|slot| pleach_fit::Profile { slot, seen: Identifiability::NotSeen, rises: [[None; 2]; 2] })
         .collect();
     let start = pleach_generators::preset("hill_cherry").unwrap().params.values().to_vec();
     let run = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         // Room for some of the numbers and not for others.
-        pool.install(|| put_back_unseen(&problem, &settings, &best, &all, &start, 2.0, &GO).unwrap())
+        pool.install(|| reset_unidentified(&problem, &settings, &best, &all, &start, 2.0, &GO).unwrap())
     };
     let (kept, slots) = run(1);
     let differing = (0..space.len()).filter(|&slot| base(&problem)[slot] != start[slot]).count();

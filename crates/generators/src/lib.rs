@@ -24,7 +24,7 @@ pub fn names() -> Vec<&'static str> {
 /// The fifteen species of Hewitt's dissertation.
 pub use pleach_weber_penn::HEWITT_2017;
 
-/// Why a species could not be had.
+/// Why loading a species failed.
 #[derive(Debug, thiserror::Error)]
 pub enum RegistryError {
     /// Neither a known name nor a file.

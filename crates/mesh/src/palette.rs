@@ -52,7 +52,7 @@ impl Palette {
     }
 
     /// Takes off `tree` what it does not wear in this season.
-    pub fn dress(&self, tree: &mut Tree) {
+    pub fn apply_season(&self, tree: &mut Tree) {
         if !self.leaves {
             tree.leaves.clear();
         }

@@ -127,7 +127,7 @@ impl<T: Source + ?Sized> Source for Box<T> {
 
 /// Receives a mesh: all parts announced, then blocks of each part in order, then the end.
 ///
-/// A sink that is dropped before [`Sink::end`] has failed; what it wrote until then is no file.
+/// A sink that is dropped before [`Sink::end`] has failed; what it wrote until then is not a complete file.
 pub trait Sink {
     /// The parts to come, none of them empty.
     ///

@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let species = pleach::species(&name)?;
     let mut tree = species.grow(1)?;
     let palette = Palette::new(&species, Some(Season::Autumn));
-    palette.dress(&mut tree); // a winter tree would lose its leaves
+    palette.apply_season(&mut tree); // a winter tree would lose its leaves
 
     let mesh = Mesh::new(&tree, MeshSettings::with_tolerance(0.005));
     println!("{} triangles", mesh.triangles());

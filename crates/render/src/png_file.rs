@@ -41,7 +41,7 @@ impl Picture {
     /// Writes the picture as a PNG.
     ///
     /// # Errors
-    /// What the system says, or if the picture is no rectangle of pixels.
+    /// What the system says, or if the picture is not a rectangle of pixels.
     pub fn write_png(&self, out: &mut impl Write) -> io::Result<()> {
         write(out, std::slice::from_ref(self), 0)
     }
@@ -50,7 +50,7 @@ impl Picture {
 /// `picture` as the bytes of a PNG file.
 ///
 /// # Errors
-/// If the picture is no rectangle of pixels.
+/// If the picture is not a rectangle of pixels.
 pub fn bytes(picture: &Picture) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     write(&mut bytes, std::slice::from_ref(picture), 0)?;

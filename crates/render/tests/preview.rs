@@ -12,7 +12,7 @@ fn preview(name: &str, season: Option<Season>) -> Preview {
     let species = pleach_generators::preset(name).unwrap();
     let mut tree = species.grow(1).unwrap();
     let palette = Palette::new(&species, season);
-    palette.dress(&mut tree);
+    palette.apply_season(&mut tree);
     Preview::new(&tree, &palette, 96)
 }
 

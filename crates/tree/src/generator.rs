@@ -71,7 +71,7 @@ pub trait Generator: Send + Sync + fmt::Debug {
     }
 
     /// Changes `values` so that their tree grows `factor` times as large and nearly the same in all
-    /// else; if that cannot be had, leaves them and returns false: where the space has no
+    /// else; if that is not possible, leaves them and returns false: where the space has no
     /// [size](crate::param::Effect::Size), or one would leave its allowed range.
     ///
     /// Only nearly, since models have sizes of their own: Weber and Penn's stems are never thinner

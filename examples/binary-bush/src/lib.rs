@@ -144,7 +144,7 @@ impl Bush<'_> {
             tree.knots.push(Knot { point, handle_in: point - third, handle_out: point + third, radius });
         }
         if level + 1 < self.levels {
-            // The two stems lie in a plane that each fork draws anew, from its own address.
+            // The two stems lie in a plane that each fork draws from its own address.
             let across = shoot.along.any_orthonormal_vector();
             let turn =
                 DQuat::from_axis_angle(shoot.along.normalize(), key.unit(0, 0) * std::f64::consts::TAU);

@@ -33,7 +33,7 @@ use pleach_tree::{Generator, ParamSpace, Slot};
 
 /// How the numbers of a species become features.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Features {
+pub enum Encoding {
     /// By declaration, as this module describes.
     #[default]
     Declared,
@@ -53,14 +53,14 @@ pub struct Code {
 pub struct Coding {
     slots: Vec<SlotCode>,
     features: Vec<Feature>,
-    kind: Features,
+    kind: Encoding,
 }
 
 impl Coding {
     /// The coding of `space`, with units from its search ranges, or from `examples` (full lists of
     /// values) where these reach beyond them.
     #[must_use]
-    pub fn new(kind: Features, space: &ParamSpace, examples: &[&[f64]]) -> Self {
+    pub fn new(kind: Encoding, space: &ParamSpace, examples: &[&[f64]]) -> Self {
         let mut features = Vec::new();
         let slots = space
             .slots()
@@ -69,8 +69,8 @@ impl Coding {
                 let values = examples.iter().map(|values| values[slot.index()]);
                 let span = values.fold((low, high), |(a, b), v| (a.min(v), b.max(v)));
                 match kind {
-                    Features::Declared => SlotCode::declared(space, slot, span, &mut features),
-                    Features::Raw => SlotCode::raw(space, slot, &mut features),
+                    Encoding::Declared => SlotCode::declared(space, slot, span, &mut features),
+                    Encoding::Raw => SlotCode::raw(space, slot, &mut features),
                 }
             })
             .collect();
@@ -85,7 +85,7 @@ impl Coding {
 
     /// Which kind of coding this is.
     #[must_use]
-    pub const fn kind(&self) -> Features {
+    pub const fn kind(&self) -> Encoding {
         self.kind
     }
 
@@ -94,7 +94,7 @@ impl Coding {
     pub fn encode(&self, generator: &dyn Generator, values: &[f64]) -> Code {
         let mut code = vec![None; self.features.len()];
         for ((slot, coder), &value) in (0..).map(Slot::new).zip(&self.slots).zip(values) {
-            if self.kind == Features::Raw || generator.is_active(values, slot) {
+            if self.kind == Encoding::Raw || generator.is_active(values, slot) {
                 coder.encode(value, &mut code);
             }
         }
@@ -141,7 +141,7 @@ mod tests {
         let all = fifteen();
         let values: Vec<&[f64]> = all.iter().map(|s| s.params.values()).collect();
         let aspen = all[0].clone();
-        let coding = Coding::new(Features::Declared, aspen.generator.space(), &values);
+        let coding = Coding::new(Encoding::Declared, aspen.generator.space(), &values);
         (aspen, coding)
     }
 
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn every_number_of_every_species_survives_its_code() {
-        for kind in [Features::Declared, Features::Raw] {
+        for kind in [Encoding::Declared, Encoding::Raw] {
             let all = fifteen();
             let values: Vec<&[f64]> = all.iter().map(|s| s.params.values()).collect();
             let space = all[0].generator.space();

@@ -10,7 +10,7 @@ fn map() -> &'static BlendMap {
 }
 
 fn raw() -> BlendMap {
-    BlendMap::new(fifteen(), Settings { features: Features::Raw, dots: None }).unwrap()
+    BlendMap::new(fifteen(), Settings { features: Encoding::Raw, dots: None }).unwrap()
 }
 
 /// Random points in the hull.

@@ -179,7 +179,7 @@ mod tests {
         let coarse = Grid { columns: 6, cells: cells.clone() };
         let [few, many] = [&coarse, &fine].map(|grid| isoline(grid, 6.2).len());
         assert!(many > 2 * few, "{few} pieces, {many} when refined");
-        // A parabola's middle is no mean of its ends: Catmull and Rom's curve hits it.
+        // A parabola's middle is not the mean of its ends: Catmull and Rom's curve hits it.
         let middle = *fine.at(10, 6).unwrap();
         assert!((middle - sample(2.5, 1.5)).abs() < 1e-12, "{middle}");
         // What is missing stays missing, and nothing else does.

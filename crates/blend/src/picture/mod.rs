@@ -10,8 +10,8 @@ pub use scene::{Anchor, Color, Scene, Shape};
 
 use crate::error::BlendError;
 use crate::map::BlendMap;
+use crate::measures::Measure;
 use crate::plane::Point;
-use crate::traits::Trait;
 use contour::Grid;
 use pleach_silhouette::Bitmap;
 use pleach_tree::{Kind, Slot};
@@ -32,7 +32,7 @@ pub struct Extras {
 #[derive(Clone, Debug)]
 pub struct TraitField {
     /// The trait.
-    pub of: Trait,
+    pub of: Measure,
     /// Its value at each point of the grid; `None` outside the hull.
     pub values: Vec<Option<f64>>,
 }
@@ -55,7 +55,7 @@ const INK: Color = Color::opaque([40, 40, 40]);
 const GRAY: Color = Color::opaque([110, 110, 110]);
 const ACCENT: Color = Color::opaque([178, 34, 34]);
 /// Line colours of traits: blue, vermilion, green, purple and orange of Okabe and Ito 2008.
-const TRAIT_COLORS: [[u8; 3]; 5] =
+const MEASURE_COLORS: [[u8; 3]; 5] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [160, 80, 140], [200, 130, 0]];
 
 /// The plane's rectangle and the pixels that show it.
@@ -140,7 +140,7 @@ pub fn scene(map: &BlendMap, extras: &Extras) -> Result<Scene, BlendError> {
     switches(map, &sheet, &mut scene)?;
     hull(map, &sheet, &mut scene);
     for (number, field) in extras.traits.iter().enumerate() {
-        isolines(map, &sheet, field, TRAIT_COLORS[number % TRAIT_COLORS.len()], &mut scene);
+        isolines(map, &sheet, field, MEASURE_COLORS[number % MEASURE_COLORS.len()], &mut scene);
     }
     species(map, &sheet, &extras.thumbnails, &mut scene);
     for (point, label) in &extras.marks {
@@ -378,7 +378,7 @@ fn frame(map: &BlendMap, sheet: &Sheet, extras: &Extras, scene: &mut Scene) {
             (x, 32.0),
             15.0,
             Anchor::End,
-            Color::opaque(TRAIT_COLORS[number % TRAIT_COLORS.len()]),
+            Color::opaque(MEASURE_COLORS[number % MEASURE_COLORS.len()]),
         ));
         x -= scene.text_width(&name, 15.0) + 18.0;
     }
@@ -389,7 +389,7 @@ fn frame(map: &BlendMap, sheet: &Sheet, extras: &Extras, scene: &mut Scene) {
         let share = 100.0 * map.pca().explained().get(axis).copied().unwrap_or(0.0);
         let coding = map.landmarks().coding();
         let heavy: Vec<String> = map
-            .heaviest(axis)
+            .top_loadings(axis)
             .iter()
             .take(4)
             .map(|l| {
@@ -444,7 +444,7 @@ mod tests {
         let map = BlendMap::new(fifteen(), Settings::default()).unwrap();
         let fields = trait_points(&map).iter().map(|p| p.map(|p| p.x + p.y)).collect();
         let extras = Extras {
-            traits: vec![TraitField { of: Trait::Ink, values: fields }],
+            traits: vec![TraitField { of: Measure::Ink, values: fields }],
             marks: vec![(Point { x: 0.0, y: 0.0 }, "here".to_owned())],
             ..Extras::default()
         };

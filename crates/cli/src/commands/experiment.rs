@@ -54,7 +54,7 @@ struct Part {
     /// Go on with a run that was interrupted or killed: rows that it had finished are kept
     #[arg(long)]
     resume: bool,
-    /// Begin anew although an unfinished run has left rows
+    /// Start over although an unfinished run has left rows
     #[arg(long, conflicts_with = "resume")]
     overwrite: bool,
 }

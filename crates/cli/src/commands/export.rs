@@ -288,7 +288,7 @@ impl MeshArgs {
         for &variant in &used {
             let mut tree = grow(seed + u64::from(variant))?;
             let colors = Palette::new(species, season);
-            colors.dress(&mut tree);
+            colors.apply_season(&mut tree);
             palette = palette.or(Some(colors));
             trees.push(tree);
         }
@@ -378,7 +378,7 @@ impl MeshArgs {
     }
 }
 
-/// Species, parameters and seed, for whoever finds the file without its history.
+/// Species, parameters and seed, for anyone who finds the file without its history.
 fn extras(species: &Species, seed: Value) -> Value {
     let space = species.generator.space();
     let parameters: Map<String, Value> = space

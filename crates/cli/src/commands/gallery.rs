@@ -39,7 +39,7 @@ pub(super) fn sheet(
         caption(&mut page, name, height, (f64::from(x + size), f64::from(y + size)), f64::from(size));
         for (k, season) in [(0, None), (1, Some(Season::Winter))] {
             let palette = Palette::new(&species, season);
-            palette.dress(&mut tree);
+            palette.apply_season(&mut tree);
             let picture = Preview::new(&tree, &palette, size).picture(&settings);
             pictures.push((x + k * size, y, picture));
         }

@@ -3,7 +3,7 @@
 use crate::choice::{Choice, one_of};
 use crate::{input, output};
 use anyhow::{Context, bail};
-use pleach_blend::{BlendError, BlendMap, Features, Point, Settings, looks};
+use pleach_blend::{BlendError, BlendMap, Encoding, Point, Settings, looks};
 use pleach_tree::Species;
 use std::path::{Path, PathBuf};
 
@@ -17,9 +17,9 @@ enum Layout {
     Looks,
 }
 
-const FEATURES: &[Choice<Features>] = &[
-    ("declared", "By what their declarations say they mean", Features::Declared),
-    ("raw", "As the plain list of numbers, the dissertation's way", Features::Raw),
+const FEATURES: &[Choice<Encoding>] = &[
+    ("declared", "By what their declarations say they mean", Encoding::Declared),
+    ("raw", "As the plain list of numbers, the dissertation's way", Encoding::Raw),
 ];
 
 /// Species and layout of a map.
@@ -43,7 +43,7 @@ pub(super) struct MapArgs {
     layout: Layout,
     /// How numbers are compared and averaged
     #[arg(long, value_parser = one_of(FEATURES), default_value = "declared")]
-    features: Features,
+    features: Encoding,
 }
 
 impl MapArgs {
@@ -94,7 +94,7 @@ impl MapArgs {
     }
 
     /// How numbers are compared and averaged.
-    pub(super) const fn features(&self) -> Features {
+    pub(super) const fn features(&self) -> Encoding {
         self.features
     }
 

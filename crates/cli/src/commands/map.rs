@@ -3,9 +3,9 @@
 use super::landmarks::MapArgs;
 use crate::{files, input, output};
 use pleach_blend::draw::{Drawing, each_tree, silhouettes};
+use pleach_blend::measures::correlation;
 use pleach_blend::picture::{self, Extras, TraitField};
-use pleach_blend::traits::correlation;
-use pleach_blend::{BlendMap, Point, Trait};
+use pleach_blend::{BlendMap, Measure, Point};
 use pleach_silhouette::Detail;
 use pleach_silhouette::picture::{Picture, sheet_of_pictures};
 use pleach_tree::Species;
@@ -33,7 +33,7 @@ pub(crate) struct Map {
     grid: Option<(usize, usize)>,
     /// Draw iso-lines of traits: height_to_width, ink, bare_trunk, branch_angle, droop
     #[arg(long, value_name = "TRAIT,…", value_delimiter = ',', value_parser = trait_named)]
-    traits: Vec<Trait>,
+    traits: Vec<Measure>,
     /// Leave out the silhouettes
     #[arg(long)]
     no_thumbnails: bool,
@@ -65,9 +65,9 @@ fn grid(text: &str) -> Result<(usize, usize), String> {
     Ok((number(columns)?, number(rows)?))
 }
 
-fn trait_named(name: &str) -> Result<Trait, String> {
-    Trait::named(name).ok_or_else(|| {
-        let names = Trait::ALL.map(Trait::name);
+fn trait_named(name: &str) -> Result<Measure, String> {
+    Measure::named(name).ok_or_else(|| {
+        let names = Measure::ALL.map(Measure::name);
         let hint = pleach_tree::param::nearest(name, names)
             .map_or_else(|| ".".to_owned(), |n| format!(", did you mean `{n}`?"));
         format!("no trait is called `{name}`{hint} Known are {}", names.join(", "))
@@ -117,7 +117,7 @@ impl Map {
 }
 
 /// Grows a tree at each point of the traits' grid and measures it.
-fn sample(map: &BlendMap, traits: &[Trait], seed: u64) -> anyhow::Result<Vec<TraitField>> {
+fn sample(map: &BlendMap, traits: &[Measure], seed: u64) -> anyhow::Result<Vec<TraitField>> {
     let points = picture::trait_points(map);
     let species = species_at(map, &points.iter().flatten().copied().collect::<Vec<_>>())?;
     let measured =
@@ -182,10 +182,10 @@ fn write_loadings(map: &BlendMap, path: &Path) -> anyhow::Result<()> {
 }
 
 /// A trait and how it correlates with x and y over the species.
-type Direction = (Trait, [f64; 2]);
+type Direction = (Measure, [f64; 2]);
 
 fn directions(map: &BlendMap, seed: u64) -> anyhow::Result<Vec<Direction>> {
-    let measure = |tree: &pleach_tree::Tree| Trait::ALL.map(|t| t.of(tree));
+    let measure = |tree: &pleach_tree::Tree| Measure::ALL.map(|t| t.of(tree));
     let measured = each_tree(map.landmarks().species(), seed, |tree, _| measure(tree))?;
     let axes: [Vec<f64>; 2] =
         [map.dots().iter().map(|d| d.x).collect(), map.dots().iter().map(|d| d.y).collect()];
@@ -193,7 +193,7 @@ fn directions(map: &BlendMap, seed: u64) -> anyhow::Result<Vec<Direction>> {
         let values: Vec<f64> = measured.iter().map(|values| values[number]).collect();
         [0, 1].map(|axis: usize| correlation(&axes[axis], &values))
     };
-    Ok(Trait::ALL.into_iter().enumerate().map(|(number, of)| (of, along(number))).collect())
+    Ok(Measure::ALL.into_iter().enumerate().map(|(number, of)| (of, along(number))).collect())
 }
 
 fn report(map: &BlendMap, directions: &[Direction]) -> String {
@@ -204,7 +204,7 @@ fn report(map: &BlendMap, directions: &[Direction]) -> String {
     let mut together = 0.0;
     for (axis, share) in explained.iter().enumerate().take(2) {
         together += share;
-        let heavy = heaviest(map, axis).join("  ");
+        let heavy = top_loadings(map, axis).join("  ");
         rows.push(vec![(axis + 1).to_string(), percent(*share), percent(together), heavy]);
     }
     // The picture has two axes; the rest is in loadings.csv and --json.
@@ -230,9 +230,9 @@ fn report(map: &BlendMap, directions: &[Direction]) -> String {
 }
 
 /// The six features that weigh most on an axis, with the direction in which they grow.
-fn heaviest(map: &BlendMap, axis: usize) -> Vec<String> {
+fn top_loadings(map: &BlendMap, axis: usize) -> Vec<String> {
     let features = map.landmarks().coding().features();
-    let heavy = map.heaviest(axis).into_iter().take(6);
+    let heavy = map.top_loadings(axis).into_iter().take(6);
     heavy
         .map(|l| format!("{}{}", if l.loading > 0.0 { "+" } else { "−" }, features[l.feature].name))
         .collect()
@@ -252,7 +252,7 @@ fn report_json(map: &BlendMap, directions: &[Direction]) -> serde_json::Value {
     json!({
         "species": species,
         "explained_variance": map.pca().explained(),
-        "heaviest": [heaviest(map, 0), heaviest(map, 1)],
+        "heaviest": [top_loadings(map, 0), top_loadings(map, 1)],
         "traits": traits,
     })
 }

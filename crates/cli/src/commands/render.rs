@@ -110,7 +110,7 @@ impl Render {
         let mut palette = Palette::new(species, self.season);
         palette.leaves &= !self.no_leaves;
         palette.blossoms &= !self.no_leaves;
-        palette.dress(&mut tree);
+        palette.apply_season(&mut tree);
         let preview = Preview::new(&tree, &palette, self.size);
         let name = |what: &str| format!("{}-{seed}{what}.png", species.name);
         let place = |name: String| match (&self.out, file) {

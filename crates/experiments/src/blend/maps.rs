@@ -1,6 +1,6 @@
 //! The maps of the same species by two ways of comparing numbers, and three ways between two species.
 
-use pleach_blend::{Blend, BlendMap, Features, Settings};
+use pleach_blend::{Blend, BlendMap, Encoding, Settings};
 use pleach_tree::Species;
 
 /// How a blend of two species is found.
@@ -35,7 +35,7 @@ pub(super) struct Maps {
 impl Maps {
     pub(super) fn of(species: &[Species]) -> anyhow::Result<Self> {
         let map = |features| BlendMap::new(species.to_vec(), Settings { features, dots: None });
-        Ok(Self { declared: map(Features::Declared)?, raw: map(Features::Raw)? })
+        Ok(Self { declared: map(Encoding::Declared)?, raw: map(Encoding::Raw)? })
     }
 
     pub(super) fn species(&self) -> &[Species] {

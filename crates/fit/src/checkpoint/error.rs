@@ -26,7 +26,7 @@ pub enum CheckpointError {
     /// A checkpoint of another version of pleach.
     #[error(
         "{path} is a checkpoint of format {found}, and this pleach reads format {expected}: finish the fit with \
-         the version of pleach that began it, or start anew"
+         the version of pleach that began it, or start over"
     )]
     OtherFormat {
         /// The file.

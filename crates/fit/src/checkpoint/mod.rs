@@ -12,7 +12,7 @@
 //! same run.
 //!
 //! It is written to a temporary file in the same folder, flushed to the disk, and renamed over the
-//! old one: whoever reads it finds the old state or the new, never half of one.
+//! old one: a reader finds the old state or the new, never half of one.
 
 mod envelope;
 mod error;

@@ -62,7 +62,7 @@ impl Evaluator {
     /// Judges an individual by the mean over `count` trees, of its tree seed and of those after it, so
     /// that parameters win of which every tree is like the goal and not a lucky one.
     #[must_use]
-    pub fn over_seeds(self, count: NonZeroU32) -> Self {
+    pub fn with_seeds(self, count: NonZeroU32) -> Self {
         Self { seeds: count.get(), ..self }
     }
 
@@ -72,7 +72,7 @@ impl Evaluator {
     /// A picture shows the height of its tree to a pixel. A search that has to find it again for
     /// every change of the trunk, or of the branches at its tip, spends most of its trials on that.
     #[must_use]
-    pub fn matching_height(self) -> Self {
+    pub fn with_height_matching(self) -> Self {
         Self { height: GoalHeight::seen(&self.views[0]), ..self }
     }
 
@@ -85,7 +85,7 @@ impl Evaluator {
         EvalWorkspace::new(&*self.generator)
     }
 
-    /// Grows `genome`'s tree, draws it and scores it; [`Score::FAILED`] if it does not grow.
+    /// Grows `genome`'s tree, draws it and scores it; [`Score::INVALID`] if it does not grow.
     ///
     /// Allocates nothing once `memory` has held a tree as large as this one.
     pub fn evaluate(&self, genome: &Genome, memory: &mut EvalWorkspace) -> Score {
@@ -93,7 +93,7 @@ impl Evaluator {
     }
 
     /// The score of `genome` with its likeness, whatever the objective is.
-    pub(crate) fn evaluate_and_look(&self, genome: &Genome) -> Score {
+    pub(crate) fn evaluate_with_likeness(&self, genome: &Genome) -> Score {
         self.with_memory(|memory| self.evaluate_within(genome, Size::ANY, memory, Likeness::Always))
     }
 
@@ -120,14 +120,14 @@ impl Evaluator {
         likeness: Likeness,
     ) -> Score {
         let mut growth = self.growth(genome.tree_seed, self.foliage, most);
-        let Some(resized) = self.grow_matched(genome, &growth, memory) else { return Score::FAILED };
+        let Some(resized) = self.grow_matched(genome, &growth, memory) else { return Score::INVALID };
         let size = Size::new(&memory.tree);
         let mut sum = Sum::new();
         for number in 0..self.seeds {
             if number > 0 {
                 growth.seed = genome.tree_seed.wrapping_add(u64::from(number));
                 if !memory.grow(&*self.generator, &growth) {
-                    return Score::FAILED;
+                    return Score::INVALID;
                 }
             }
             for view in self.views.iter() {
@@ -264,6 +264,6 @@ impl Evaluate for Evaluator {
     }
 
     fn likeness(&self, genome: &Genome) -> Option<f64> {
-        self.evaluate_and_look(genome).likeness
+        self.evaluate_with_likeness(genome).likeness
     }
 }

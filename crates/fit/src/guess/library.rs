@@ -5,11 +5,11 @@ use super::plate::{Plate, side_for};
 use super::settings::GuessSettings;
 use super::shown::Shown;
 use super::tries::{Try, tries};
+use crate::cancellable;
 use crate::error::FitError;
 use crate::evaluator::{Evaluator, height_of};
 use crate::problem::FitProblem;
 use crate::space::TreeSeed;
-use crate::stoppable;
 use pleach_silhouette::{Bitmap, Frame, View};
 use pleach_tree::{Foliage, Limits, ModelId};
 
@@ -18,7 +18,7 @@ const BATCH: usize = 32;
 /// The trees that goals are compared with, kept from goal to goal.
 ///
 /// What is kept does not depend on a goal but for the side from which it was taken and, roughly, its
-/// size in pixels. Where something else is asked for, all is grown anew: the answers are the same bits
+/// size in pixels. Where something else is asked for, all is grown again: the answers are the same bits
 /// as those of a fresh library. It takes some 10 MB for the twenty species.
 #[derive(Debug, Default)]
 pub struct GuessLibrary {
@@ -102,7 +102,7 @@ impl GuessLibrary {
         if !entries.iter().all(there) {
             let mut done = 0;
             for batch in entries.chunks_mut(BATCH) {
-                let grown = stoppable::map(batch, shown.stop, |entry| {
+                let grown = cancellable::map(batch, shown.stop, |entry| {
                     if there(entry) { None } else { grow(shown, &entry.attempt, wanted, side) }
                 })?;
                 for (entry, grown) in batch.iter_mut().zip(grown) {
@@ -178,7 +178,7 @@ pub(super) fn compare(
     entries: &[Entry],
     foliage: Foliage,
 ) -> Result<Vec<Option<Resemblance>>, FitError> {
-    stoppable::map(entries, shown.stop, |entry| {
+    cancellable::map(entries, shown.stop, |entry| {
         let looks = entry.looks[place(foliage)].as_ref()?;
         let candidate = entry.attempt.candidate;
         let evaluator = shown.models.evaluator(candidate);
@@ -214,7 +214,7 @@ pub(super) fn shown_once(
 ) -> Result<Vec<Resemblance>, FitError> {
     let side = side_of(shown.problem);
     let wanted = [Foliage::All, Foliage::None].map(|one| one == foliage);
-    let looks = stoppable::map(&attempts, shown.stop, |attempt| grow(shown, attempt, wanted, side))?;
+    let looks = cancellable::map(&attempts, shown.stop, |attempt| grow(shown, attempt, wanted, side))?;
     let entries: Vec<Entry> = attempts
         .into_iter()
         .zip(looks)

@@ -6,7 +6,7 @@
 //! Trees of all candidates are grown as they are and with their numbers varied, drawn finely, laid into
 //! the goal's frame at the goal's height, and compared by likeness, which knows a species by other trees
 //! than the goal's. The drawings serve all goals of a [`GuessLibrary`]. Nothing is stored between runs:
-//! growing a few hundred trees takes a second or two, and what is grown anew is never out of date.
+//! growing a few hundred trees takes a second or two, and what is grown on the spot is never out of date.
 //!
 //! The same drawings tell whether the goal has leaves, and what its likeness to other trees is worth.
 
@@ -23,6 +23,7 @@ pub use library::GuessLibrary;
 pub use references::{Reference, References};
 pub use settings::GuessSettings;
 
+use crate::cancellable;
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
 use crate::genome::{Genome, Score};
@@ -32,7 +33,6 @@ use crate::objective::Objective;
 use crate::problem::{FitProblem, with_values};
 use crate::settings::FitSettings;
 use crate::space::SpaceError;
-use crate::stoppable;
 use candidate::Models;
 use library::{Entry, Resemblance, compare};
 use pleach_silhouette::Bitmap;
@@ -239,10 +239,10 @@ fn scored(
     alike: Vec<Alike>,
 ) -> Result<Vec<(usize, Guess)>, FitError> {
     let settings = shown.settings;
-    let exact = Evaluator::new(problem, settings.objective, settings.limits)?.over_seeds(settings.robust);
+    let exact = Evaluator::new(problem, settings.objective, settings.limits)?.with_seeds(settings.robust);
     let exact = Models::new(shown.candidates, &exact);
     let score = |(_, candidate, genome): &Alike| exact.evaluator(*candidate).score(genome);
-    let scores = stoppable::map(&alike, shown.stop, score)?;
+    let scores = cancellable::map(&alike, shown.stop, score)?;
     let name = |candidate: usize| shown.candidates[candidate].species.name.clone();
     let mut nearest: Vec<(usize, Guess)> = (alike.into_iter().zip(scores))
         .filter(|(_, score)| score.cost.is_finite())
@@ -283,7 +283,7 @@ fn known_views(problem: &FitProblem) -> FitProblem {
 
 fn looks(problem: &FitProblem, settings: &FitSettings) -> Result<Evaluator, FitError> {
     let looks = Evaluator::new(problem, Objective::Likeness, settings.limits)?;
-    Ok(looks.over_seeds(settings.robust).matching_height())
+    Ok(looks.with_seeds(settings.robust).with_height_matching())
 }
 
 /// The candidate of the least cost, if one grew.

@@ -38,7 +38,7 @@ pub(super) fn given(
 }
 
 /// A random list in which numbers that have a neutral value have it with a chance of up to `sparsity`, drawn
-/// anew for each list: bends, variations and forks are absent from most trees.
+/// separately for each list: bends, variations and forks are absent from most trees.
 fn sparse(space: &SearchSpace, sparsity: f64, draws: &mut Stream) -> Genome {
     let mut genome = space.random(draws);
     let share = sparsity * draws.unit();

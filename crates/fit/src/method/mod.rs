@@ -64,7 +64,7 @@ pub trait MethodSettings: Clone + Default + PartialEq {
     fn has_begun(&self, method: &Self::Method, seed: u64, start: &Start) -> bool;
 
     /// Whether trees are resized to the goal's height before they are compared: see
-    /// [`crate::Evaluator::matching_height`].
+    /// [`crate::Evaluator::with_height_matching`].
     fn matches_height(&self) -> bool {
         true
     }

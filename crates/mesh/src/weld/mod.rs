@@ -26,7 +26,7 @@ pub enum WeldError {
         /// Side of a cell in metres.
         cell: f64,
     },
-    /// The side of a cell is no positive number.
+    /// The side of a cell is not a positive number.
     #[error("welding needs cells of a positive size, not {cell} m")]
     NotPositive {
         /// Side of a cell in metres.

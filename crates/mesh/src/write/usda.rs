@@ -18,7 +18,7 @@ const UNIT: usize = 4;
 /// What a file says beside triangles.
 #[derive(Clone, Debug, Default)]
 pub struct Notes {
-    /// Name of the tree; what is no letter or digit becomes an underscore.
+    /// Name of the tree; anything but a letter or digit becomes an underscore.
     pub name: String,
     /// Names and values that are kept in the file's head.
     pub about: Vec<(String, String)>,

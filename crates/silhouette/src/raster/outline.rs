@@ -150,7 +150,7 @@ mod tests {
                 assert!((area(&outline) / shape.area() - 1.0).abs() < 1e-3, "{leaf:?} at {size}");
                 last = outline.len();
             }
-            // Three lobes of a palmate leaf cannot be had with fewer than six corners.
+            // Three lobes of a palmate leaf need at least six corners.
             assert!(last <= 7, "{leaf:?}: {last}");
             let mut outline = Vec::new();
             simplify(shape, [1e5, 1e5], TOLERANCE, &mut outline);

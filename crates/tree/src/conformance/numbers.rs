@@ -105,7 +105,7 @@ pub fn conflicts_are_told_before_growing(family: &dyn Family) {
     }
 }
 
-/// A tree of twice the size looks the same from twice as far; where the size cannot be had, the values
+/// A tree of twice the size looks the same from twice as far; where the size is not possible, the values
 /// stay as they are.
 ///
 /// # Panics

@@ -128,7 +128,7 @@ parameters! {
             levels(
                 "branches",
                 "angle about the parent from one child (or whorl) to the next; a fan's whole spread",
-                Kind::flagged(360.0, "to the parent's two sides by turns, this far from its upper side"),
+                Kind::flagged(360.0, "to the parent's two sides alternately, this far from its upper side"),
                 [0.0, 140.0, 140.0, 77.0],
             )
                 .search([(0.0, 0.0), (-130.0, 180.0), (-130.0, 260.0), (-120.0, 180.0)])

@@ -163,7 +163,7 @@ fn before(fit: &Fit, settings: &FitSettings, task: &Task, mode: Mode) -> anyhow:
         ensure!(
             differences.is_empty(),
             "{} was fitted with other options: {}; --resume skips it with the same ones, --overwrite instead of \
-             --resume fits all goals anew, and another --out keeps both",
+             --resume fits all goals again, and another --out keeps both",
             task.folder.path().display(),
             differences.join(", ")
         );

@@ -65,7 +65,7 @@ impl Drawn {
     pub(super) fn write_render(&self, path: &Path, size: u32) -> anyhow::Result<()> {
         let mut tree = self.tree.clone();
         let palette = Palette::new(&self.species, None);
-        palette.dress(&mut tree);
+        palette.apply_season(&mut tree);
         let settings = PreviewSettings { width: size, height: size, ..PreviewSettings::default() };
         let picture = Preview::new(&tree, &palette, size).picture(&settings);
         files::write_whole(path, |file| Ok(png_file::write(file, &[picture], 0)?))

@@ -1,6 +1,6 @@
 //! What a judged result says in its species file and in `parameters.csv`.
 
-use pleach_fit::{Genome, Judged, PROFILE_STEPS, Seen};
+use pleach_fit::{Genome, Identifiability, Judged, PROFILE_STEPS};
 use pleach_tree::{ParamSpace, Slot};
 
 /// Comments of the species file: what the goal does not show.
@@ -18,7 +18,7 @@ pub(super) fn comments(judged: &Judged, space: &ParamSpace) -> Vec<String> {
 
 /// How many numbers are determined, loosely determined, and not seen.
 pub(super) fn counts(judged: &Judged) -> [usize; 3] {
-    [Seen::Determined, Seen::Loosely, Seen::NotSeen]
+    [Identifiability::Determined, Identifiability::Loosely, Identifiability::NotSeen]
         .map(|seen| judged.profiles.iter().filter(|profile| profile.seen == seen).count())
 }
 
@@ -36,9 +36,9 @@ pub(super) fn table(judged: &Judged, best: &Genome, space: &ParamSpace) -> Vec<V
     ];
     let rows = judged.profiles.iter().map(|profile| {
         let seen = match profile.seen {
-            Seen::Determined => "determined",
-            Seen::Loosely => "loosely",
-            Seen::NotSeen => "not-seen",
+            Identifiability::Determined => "determined",
+            Identifiability::Loosely => "loosely",
+            Identifiability::NotSeen => "not-seen",
         };
         let mut row = vec![
             space.slot_name(profile.slot),

@@ -108,7 +108,7 @@ pub(crate) struct Fit {
     /// How often the state of the search is saved: what a crash may cost
     #[arg(long, value_name = "TIME", default_value = "1s", value_parser = options::duration)]
     checkpoint_every: Duration,
-    /// Start anew over whatever fit the run folder holds
+    /// Start over, replacing any fit in the run folder
     #[arg(long, conflicts_with_all = ["resume", "go_on"])]
     overwrite: bool,
     /// Say more: what was found in the goal

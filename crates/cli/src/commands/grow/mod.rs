@@ -151,7 +151,7 @@ impl Grow {
         let mut tree = species
             .grow_with(&Growth { parallel: true, ..self.growth(seed) })
             .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
-        self.dress(species, &mut tree);
+        self.apply_season(species, &mut tree);
         let written = if self.stats_only { Vec::new() } else { self.write_all(species, seed, &tree)? };
         let report = Report::new(species, seed, &tree);
         if self.out.as_deref().is_some_and(files::is_stdout) {
@@ -179,7 +179,7 @@ impl Grow {
                     .generator
                     .grow(&species.params, &self.growth(seed), workspace, tree)
                     .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
-                self.dress(species, tree);
+                self.apply_season(species, tree);
                 if self.out.is_some() || self.format.is_some() {
                     self.write_all(species, seed, tree)?;
                 }
@@ -217,8 +217,8 @@ impl Grow {
     }
 
     /// Takes off what the tree does not wear in the season.
-    fn dress(&self, species: &Species, tree: &mut Tree) {
-        self.mesh.palette(species).dress(tree);
+    fn apply_season(&self, species: &Species, tree: &mut Tree) {
+        self.mesh.palette(species).apply_season(tree);
     }
 
     /// Writes the file or files that were asked for, and says which they are.

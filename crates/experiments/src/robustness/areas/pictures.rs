@@ -15,7 +15,7 @@ use std::path::Path;
 const LANE: u32 = 3;
 /// Side of the pictures in pixels.
 const SIDE: u32 = 64;
-/// A file that breaks off before this part of it lacks pixels, and is no picture.
+/// A file that breaks off before this part of it lacks pixels, and is not a picture.
 const WHOLE: f64 = 0.9;
 
 /// Pictures of a tree.

@@ -34,7 +34,7 @@ impl Area for SpeciesFiles {
         let input = self.input(case);
         let read = match std::str::from_utf8(&input) {
             Ok(text) => read_text("species.toml", text).map_err(|e| e.to_string()),
-            // Only a file can hold what is no text.
+            // Only a file can hold what is not text.
             Err(_) => {
                 let file = folder.join("species.toml");
                 if let Err(error) = std::fs::write(&file, &input) {

@@ -124,7 +124,7 @@ impl Distribution {
             let weight = if *weight < 0.0 { weight * n as f64 / squares.max(1e-12) } else { *weight };
             outer(&mut self.covariance, c_mu * weight, y);
         }
-        // The basis changes slowly: decomposing it anew every few generations is enough (appendix B.2).
+        // The basis changes slowly: decomposing it again every few generations is enough (appendix B.2).
         let often = 0.5 / (n.max(1) as f64 * (c_1 + c_mu));
         if (self.generation - self.decomposed) as f64 > often {
             self.decompose();

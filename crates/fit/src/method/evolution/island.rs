@@ -8,15 +8,15 @@ use crate::space::SearchSpace;
 use crate::stream::Stream;
 use serde::{Deserialize, Serialize};
 
-/// A population, best first, with the steps and the chances of moves that have served it.
+/// A population, best first, with the steps and the chances of operators that have worked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Island {
     population: Vec<Scored>,
     /// Step of each gene as a part of its range; empty before the first children.
     steps: Vec<f64>,
-    /// How much each gene has helped of late, relative to the least that it is tried.
+    /// How much each gene has helped recently, relative to the least that it is tried.
     weight: Vec<f64>,
-    /// How much each move has helped of late.
+    /// How much each operator has helped recently.
     operator_credit: Vec<f64>,
     /// Where the children come from that are being evaluated.
     offspring: Vec<Offspring>,
@@ -33,7 +33,7 @@ const LONGER: f64 = 1.5;
 const SHORTER: f64 = 0.9;
 /// Steps stay between these parts of the range.
 const STEPS: (f64, f64) = (2e-3, 0.5);
-/// What a child earns its move that is better than the best, and than its parent.
+/// What a child earns its operator that is better than the best, and than its parent.
 const BEST_REWARD: f64 = 1.0;
 const BETTER_REWARD: f64 = 0.2;
 /// Weight of the newest reward, and the least credit, of operators and of genes.
@@ -135,7 +135,7 @@ impl Island {
         child
     }
 
-    /// Rewards moves and genes for the children they have made, and adapts the steps.
+    /// Rewards operators and genes for the children they have made, and adapts the steps.
     pub(super) fn learn(&mut self, scores: &[Score]) {
         let best = self.best().map_or(f64::INFINITY, |best| best.score.cost);
         for (offspring, score) in self.offspring.iter().zip(scores) {

@@ -1,4 +1,4 @@
-//! The default optimiser: an elitist population with sparse steps, in lanes that begin anew.
+//! The default optimiser: an elitist population with sparse steps, in islands that restart.
 //!
 //! A silhouette depends on some sixty numbers, most of them little, a few of them like a needle: a
 //! hundredth of the range of `rotate` turns every branch of an acer to another side. So
@@ -7,8 +7,8 @@
 //!   and shrinks without (the one-fifth rule, Rechenberg 1973, number by number), and is chosen the
 //!   more often the more it has helped;
 //! - other children cross two parents, go along the difference of two others (Storn and Price 1997),
-//!   move everything a little, draw a number anew from its whole range, or set one to zero. How often
-//!   each move is tried follows from what it has brought (`moves.rs`);
+//!   move everything a little, draw a number again from its whole range, or set one to zero. How often
+//!   each operator is tried follows from what it has brought (`operators.rs`);
 //! - reals, whole numbers, switches and choices are changed each in its own way, and numbers that the
 //!   tree does not depend on ([`pleach_tree::Generator::is_active`]) are left alone;
 //! - the population begins with the best of a batch of random lists, in which numbers that may be
@@ -33,7 +33,7 @@ use crate::stream::Stream;
 use island::Island;
 use serde::{Deserialize, Serialize};
 
-/// The population, and what has been learnt about moves and numbers.
+/// The population, and what has been learned about operators and numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evolution {
     settings: EvolutionSettings,

@@ -18,7 +18,7 @@ pub struct EvolutionSettings {
     pub sparsity: f64,
     /// Parents are drawn from the best part of the population: a power, 1 draws all alike.
     pub greed: f64,
-    /// Evaluations without a gain of a thousandth, over the number of parents, after which a lane ends.
+    /// Evaluations without a gain of a thousandth, over the number of parents, after which an island ends.
     pub patience: usize,
     /// Islands from random lists between two islands in which elites meet.
     pub lanes: usize,

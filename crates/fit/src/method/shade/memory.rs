@@ -1,4 +1,4 @@
-//! What factors and rates have served of late.
+//! Recently successful factors and rates.
 
 use crate::stream::Stream;
 use serde::{Deserialize, Serialize};

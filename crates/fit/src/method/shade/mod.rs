@@ -22,7 +22,7 @@
 //! - told individuals count as they are told: resized to the goal's height or with variations of size
 //!   set to zero ([`crate::Search`]), so that differences are those of trees that were drawn;
 //! - a population in which nothing has been replaced by anything better for
-//!   [`ShadeSettings::patience`] generations begins anew from random lists.
+//!   [`ShadeSettings::patience`] generations restarts from random lists.
 
 mod memory;
 
@@ -51,7 +51,7 @@ pub struct ShadeSettings {
     pub archive: f64,
     /// Share of trials with another tree seed than the target's, if any will do.
     pub reseed: f64,
-    /// Generations without a success after which a population begins anew.
+    /// Generations without a success after which a population restarts.
     pub patience: u64,
 }
 

@@ -7,7 +7,7 @@
 //! | --- | --- |
 //! | corners | interleaved position, normal, texture coordinates; wind in `_WIND_PIVOT`, `_WIND_SWAY` |
 //! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided; cards show pictures with alpha masks |
-//! | levels of detail | `MSFT_lod` on the node of the finest; whoever does not know it sees that one |
+//! | levels of detail | `MSFT_lod` on the node of the finest; viewers that do not know it show that one |
 //! | leaves as instances | `EXT_mesh_gpu_instancing`, then required: without it there is no crown |
 //! | forests | many nodes that share few meshes |
 //! | sway | a skin of rigid joints with one looping animation |

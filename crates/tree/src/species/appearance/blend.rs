@@ -27,18 +27,18 @@ impl Appearance {
         let evergreens = parts.iter().any(|(one, _)| one.evergreen.is_some());
         Self {
             bark: drawn(|one| one.bark, |one| one.look().bark),
-            bark_pattern: patterns.then(|| heaviest(&parts, |one| one.look().bark_pattern)).flatten(),
+            bark_pattern: patterns.then(|| top_loadings(&parts, |one| one.look().bark_pattern)).flatten(),
             leaf: drawn(|one| one.leaf, |one| one.look().leaf),
             autumn: of_those(|one| one.autumn.filter(|_| !one.look().evergreen)),
             blossom: of_those(|one| one.blossom),
-            evergreen: evergreens.then(|| heaviest(&parts, |one| one.look().evergreen)).flatten(),
-            season: heaviest(&parts, |one| one.season).flatten(),
+            evergreen: evergreens.then(|| top_loadings(&parts, |one| one.look().evergreen)).flatten(),
+            season: top_loadings(&parts, |one| one.season).flatten(),
         }
     }
 }
 
 /// What most of the weight is for; of equals, what the first of them says.
-fn heaviest<T: PartialEq>(parts: &[(&Appearance, f64)], of: impl Fn(&Appearance) -> T) -> Option<T> {
+fn top_loadings<T: PartialEq>(parts: &[(&Appearance, f64)], of: impl Fn(&Appearance) -> T) -> Option<T> {
     let mut sums: Vec<(T, f64)> = Vec::new();
     for (one, weight) in parts {
         let value = of(one);

@@ -40,7 +40,7 @@ impl Lock {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
                     let mut owner = String::new();
-                    // Who it is only helps: an unreadable file is no other error.
+                    // Who it is only helps: an unreadable file is not another error.
                     let _ = file.read_to_string(&mut owner);
                     bail!(
                         "another pleach{} is writing to {}; wait until it ends, or name another --out",

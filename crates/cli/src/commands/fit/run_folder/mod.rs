@@ -126,7 +126,7 @@ impl RunFolder {
         match mode {
             Mode::Overwrite => Ok(()),
             Mode::New if self.is_unfinished() => {
-                bail!("{path} holds an unfinished fit; --resume goes on with it, --overwrite starts anew")
+                bail!("{path} holds an unfinished fit; --resume goes on with it, --overwrite starts over")
             }
             Mode::New => {
                 let differences = finished.map(|summary| request.differences(&summary)).unwrap_or_default();

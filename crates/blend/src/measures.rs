@@ -7,7 +7,7 @@ use crate::draw::{Drawing, picture};
 
 /// A readable property of a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Trait {
+pub enum Measure {
     /// Height over the wider of its two widths.
     HeightToWidth,
     /// Share of ink in the box around its silhouette, 0 to 1.
@@ -22,7 +22,7 @@ pub enum Trait {
     Droop,
 }
 
-impl Trait {
+impl Measure {
     /// Every trait.
     pub const ALL: [Self; 5] =
         [Self::HeightToWidth, Self::Ink, Self::BareTrunk, Self::BranchAngle, Self::Droop];
@@ -118,16 +118,16 @@ mod tests {
 
     #[test]
     fn traits_say_what_everybody_sees() {
-        let of = |t: Trait, name: &str| t.of(&species(name).grow(1).unwrap());
-        let poplar = of(Trait::HeightToWidth, "lombardy_poplar");
-        assert!(poplar > 1.5 * of(Trait::HeightToWidth, "black_oak"), "{poplar}");
-        assert!(of(Trait::BareTrunk, "palm") > 0.7);
-        assert!(of(Trait::BareTrunk, "balsam_fir") < 0.2);
-        assert!(of(Trait::Droop, "palm") > of(Trait::Droop, "lombardy_poplar") + 20.0);
-        let fir = of(Trait::BranchAngle, "douglas_fir");
-        assert!(fir > 60.0 && of(Trait::BranchAngle, "lombardy_poplar") < 50.0, "{fir}");
-        let ink = of(Trait::Ink, "apple");
-        assert!((0.3..=1.0).contains(&ink) && of(Trait::Ink, "palm") < ink, "{ink}");
+        let of = |t: Measure, name: &str| t.of(&species(name).grow(1).unwrap());
+        let poplar = of(Measure::HeightToWidth, "lombardy_poplar");
+        assert!(poplar > 1.5 * of(Measure::HeightToWidth, "black_oak"), "{poplar}");
+        assert!(of(Measure::BareTrunk, "palm") > 0.7);
+        assert!(of(Measure::BareTrunk, "balsam_fir") < 0.2);
+        assert!(of(Measure::Droop, "palm") > of(Measure::Droop, "lombardy_poplar") + 20.0);
+        let fir = of(Measure::BranchAngle, "douglas_fir");
+        assert!(fir > 60.0 && of(Measure::BranchAngle, "lombardy_poplar") < 50.0, "{fir}");
+        let ink = of(Measure::Ink, "apple");
+        assert!((0.3..=1.0).contains(&ink) && of(Measure::Ink, "palm") < ink, "{ink}");
     }
 
     #[test]
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn names_lead_back_to_traits() {
-        assert!(Trait::ALL.into_iter().all(|t| Trait::named(t.name()) == Some(t)));
-        assert_eq!(Trait::named("beauty"), None);
+        assert!(Measure::ALL.into_iter().all(|t| Measure::named(t.name()) == Some(t)));
+        assert_eq!(Measure::named("beauty"), None);
     }
 }
