@@ -54,7 +54,7 @@ fn each_goal_has_a_folder_and_a_row() {
         assert_eq!(summaries[i]["goal"], ALL[i]);
         assert!(progress.contains(&format!("[{}/3] goals/{name}.png: likeness 0.", i + 1)), "{progress}");
     }
-    assert_eq!(progress.lines().count(), 3, "a line a goal: {progress}");
+    assert_eq!(progress.lines().count(), 3, "one line per goal: {progress}");
     let rows = table(&dir.path("runs/summary.csv"));
     assert_eq!(column(&rows, "goal"), ALL);
     assert_eq!(column(&rows, "state"), ["finished"; 3]);

@@ -26,7 +26,7 @@ fn the_picture_is_black_on_white_with_the_tree_where_it_should_be() {
     let foot: Vec<u32> = ink.iter().filter(|p| p.1 == 199).map(|p| p.0).collect();
     let middle = f64::from(foot.iter().sum::<u32>()) / foot.len() as f64;
     assert!((middle - 99.5).abs() < 1.0, "the trunk's foot is in the middle, not at {middle}");
-    // One bit a pixel: a 200 × 200 picture is at most 5,200 bytes before compression.
+    // One bit per pixel: a 200 × 200 picture is at most 5,200 bytes before compression.
     assert!(std::fs::metadata(dir.path("out.png")).unwrap().len() < 5_200);
 }
 

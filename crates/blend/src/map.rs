@@ -16,7 +16,7 @@ pub struct Settings {
     /// [`Encoding::Raw`] gives the dissertation's map: the plain numbers, and of a point only what its
     /// two axes hold, so that not even a species' own dot gives that species.
     pub features: Encoding,
-    /// Where the dots stand instead of at their principal components: one point a species. The
+    /// Where the dots stand instead of at their principal components: one point per species. The
     /// layout by looks gives these.
     pub dots: Option<Vec<Point>>,
 }

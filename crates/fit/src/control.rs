@@ -21,7 +21,7 @@ pub struct CheckpointSettings {
 }
 
 impl CheckpointSettings {
-    /// Checkpoints at `path`, at most one a second, from a fresh start.
+    /// Checkpoints at `path`, at most one per second, from a fresh start.
     #[must_use]
     pub fn new(path: PathBuf) -> Self {
         Self { path, interval: Duration::from_secs(1), resume: false }

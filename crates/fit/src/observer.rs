@@ -48,7 +48,7 @@ pub trait Observer {
         Ok(())
     }
 
-    /// After every batch, about three times a second, and once at the start and at the end.
+    /// After every batch, about three times per second, and once at the start and at the end.
     fn progress(&mut self, progress: &Progress<'_>) {
         let _ = progress;
     }

@@ -62,7 +62,7 @@ pub enum ProblemError {
         index: usize,
     },
     /// A frame that shows no part of the world.
-    #[error("goal {index} is at {meters_per_pixel} metres a pixel, expected a positive number")]
+    #[error("goal {index} is at {meters_per_pixel} metres per pixel, expected a positive number")]
     Scale {
         /// Which goal, from 0.
         index: usize,

@@ -56,9 +56,9 @@ impl Wind {
 pub struct Block {
     /// Corners.
     pub vertices: Vec<Vertex>,
-    /// One entry a corner if wind data was asked for, none otherwise.
+    /// One entry per vertex if wind data was asked for, none otherwise.
     pub wind: Vec<Wind>,
-    /// One joint number a corner if a rig was given, none otherwise.
+    /// One joint number per vertex if a rig was given, none otherwise.
     pub joints: Vec<u16>,
     /// Placements of the part's shape, if it is drawn by instances.
     pub instances: Vec<Placement>,

@@ -23,7 +23,7 @@ const MARGIN: f32 = 0.03;
 /// The cards of some trees and the one picture that all of them show.
 #[derive(Clone, Debug)]
 pub struct Billboards {
-    /// A row a tree, a column a side.
+    /// One row per tree, one column per side.
     pub picture: Picture,
     /// The cards of each tree.
     pub cards: Vec<Vec<Card>>,

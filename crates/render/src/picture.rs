@@ -1,6 +1,6 @@
 //! Pictures with colours and opacity.
 
-/// A picture: rows from the top, four bytes a pixel, red, green, blue and alpha (not multiplied).
+/// A picture: rows from the top, four bytes per pixel, red, green, blue and alpha (not multiplied).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// Width in pixels.

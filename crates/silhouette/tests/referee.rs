@@ -1,6 +1,6 @@
 //! The fast path against the referee, for the fifteen species, with leaves and without.
 //!
-//! At 256² the referee has 16 × 16 samples a pixel, at 512² 11 × 11.
+//! At 256² the referee has 16 × 16 samples per pixel, at 512² 11 × 11.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

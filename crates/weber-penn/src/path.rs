@@ -1,4 +1,4 @@
-//! The path of a stem: one point a segment, with handles, turns, tropism and forks.
+//! The path of a stem: one point per segment, with handles, turns, tropism and forks.
 //!
 //! Weber and Penn 1995, §4.1, §4.2 and §4.8; Hewitt 2017, §3.2.1. A fork walks the rest of its
 //! origin's segments.

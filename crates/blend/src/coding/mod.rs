@@ -89,7 +89,7 @@ impl Coding {
         self.kind
     }
 
-    /// The features of a list of values, one a slot, each allowed by its declaration.
+    /// The features of a list of values, one per slot, each allowed by its declaration.
     #[must_use]
     pub fn encode(&self, generator: &dyn Generator, values: &[f64]) -> Code {
         let mut code = vec![None; self.features.len()];

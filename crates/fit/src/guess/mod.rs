@@ -78,7 +78,7 @@ impl FirstGuess {
 pub struct Guess {
     /// The candidate that it is, or is a variation of.
     pub name: String,
-    /// One value a slot, resized to the goal's height.
+    /// One value per slot, resized to the goal's height.
     pub values: Vec<f64>,
     /// Its score with the problem's tree seed.
     pub score: Score,

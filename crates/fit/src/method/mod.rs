@@ -87,7 +87,7 @@ pub enum Start {
     /// From random parameter lists.
     #[default]
     Random,
-    /// From these lists, best guess first, one value a slot. At least one.
+    /// From these lists, best guess first, one value per slot. At least one.
     Lists(Vec<Vec<f64>>),
 }
 

@@ -193,7 +193,7 @@ impl SearchSpace {
         })
     }
 
-    /// Widens the ranges to hold `values`, one a slot: another start.
+    /// Widens the ranges to hold `values`, one per slot: another start.
     ///
     /// # Errors
     /// Values that are not allowed.
@@ -208,7 +208,7 @@ impl SearchSpace {
         Ok(())
     }
 
-    /// Narrows the ranges to what is [plausible](pleach_tree::Param::plausible), unless `start`, one value a slot,
+    /// Narrows the ranges to what is [plausible](pleach_tree::Param::plausible), unless `start`, one value per slot,
     /// has more or less.
     #[must_use]
     pub fn plausible(mut self, start: &[f64]) -> Self {

@@ -43,7 +43,7 @@ pub(crate) fn smooth(low: f32, high: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Smooth bumps between 0 and 1, one a unit each way; in x they repeat after `period`.
+/// Smooth bumps between 0 and 1, one per unit each way; in x they repeat after `period`.
 fn noise(x: f32, y: f32, period: i32) -> f32 {
     let (fx, fy) = (x - x.floor(), y - y.floor());
     let (ix, iy) = (x.floor() as i32, y.floor() as i32);

@@ -73,7 +73,7 @@ impl Crown {
                 let cell = ivec3((i % nx) as i32, (i / nx % ny) as i32, (i / (nx * ny)) as i32);
                 let start = cell.as_vec3() + 0.5;
                 let through = |&(direction, weight): &(Vec3, f32)| {
-                    // Half of the cell itself, then one step a cell.
+                    // Half of the cell itself, then one step per cell.
                     let mut depth = self.index(cell).map_or(0.0, |i| density[i] * 0.5);
                     let mut at = start + direction;
                     while depth < 4.0 {

@@ -1,6 +1,6 @@
 //! Shaded pictures of trees, drawn by the processor.
 //!
-//! A depth buffer finds the nearest triangle of each sample, nine samples a pixel; each sample is then
+//! A depth buffer finds the nearest triangle of each sample, nine samples per pixel; each sample is then
 //! lit by a sun with shadows and by a sky that the crown hides in part. The same tree, palette and
 //! settings give the same picture, for any number of threads.
 

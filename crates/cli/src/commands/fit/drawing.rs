@@ -61,7 +61,7 @@ impl Drawn {
         files::write_whole(overlay, |file| Ok(picture.write_png(file)?))
     }
 
-    /// Writes a shaded picture of `size` pixels a side: a silhouette hides absurd stems and leaves.
+    /// Writes a shaded picture of `size` × `size` pixels: a silhouette hides absurd stems and leaves.
     pub(super) fn write_render(&self, path: &Path, size: u32) -> anyhow::Result<()> {
         let mut tree = self.tree.clone();
         let palette = Palette::new(&self.species, None);

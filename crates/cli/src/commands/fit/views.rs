@@ -143,7 +143,7 @@ pub(super) struct ViewScore {
 }
 
 impl Picture {
-    /// Reads the picture, reduced to `most` pixels a side, of a tree of `height` metres.
+    /// Reads the picture, reduced to at most `most` pixels on each side, of a tree of `height` metres.
     pub(super) fn goal_view(&self, height: f64, most: u32, free_frame: bool) -> anyhow::Result<GoalView> {
         let options = GoalOptions { max_side: Some(most), ..GoalOptions::default() };
         let goal = Goal::load(&self.file, &options)?;

@@ -36,7 +36,7 @@ pub(crate) struct MaskCommand {
     /// The photographs: PNG, JPEG, WebP or TIFF; - for standard input
     #[arg(value_name = "PHOTO", required = true)]
     photos: Vec<PathBuf>,
-    /// The mask to write: a PNG of the photograph's size, black tree on white, one bit a pixel; - for
+    /// The mask to write: a PNG of the photograph's size, black tree on white, one bit per pixel; - for
     /// standard output. A folder, such as masks/, for several photographs
     #[arg(short, long, value_name = "FILE|DIR/")]
     out: PathBuf,
