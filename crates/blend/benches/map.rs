@@ -7,7 +7,7 @@ use std::hint::black_box;
 
 fn points(criterion: &mut Criterion) {
     let species: Vec<Species> =
-        pleach_generators::names().into_iter().filter_map(pleach_generators::preset).take(15).collect();
+        pleach_generators::HEWITT_2017.iter().filter_map(|name| pleach_generators::preset(name)).collect();
     let one = species[7].clone();
     let map = BlendMap::new(species, Settings::default()).expect("the known species have a map");
     let middle = map.between(0, 1, 0.37).expect("two dots");

@@ -1,6 +1,7 @@
 //! Why there is no map or no blend.
 
 use crate::plane::readable;
+use pleach_tree::ModelId;
 
 /// Why there is no map or no blend.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -13,17 +14,17 @@ pub enum BlendError {
     },
     /// Two species whose parameters cannot be compared.
     #[error(
-        "`{first}` grows by {first_family} and `{second}` by {second_family}: only species of one generator, with the same parameters, blend"
+        "`{first}` grows by {} and `{second}` by {}: only species of one generator, with the same parameters, blend", first_model.family(), different(first_model, second_model)
     )]
     MixedGenerators {
         /// A species.
         first: String,
-        /// Its generator's family.
-        first_family: String,
+        /// Its generator.
+        first_model: ModelId,
         /// Another species.
         second: String,
-        /// Its generator's family.
-        second_family: String,
+        /// Its generator.
+        second_model: ModelId,
     },
     /// Every species has the same parameters.
     #[error("`{first}` and `{second}` have the same parameters: there is nothing between them")]
@@ -89,4 +90,10 @@ pub enum BlendError {
         /// What the library said.
         message: String,
     },
+}
+
+/// What `second` is called beside `first`, which it is not the same as.
+fn different(first: &ModelId, second: &ModelId) -> String {
+    let family = second.family();
+    if family == first.family() { format!("another model of {family}") } else { family.to_owned() }
 }

@@ -2,8 +2,10 @@
 
 use crate::coding::{Code, Coding, Features};
 use crate::error::BlendError;
+use pleach_tree::param::Effect;
 use pleach_tree::species::Appearance;
-use pleach_tree::{CheckedParams, Kind, ParamSpace, Species};
+use pleach_tree::{CheckedParams, ParamSpace, Slot, Species};
+use std::sync::Arc;
 
 /// How much of each landmark is in a blend: 0 or more each, 1 together.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,10 +76,10 @@ pub struct Landmarks {
     species: Vec<Species>,
     coding: Coding,
     codes: Vec<Code>,
-    /// Whether a landmark reads a slot: `reads[landmark][slot]`.
-    reads: Vec<Vec<bool>>,
-    /// Whether a slot changes in steps, with all others that deal parts out.
-    deals: Vec<bool>,
+    /// Whether a slot matters to a landmark: `active[landmark][slot]`.
+    active: Vec<Vec<bool>>,
+    /// Whether a slot changes in steps, with all others that arrange parts.
+    arranges: Vec<bool>,
 }
 
 impl Landmarks {
@@ -92,12 +94,12 @@ impl Landmarks {
         };
         let space = first.generator.space();
         for (i, other) in species.iter().enumerate() {
-            if other.generator.family() != first.generator.family() || other.generator.space() != space {
+            if other.generator.model() != first.generator.model() || other.generator.space() != space {
                 return Err(BlendError::MixedGenerators {
                     first: first.name.clone(),
-                    first_family: first.generator.family().to_owned(),
+                    first_model: first.generator.model(),
                     second: other.name.clone(),
-                    second_family: other.generator.family().to_owned(),
+                    second_model: other.generator.model(),
                 });
             }
             if species[..i].iter().any(|earlier| earlier.name == other.name) {
@@ -109,19 +111,17 @@ impl Landmarks {
             return Err(BlendError::AllAlike { first, second });
         }
         let values: Vec<&[f64]> = species.iter().map(|s| s.params.values()).collect();
-        let coding = Coding::new(features, space, first.generator.as_ref(), &values);
+        let coding = Coding::new(features, space, &values);
         let codes = species.iter().map(|s| coding.encode(s.generator.as_ref(), s.params.values())).collect();
-        let reads_of = |s: &Species| {
-            let read = |slot| features == Features::Raw || s.generator.reads(s.params.values(), slot);
-            (0..space.len()).map(read).collect()
+        let active_of = |s: &Species| {
+            let is_active =
+                |slot| features == Features::Raw || s.generator.is_active(s.params.values(), slot);
+            space.slots().map(is_active).collect()
         };
-        let reads = species.iter().map(reads_of).collect();
-        let deals_of = |slot: usize| {
-            let is_choice = matches!(space.kind_of(slot), Kind::Choice { .. });
-            features == Features::Declared && !is_choice && first.generator.redeals(slot)
-        };
-        let deals = (0..space.len()).map(deals_of).collect();
-        Ok(Self { species, coding, codes, reads, deals })
+        let active = species.iter().map(active_of).collect();
+        let arranges = |slot| features == Features::Declared && space.effect_of(slot) == Effect::Layout;
+        let arranges = space.slots().map(arranges).collect();
+        Ok(Self { species, coding, codes, active, arranges })
     }
 
     /// The species, in the order given.
@@ -144,7 +144,7 @@ impl Landmarks {
 
     /// The parameters that all of them share.
     #[must_use]
-    pub fn space(&self) -> &ParamSpace {
+    pub fn space(&self) -> &Arc<ParamSpace> {
         self.species[0].generator.space()
     }
 
@@ -216,8 +216,8 @@ impl Landmarks {
     /// The blend of the landmarks: valid parameters.
     ///
     /// Real numbers change gradually with the weights. Choices and signs take the side with more
-    /// weight among those landmarks to which they matter. Counts, and other numbers that deal the parts
-    /// of a tree out anew ([`pleach_tree::Generator::redeals`]), change together, by the nearest weights
+    /// weight among those landmarks to which they matter. Counts, and other numbers that arrange the
+    /// parts of a tree anew ([`Effect::Layout`]), change together, by the nearest weights
     /// in [thirds](Weights::in_thirds): of 250 branches each one more would shuffle all the others, so
     /// they come in three larger steps with peace in between. A slot on which all landmarks with weight
     /// agree keeps their number bit for bit, so all weight on one landmark gives that landmark exactly.
@@ -232,29 +232,30 @@ impl Landmarks {
         &self,
         weights: &Weights,
         features: &[Option<f64>],
-        moved: impl Fn(usize) -> bool,
+        moved: impl Fn(Slot) -> bool,
     ) -> CheckedParams {
         let space = self.space();
         let whole = weights.in_thirds();
         let whole_features = self.average(&whole);
         let dominant = weights.dominant();
         let mut params = self.species[dominant].params.clone();
-        let values = (0..space.len())
+        let values = space
+            .slots()
             .map(|slot| {
-                let dealt = self.deals[slot] && !moved(slot);
+                let arranges = self.arranges[slot.index()] && !moved(slot);
                 let (weights, features) =
-                    if dealt { (&whole, whole_features.as_slice()) } else { (weights, features) };
-                let mut readers = weights.present().filter(|(l, _)| self.reads[*l][slot]);
-                // What nobody reads is nobody's concern: the number of the nearest species.
-                let Some((one, _)) = readers.next() else { return params.values()[slot] };
-                let value = |landmark: usize| self.species[landmark].params.values()[slot];
-                if !moved(slot) && readers.all(|(l, _)| value(l).to_bits() == value(one).to_bits()) {
+                    if arranges { (&whole, whole_features.as_slice()) } else { (weights, features) };
+                let mut active = weights.present().filter(|(l, _)| self.active[*l][slot.index()]);
+                // Where it matters to none of them, the number of the nearest species will do.
+                let Some((one, _)) = active.next() else { return params.get(slot) };
+                let value = |landmark: usize| self.species[landmark].params.get(slot);
+                if !moved(slot) && active.all(|(l, _)| value(l).to_bits() == value(one).to_bits()) {
                     return value(one);
                 }
                 self.coding.decode(space, slot, features).unwrap_or_else(|| value(dominant))
             })
             .collect::<Vec<f64>>();
-        params.set(space, &values).expect("decoded values are repaired by their kinds");
+        params.set(&values).expect("decoded values are repaired by their kinds");
         params
     }
 
@@ -297,7 +298,7 @@ mod tests {
     }
 
     fn value(params: &CheckedParams, landmarks: &Landmarks, slot: &str) -> f64 {
-        params.values()[landmarks.space().select(slot).unwrap()[0]]
+        params.get(landmarks.space().select(slot).unwrap()[0])
     }
 
     #[test]
@@ -397,6 +398,13 @@ mod tests {
             one(vec![species("palm"), species("palm")]),
             BlendError::SameName { name: "palm".to_owned() }
         );
+        let solid =
+            "name = \"cut\"\nprune_obstacles = [{ shape = \"sphere\", center = [0, 0, 9], radius = 1 }]";
+        let cut = pleach_generators::read_text("cut", solid).unwrap();
+        let other = Species { name: "twice".to_owned(), ..cut.clone() };
+        let mixed = one(vec![species("palm"), cut.clone()]);
+        assert!(mixed.to_string().contains("weber-penn and `cut` by another model of weber-penn"), "{mixed}");
+        assert!(matches!(one(vec![cut, other]), BlendError::AllAlike { .. }), "the same solids go together");
         let mut twin = species("palm");
         twin.name = "twin".to_owned();
         let (first, second) = ("palm".to_owned(), "twin".to_owned());

@@ -6,7 +6,7 @@ use crate::landmarks::{Landmarks, Weights};
 use crate::natural::Natural;
 use crate::pca::Pca;
 use crate::plane::{Hull, Point};
-use pleach_tree::{CheckedParams, Species};
+use pleach_tree::{CheckedParams, Slot, Species};
 
 /// What a map is made by.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -147,7 +147,7 @@ impl BlendMap {
         for (f, feature) in features.iter_mut().enumerate() {
             *feature = feature.map(|value| value + shift(f));
         }
-        let moved = |slot: usize| self.landmarks.coding().features_of(slot).any(|f| shift(f) != 0.0);
+        let moved = |slot: Slot| self.landmarks.coding().features_of(slot).any(|f| shift(f) != 0.0);
         self.landmarks.decode(weights, &features, moved)
     }
 
@@ -157,7 +157,7 @@ impl BlendMap {
     /// its dot. On another layout it is the mean of the dots, those of similar parameters counting
     /// most (Shepard's weights, the fourth power of the inverse distance).
     ///
-    /// Numbers that the species does not read say nothing about it.
+    /// Numbers that are not active in the species say nothing about it.
     #[must_use]
     pub fn locate(&self, species: &Species) -> Point {
         let code = self.landmarks.coding().encode(species.generator.as_ref(), species.params.values()).values;
@@ -210,7 +210,10 @@ impl BlendMap {
     #[must_use]
     pub fn heaviest(&self, axis: usize) -> Vec<Loading> {
         let coding = self.landmarks.coding();
-        let mut loadings: Vec<Loading> = (0..self.landmarks.space().len())
+        let mut loadings: Vec<Loading> = self
+            .landmarks
+            .space()
+            .slots()
             .map(|slot| {
                 let parts = coding.features_of(slot).map(|f| (f, self.pca.loading(axis, f)));
                 let (mut weight, mut main) = (0.0, (coding.features_of(slot).start, 0.0_f64));
@@ -232,7 +235,7 @@ impl BlendMap {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loading {
     /// The slot.
-    pub slot: usize,
+    pub slot: Slot,
     /// Length of the slot's part of the axis, 0 to 1; the squares of all slots sum to 1.
     pub weight: f64,
     /// The slot's feature with the largest loading.

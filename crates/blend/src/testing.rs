@@ -4,7 +4,7 @@ use pleach_tree::Species;
 
 /// The fifteen species of the dissertation, in its order.
 pub(crate) fn fifteen() -> Vec<Species> {
-    pleach_generators::names()[..15].iter().map(|name| species(name)).collect()
+    pleach_generators::HEWITT_2017.iter().map(|name| species(name)).collect()
 }
 
 pub(crate) fn species(name: &str) -> Species {

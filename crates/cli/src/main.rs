@@ -3,6 +3,7 @@
 //! Results go to standard output, progress and messages to standard error. Exit codes: 0 done, 1
 //! failed, 2 wrong usage, 130 stopped by ctrl-C or SIGTERM.
 
+mod choice;
 mod commands;
 mod help;
 mod input;

@@ -1,35 +1,40 @@
 //! Files that appear whole or not at all.
 
 use anyhow::Context;
-use std::io::{Cursor, Seek, Write};
+use std::io::{BufWriter, Cursor, IntoInnerError, Seek, Write};
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// Writes `path` through a temporary file beside it, so that a full disk or a killed program never
 /// leaves half a file or spoils a good one.
 pub fn write_whole(
     path: &Path,
-    write: impl FnOnce(&mut std::io::BufWriter<std::fs::File>) -> anyhow::Result<()>,
+    write: impl FnOnce(&mut BufWriter<NamedTempFile>) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
     let what = || format!("cannot write {}", path.display());
     if path.is_dir() {
         anyhow::bail!("{} is a folder, expected a file", path.display());
     }
-    let mut name = path.file_name().with_context(what)?.to_owned();
-    name.push(format!(".{}.tmp", std::process::id()));
-    let temporary = path.with_file_name(name);
     let result = (|| {
-        let mut file = std::io::BufWriter::new(std::fs::File::create(&temporary)?);
+        let mut file = BufWriter::new(beside(path)?);
         write(&mut file)?;
-        file.flush()?;
-        file.into_inner().map_err(std::io::IntoInnerError::into_error)?.sync_all()?;
-        std::fs::rename(&temporary, path)?;
+        let file = file.into_inner().map_err(IntoInnerError::into_error)?;
+        file.as_file().sync_all()?;
+        file.persist(path)?;
         anyhow::Ok(())
     })();
-    if result.is_err() {
-        // The first error is the one to tell.
-        let _ = std::fs::remove_file(&temporary);
-    }
     result.with_context(what)
+}
+
+/// An empty file in the folder of `path`, which goes away unless it is persisted.
+fn beside(path: &Path) -> std::io::Result<NamedTempFile> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(path.file_name().unwrap_or_default()).suffix(".tmp");
+    // As any new file: a temporary one would be its owner's alone.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder.unwrap_or(Path::new(".")))
 }
 
 /// Writes `text` to `path`, whole or not at all.
@@ -75,4 +80,37 @@ pub fn write_out(path: &Path, write: impl FnOnce(&mut dyn Out) -> anyhow::Result
     let mut out = std::io::stdout().lock();
     out.write_all(buffer.get_ref())?;
     Ok(out.flush()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_written_whole_or_stays_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        write_text(&path, "one").unwrap();
+        let failed = write_whole(&path, |file| {
+            file.write_all(b"two")?;
+            anyhow::bail!("the disk is full")
+        });
+        assert!(failed.unwrap_err().to_string().contains("a.txt"));
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "one");
+        // Nothing is left beside it.
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert!(write_text(folder.path(), "a").unwrap_err().to_string().contains("is a folder"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_may_be_read_by_whoever_may_read_new_files() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (ours, plain) = (folder.path().join("ours"), folder.path().join("plain"));
+        write_text(&ours, "a").unwrap();
+        std::fs::write(&plain, "a").unwrap();
+        let mode = |path| std::fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(ours), mode(plain));
+    }
 }

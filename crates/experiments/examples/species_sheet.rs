@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("expected the folder of the reference silhouettes and the picture to write".into());
     };
     let mut cells = Vec::new();
-    for names in pleach_generators::names()[..15].chunks(5) {
+    for names in pleach_generators::HEWITT_2017.chunks(5) {
         for foliage in [true, false] {
             for name in names {
                 let label = if foliage { (*name).replace('_', " ") } else { String::new() };

@@ -1,5 +1,6 @@
 //! Blends of species: seed's §4.4.1 remade, and what it could not do counted.
 
+use super::record::{self, Exact};
 use super::spec::{BlendSpec, species_files};
 use super::{Journal, Kind as Experiment, Outputs, Slice, Table, progress, stop};
 use anyhow::Context;
@@ -8,12 +9,21 @@ use pleach_blend::{Blend, BlendMap, Features, Point, Settings, map};
 use pleach_console::output;
 use pleach_silhouette::score::blurred_iou;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View, picture as sheets};
-use pleach_tree::{Growth, Key, Kind, Limits, Parts, Species, Tree};
+use pleach_tree::{Growth, Key, Kind, Limits, Parts, Slot, Species, Tree};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// One number of one question about one blend, or one group of them.
-const COLUMNS: [&str; 6] = ["question", "first", "second", "method", "measure", "value"];
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+struct Answer {
+    question: String,
+    first: String,
+    second: String,
+    method: String,
+    measure: String,
+    value: Exact,
+}
 
 /// How a blend of two species is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +81,7 @@ impl Maps {
 }
 
 /// Collects rows.
-struct Rows(Vec<Vec<String>>);
+struct Rows(Vec<Answer>);
 
 impl Rows {
     fn add(
@@ -82,8 +92,9 @@ impl Rows {
         measure: &str,
         value: f64,
     ) {
-        let value = format!("{}", (value * 1e6).round() / 1e6);
-        self.0.push([question, first, second, method, measure, &value].map(str::to_owned).to_vec());
+        let [question, first, second, method, measure] =
+            [question, first, second, method, measure].map(str::to_owned);
+        self.0.push(Answer { question, first, second, method, measure, value: Exact::millionths(value) });
     }
 }
 
@@ -96,8 +107,8 @@ const FIGURE: &str = "figure-4.8.png";
 const PALM: &str = "palm.png";
 
 impl Experiment for BlendSpec {
-    fn columns(&self) -> Vec<&'static str> {
-        COLUMNS.to_vec()
+    fn columns(&self) -> anyhow::Result<Vec<String>> {
+        record::columns(&Answer::default())
     }
 
     fn files(&self, _: &Path) -> (Vec<String>, Vec<PathBuf>) {
@@ -115,7 +126,7 @@ impl Experiment for BlendSpec {
                 make(&mut rows)?;
                 Ok(rows.0)
             };
-            journal.job(|row| row[0] == question, rows)
+            journal.job(|row: &Answer| row.question == question, rows)
         };
         job("explained variance", &|rows| {
             explained(&maps, rows);
@@ -135,7 +146,7 @@ impl Experiment for BlendSpec {
         let maps = Maps::of(&self.species()?)?;
         figure(&maps, outputs)?;
         with_palm(&maps, outputs)?;
-        Ok(summary(table))
+        Ok(summary(&table.records()?))
     }
 }
 
@@ -200,30 +211,30 @@ fn out_of_range(raw: &BlendMap, (a, b): (usize, usize), at: f64) -> u32 {
     let point = raw.dots()[a].towards(raw.dots()[b], at);
     let space = raw.landmarks().space();
     let back = raw.pca().back(&[point.x, point.y]);
-    let wrong = |slot: &usize| {
+    let wrong = |slot: &Slot| {
         let (low, high) = space.kind_of(*slot).range();
-        !(low - 1e-9..=high + 1e-9).contains(&back[*slot])
+        !(low - 1e-9..=high + 1e-9).contains(&back[slot.index()])
     };
-    (0..space.len()).filter(wrong).count() as u32
+    space.slots().filter(wrong).count() as u32
 }
 
 /// Numbers that the blend reads and whose choice or sign none of the species that read them has.
 fn foreign_switches(blend: &Species, species: &[Species]) -> u32 {
     let space = blend.generator.space();
     let values = blend.params.values();
-    let side = |slot: usize, value: f64| match space.kind_of(slot) {
+    let side = |slot: Slot, value: f64| match space.kind_of(slot) {
         Kind::Choice { .. } => value,
         kind if kind.is_flagged() && value < 0.0 => -1.0,
         _ => 1.0,
     };
-    let foreign = |slot: &usize| {
-        let readers = species.iter().filter(|s| s.generator.reads(s.params.values(), *slot));
-        let mut sides = readers.map(|s| side(*slot, s.params.values()[*slot])).peekable();
-        blend.generator.reads(values, *slot)
+    let foreign = |slot: &Slot| {
+        let readers = species.iter().filter(|s| s.generator.is_active(s.params.values(), *slot));
+        let mut sides = readers.map(|s| side(*slot, s.params.get(*slot))).peekable();
+        blend.generator.is_active(values, *slot)
             && sides.peek().is_some()
-            && !sides.any(|s| s == side(*slot, values[*slot]))
+            && !sides.any(|s| s == side(*slot, blend.params.get(*slot)))
     };
-    (0..space.len()).filter(foreign).count() as u32
+    space.slots().filter(foreign).count() as u32
 }
 
 /// Tapers that the blend reads and that lie outside the range of those of its two ends that have the
@@ -231,14 +242,14 @@ fn foreign_switches(blend: &Species, species: &[Species]) -> u32 {
 fn wrong_tapers(blend: &Species, ends: [&Species; 2]) -> u32 {
     let space = blend.generator.space();
     let slots = space.select("taper").unwrap_or_default();
-    let wrong = |slot: &&usize| {
+    let wrong = |slot: &&Slot| {
         let slot = **slot;
-        let readers = ends.iter().filter(|s| s.generator.reads(s.params.values(), slot));
+        let readers = ends.iter().filter(|s| s.generator.is_active(s.params.values(), slot));
         let (low, high) = readers
-            .map(|s| s.params.values()[slot])
+            .map(|s| s.params.get(slot))
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-        let value = blend.params.values()[slot];
-        blend.generator.reads(blend.params.values(), slot)
+        let value = blend.params.get(slot);
+        blend.generator.is_active(blend.params.values(), slot)
             && low <= high
             && !(low - 0.051..=high + 0.051).contains(&value)
     };
@@ -407,11 +418,11 @@ impl Line {
 fn switches(one: &Species, two: &Species) -> bool {
     let space = one.generator.space();
     let (a, b) = (one.params.values(), two.params.values());
-    (0..space.len()).any(|slot| {
+    space.slots().any(|slot| {
         let kind = space.kind_of(slot);
-        let read = one.generator.reads(a, slot) || two.generator.reads(b, slot);
-        let sign = kind.is_flagged() && (a[slot] < 0.0) != (b[slot] < 0.0);
-        read && (sign || (kind.is_whole() && a[slot] != b[slot]))
+        let read = one.generator.is_active(a, slot) || two.generator.is_active(b, slot);
+        let sign = kind.is_flagged() && (one.params.get(slot) < 0.0) != (two.params.get(slot) < 0.0);
+        read && (sign || (kind.is_whole() && one.params.get(slot) != two.params.get(slot)))
     })
 }
 
@@ -496,23 +507,24 @@ fn sheet(cells: Vec<(String, Species)>, columns: usize, pixels: u32) -> sheets::
 }
 
 /// Sums and extremes of the table by question, method and measure.
-fn summary(table: &Table) -> String {
+fn summary(answers: &[Answer]) -> String {
     let mut rows =
         vec![["question", "method", "measure", "rows", "sum", "mean", "least"].map(str::to_owned).to_vec()];
-    let mut seen: Vec<[&str; 3]> = Vec::new();
-    for row in table.rows.iter().filter(|r| r[0] != "explained variance") {
-        let key = [row[0].as_str(), row[3].as_str(), row[4].as_str()];
+    let mut seen: Vec<[String; 3]> = Vec::new();
+    let key_of = |row: &'_ Answer| [row.question.clone(), row.method.clone(), row.measure.clone()];
+    for row in answers.iter().filter(|row| row.question != "explained variance") {
+        let key = key_of(row);
         if !seen.contains(&key) {
             seen.push(key);
         }
     }
     for key in seen {
-        let of = table.rows.iter().filter(|r| [r[0].as_str(), r[3].as_str(), r[4].as_str()] == key);
-        let values: Vec<f64> = of.filter_map(|r| r[5].parse().ok()).collect();
+        let of = answers.iter().filter(|row| key_of(row) == key);
+        let values: Vec<f64> = of.map(|row| row.value.0).collect();
         let sum: f64 = values.iter().sum();
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let numbers = [sum, sum / values.len().max(1) as f64, least].map(|v| format!("{v:.3}"));
-        let head = key.map(str::to_owned).into_iter().chain([values.len().to_string()]);
+        let head = key.into_iter().chain([values.len().to_string()]);
         rows.push(head.chain(numbers).collect());
     }
     output::table(&rows, &[3, 4, 5, 6])

@@ -1,6 +1,7 @@
 //! Optimisers against each other on goals.
 
 use super::plot::{Plot, Scale};
+use super::record::{self, Exact, Fixed};
 use super::spec::{FitsSpec, GoalSpec};
 use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use anyhow::Context;
@@ -13,21 +14,30 @@ use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::picture;
 use pleach_silhouette::{Bitmap, Rasterizer, View};
 use pleach_tree::{Growth, Parts};
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-const COLUMNS: [&str; 10] = [
-    "goal",
-    "optimizer",
-    "repetition",
-    "evaluations",
-    "generation",
-    "cost",
-    "accuracy",
-    "iou",
-    "empty_accuracy",
-    "wall_s",
-];
+/// A search at a milestone.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+struct Reached {
+    goal: String,
+    optimizer: String,
+    repetition: u64,
+    evaluations: u64,
+    generation: u64,
+    cost: Exact,
+    accuracy: Exact,
+    iou: Exact,
+    empty_accuracy: Exact,
+    wall_s: Fixed<2>,
+}
+
+impl Reached {
+    fn is_of(&self, goal: &str, optimizer: &str, repetition: u64) -> bool {
+        (self.goal.as_str(), self.optimizer.as_str(), self.repetition) == (goal, optimizer, repetition)
+    }
+}
 
 /// Evaluations at which a row is written: 1, 2, 5, 10, 20, 50, ….
 fn milestones(most: u64) -> Vec<u64> {
@@ -38,8 +48,10 @@ fn milestones(most: u64) -> Vec<u64> {
 }
 
 /// Plots of a goal: the column that is shown, and what it is called in the picture and in its file.
-const PLOTS: [(usize, &str, &str); 2] =
-    [(6, "pixel accuracy", "accuracy"), (7, "intersection over union", "iou")];
+const PLOTS: [(fn(&Reached) -> f64, &str, &str); 2] = [
+    (|row| row.accuracy.0, "pixel accuracy", "accuracy"),
+    (|row| row.iou.0, "intersection over union", "iou"),
+];
 
 fn plot_file(goal: &str, kind: &str) -> String {
     format!("fits/{goal}-{kind}.svg")
@@ -50,8 +62,8 @@ fn sheet_file(goal: &str) -> String {
 }
 
 impl Kind for FitsSpec {
-    fn columns(&self) -> Vec<&'static str> {
-        COLUMNS.to_vec()
+    fn columns(&self) -> anyhow::Result<Vec<String>> {
+        record::columns(&Reached::default())
     }
 
     fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>) {
@@ -80,12 +92,18 @@ impl Kind for FitsSpec {
             for optimizer in &self.optimizers {
                 let optimizer = optimizer.get_ref();
                 for repetition in 1..=repetitions {
-                    let key = [name.clone(), optimizer.text.clone(), repetition.to_string()];
+                    let key = Reached {
+                        goal: name.clone(),
+                        optimizer: optimizer.text.clone(),
+                        repetition,
+                        empty_accuracy: Exact(empty),
+                        ..Reached::default()
+                    };
                     journal.job(
-                        |row| row[..3] == key,
+                        |row: &Reached| row.is_of(&name, &optimizer.text, repetition),
                         || {
                             let outcome = search(&problem, self, &optimizer.value, repetition, evaluations)?;
-                            Ok(self.milestones(&outcome, &key, evaluations, empty))
+                            Ok(self.milestones(&outcome, &key, evaluations))
                         },
                     )?;
                     bar.inc(1);
@@ -100,21 +118,23 @@ impl Kind for FitsSpec {
         let mut rows = vec![
             ["goal", "optimizer", "accuracy", "worst", "IoU", "worst", "seconds"].map(str::to_owned).to_vec(),
         ];
+        let reached: Vec<Reached> = table.records()?;
         for goal in &self.goals {
             let goal = goal.get_ref();
             let name = goal.name();
-            self.plot(outputs, table, &name)?;
-            self.pictures(folder, outputs, goal, table)?;
+            self.plot(outputs, &reached, &name)?;
+            self.pictures(folder, outputs, goal, &reached)?;
             for optimizer in &self.optimizers {
                 let optimizer = &optimizer.get_ref().text;
-                let ends = self.ends(table, &name, optimizer);
-                let sorted = |column: usize| -> Vec<f64> {
-                    let mut values: Vec<f64> =
-                        ends.iter().filter_map(|(_, row)| row[column].parse().ok()).collect();
+                let ends = self.ends(&reached, &name, optimizer);
+                let sorted = |column: fn(&Reached) -> f64| -> Vec<f64> {
+                    let mut values: Vec<f64> = ends.iter().map(|row| column(row)).collect();
                     values.sort_by(f64::total_cmp);
                     values
                 };
-                let (accuracy, iou, seconds) = (sorted(6), sorted(7), sorted(9));
+                let accuracy = sorted(|row| row.accuracy.0);
+                let iou = sorted(|row| row.iou.0);
+                let seconds = sorted(|row| row.wall_s.0);
                 // Searches that are over before their first generation have no rows.
                 let cell = |value: Option<f64>, digits: usize| {
                     value.map_or_else(String::new, |value| format!("{value:.digits$}"))
@@ -142,40 +162,30 @@ impl Kind for FitsSpec {
 }
 
 impl FitsSpec {
-    /// The rows of a search.
-    fn milestones(
-        &self,
-        outcome: &Outcome,
-        key: &[String; 3],
-        evaluations: u64,
-        empty: f64,
-    ) -> Vec<Vec<String>> {
+    /// The rows of a search; what they have in common is in `key`.
+    fn milestones(&self, outcome: &Outcome, key: &Reached, evaluations: u64) -> Vec<Reached> {
         let mut rows = Vec::new();
         for milestone in milestones(*self.evaluations) {
             // A row is a whole generation, the last one within the milestone.
             let row = outcome.history.iter().rfind(|row| row.evaluations <= milestone);
             let Some(row) = row.filter(|_| milestone <= evaluations) else { continue };
-            let numbers = [
-                row.evaluations.to_string(),
-                row.generation.to_string(),
-                row.best_cost.to_string(),
-                row.accuracy.to_string(),
-                row.iou.to_string(),
-                empty.to_string(),
-                format!("{:.2}", row.elapsed_s),
-            ];
-            rows.push(key.iter().cloned().chain(numbers).collect());
+            rows.push(Reached {
+                evaluations: row.evaluations,
+                generation: row.generation,
+                cost: Exact(row.best_cost),
+                accuracy: Exact(row.accuracy),
+                iou: Exact(row.iou),
+                wall_s: Fixed(row.elapsed_s),
+                ..key.clone()
+            });
         }
-        rows.dedup();
+        rows.dedup_by_key(|row| row.generation);
         rows
     }
 
-    /// Where each search of an optimiser ended, with its repetition.
-    fn ends<'a>(&self, table: &'a Table, goal: &str, optimizer: &str) -> Vec<(u64, &'a Vec<String>)> {
-        let end = |repetition: u64| {
-            let is_of = |row: &&Vec<String>| row[..3] == [goal, optimizer, &repetition.to_string()];
-            Some((repetition, table.rows.iter().rfind(is_of)?))
-        };
+    /// Where each search of an optimiser ended.
+    fn ends<'a>(&self, rows: &'a [Reached], goal: &str, optimizer: &str) -> Vec<&'a Reached> {
+        let end = |repetition: u64| rows.iter().rfind(|row| row.is_of(goal, optimizer, repetition));
         (1..=*self.repetitions).filter_map(end).collect()
     }
 }
@@ -220,16 +230,15 @@ fn search(
 
 impl FitsSpec {
     /// Accuracy and IoU over evaluations, a line for each repetition.
-    fn plot(&self, outputs: &Outputs, table: &Table, goal: &str) -> anyhow::Result<()> {
+    fn plot(&self, outputs: &Outputs, rows: &[Reached], goal: &str) -> anyhow::Result<()> {
         for (column, label, kind) in PLOTS {
             let mut plot = Plot::new("evaluations", label, Scale::Log, Scale::Linear);
             for optimizer in &self.optimizers {
                 let optimizer = &optimizer.get_ref().text;
                 for repetition in 1..=*self.repetitions {
-                    let of =
-                        table.rows.iter().filter(|r| r[..3] == [goal, optimizer, &repetition.to_string()]);
+                    let of = rows.iter().filter(|row| row.is_of(goal, optimizer, repetition));
                     let points: Vec<(f64, f64)> =
-                        of.filter_map(|r| Some((r[3].parse().ok()?, r[column].parse().ok()?))).collect();
+                        of.map(|row| (row.evaluations as f64, column(row))).collect();
                     plot.line(&format!("{optimizer} {repetition}"), &points, *optimizer == "hewitt");
                 }
             }
@@ -245,7 +254,7 @@ impl FitsSpec {
         folder: &Path,
         outputs: &Outputs,
         goal: &GoalSpec,
-        table: &Table,
+        rows: &[Reached],
     ) -> anyhow::Result<()> {
         let name = goal.name();
         let problem = problem(folder, goal)?;
@@ -270,10 +279,9 @@ impl FitsSpec {
         }
         for optimizer in &self.optimizers {
             let optimizer = optimizer.get_ref();
-            let mut ends = self.ends(table, &name, &optimizer.text);
-            let cost = |row: &[String]| row[5].parse::<f64>().unwrap_or(f64::INFINITY);
-            ends.sort_by(|a, b| cost(a.1).total_cmp(&cost(b.1)));
-            let Some((repetition, _)) = ends.get(ends.len() / 2) else { continue };
+            let mut ends = self.ends(rows, &name, &optimizer.text);
+            ends.sort_by(|a, b| a.cost.0.total_cmp(&b.cost.0));
+            let Some(Reached { repetition, .. }) = ends.get(ends.len() / 2) else { continue };
             let median = search(&problem, self, &optimizer.value, *repetition, *self.evaluations)?;
             stop::check()?;
             if let Some(best) = median.best {

@@ -1,18 +1,32 @@
 //! Time and size of trees: §4.2.2 and §4.2.3 of the dissertation.
 
 use super::plot::{Plot, Scale};
+use super::record::{self, Fixed};
 use super::spec::{GrowthSpec, species_files};
 use super::{Journal, Kind, Outputs, Slice, Table, progress};
 use pleach_console::output;
 use pleach_tree::{Foliage, Growth, Tree, Workspace};
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Times are the least of this many, since other work can only add to them.
 const TRIES: usize = 3;
 
-const COUNTS: [&str; 5] = ["species", "seed", "stems", "bezier_points", "leaves"];
-const TIMES: [&str; 2] = ["wall_branches_ms", "wall_whole_ms"];
+/// A tree.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+struct Grown {
+    species: String,
+    seed: u64,
+    stems: usize,
+    bezier_points: usize,
+    /// Blossoms too.
+    leaves: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wall_branches_ms: Option<Fixed<4>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wall_whole_ms: Option<Fixed<4>>,
+}
 
 /// A figure of every tree of a species.
 type Figures = Vec<(String, Vec<f64>)>;
@@ -22,9 +36,9 @@ const FOLIAGE_PLOT: &str = "foliage.svg";
 const COUNTS_PLOT: &str = "complexity.svg";
 
 impl Kind for GrowthSpec {
-    fn columns(&self) -> Vec<&'static str> {
-        let times = if self.timed { &TIMES[..] } else { &[] };
-        [&COUNTS, times].concat()
+    fn columns(&self) -> anyhow::Result<Vec<String>> {
+        let time = self.timed.then(Fixed::default);
+        record::columns(&Grown { wall_branches_ms: time, wall_whole_ms: time, ..Grown::default() })
     }
 
     fn files(&self, _: &Path) -> (Vec<String>, Vec<PathBuf>) {
@@ -42,9 +56,8 @@ impl Kind for GrowthSpec {
             let name = name.get_ref().as_str();
             let species = pleach_generators::species(name)?;
             for seed in 1..=seeds {
-                let key = [name.to_owned(), seed.to_string()];
                 journal.job(
-                    |row| row[..2] == key,
+                    |row: &Grown| (row.species.as_str(), row.seed) == (name, seed),
                     || {
                         let mut grow = |foliage: Foliage| -> anyhow::Result<f64> {
                             let mut least = f64::INFINITY;
@@ -63,12 +76,15 @@ impl Kind for GrowthSpec {
                         };
                         let branches = if self.timed { Some(grow(Foliage::None)?) } else { None };
                         let whole = grow(Foliage::All)?;
-                        let counts =
-                            [tree.stems.len(), tree.knots.len(), tree.leaves.len() + tree.blossoms.len()];
-                        let times = branches.map(|branches| [branches, whole]);
-                        let times = times.iter().flatten().map(|ms| format!("{ms:.4}"));
-                        let row = key.iter().cloned().chain(counts.map(|n| n.to_string())).chain(times);
-                        Ok(vec![row.collect()])
+                        Ok(vec![Grown {
+                            species: name.to_owned(),
+                            seed,
+                            stems: tree.stems.len(),
+                            bezier_points: tree.knots.len(),
+                            leaves: tree.leaves.len() + tree.blossoms.len(),
+                            wall_branches_ms: branches.map(Fixed),
+                            wall_whole_ms: branches.map(|_| Fixed(whole)),
+                        }])
                     },
                 )?;
                 bar.inc(1);
@@ -79,16 +95,19 @@ impl Kind for GrowthSpec {
     }
 
     fn report(&self, _: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
-        let column = |c: usize| -> Figures {
-            let of = |name: &str| {
-                table.rows.iter().filter(|row| row[0] == name).filter_map(|r| r[c].parse().ok()).collect()
-            };
+        let rows: Vec<Grown> = table.records()?;
+        let column = |value: fn(&Grown) -> Option<f64>| -> Figures {
+            let of = |name: &str| rows.iter().filter(|row| row.species == name).filter_map(value).collect();
             self.species.iter().map(|name| (name.get_ref().to_string(), of(name.get_ref()))).collect()
         };
+        let points = column(|row| Some(row.bezier_points as f64));
+        let leaves = column(|row| Some(row.leaves as f64));
         if self.timed {
-            times(outputs, &column(3), &column(4), &column(5), &column(6))
+            let branches = column(|row| Some(row.wall_branches_ms?.0));
+            let whole = column(|row| Some(row.wall_whole_ms?.0));
+            times(outputs, &points, &leaves, &branches, &whole)
         } else {
-            counts(outputs, &column(3), &column(4))
+            counts(outputs, &points, &leaves)
         }
     }
 }

@@ -4,6 +4,7 @@
 //! neither ctrl-C nor a kill loses one. The first line names the `experiment.toml` that they are of.
 //! A line that a kill has cut short is left out when the file is read.
 
+use super::record::{self, Record};
 use super::table::{Row, Table};
 use super::{Part, stop};
 use anyhow::{Context, bail};
@@ -15,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 /// Rows of a run or of a check.
 pub(super) struct Journal {
-    columns: Vec<&'static str>,
+    columns: Vec<String>,
     rows: Vec<Row>,
     /// Rows of finished jobs whose turn has not come.
     known: Vec<Row>,
@@ -36,17 +37,12 @@ pub(super) fn path(folder: &Path) -> PathBuf {
 
 impl Journal {
     /// A journal that keeps nothing.
-    pub(super) fn unkept(columns: &[&'static str]) -> Self {
+    pub(super) fn unkept(columns: &[String]) -> Self {
         Self { columns: columns.to_vec(), rows: Vec::new(), known: Vec::new(), kept: None }
     }
 
     /// The journal of a run in `folder` of what `spec` says, with what an earlier one has left.
-    pub(super) fn open(
-        folder: &Path,
-        spec: &str,
-        columns: &[&'static str],
-        part: &Part,
-    ) -> anyhow::Result<Self> {
+    pub(super) fn open(folder: &Path, spec: &str, columns: &[String], part: &Part) -> anyhow::Result<Self> {
         let path = path(folder);
         let head = head(spec);
         let mut known = Vec::new();
@@ -83,15 +79,22 @@ impl Journal {
     }
 
     /// Takes over rows that are not run again, but for those that an unfinished run has left as well.
-    pub(super) fn know(
+    pub(super) fn know<R: Record>(
         &mut self,
-        mut rows: Vec<Row>,
-        is_same: impl Fn(&[String], &[String]) -> bool,
+        mut rows: Vec<R>,
+        is_same: impl Fn(&R, &R) -> bool,
     ) -> anyhow::Result<()> {
-        rows.retain(|row| !self.known.iter().any(|known| is_same(known, row)));
+        let known: Vec<R> = self.known.iter().filter_map(|row| self.read(row)).collect();
+        rows.retain(|row| !known.iter().any(|known| is_same(known, row)));
+        let rows = rows.iter().map(record::to_row).collect::<anyhow::Result<Vec<Row>>>()?;
         self.keep(&rows)?;
         self.known.extend(rows);
         Ok(())
+    }
+
+    /// What an earlier run has left as a struct, if it is one.
+    fn read<R: Record>(&self, row: &Row) -> Option<R> {
+        record::from_row(row, &self.columns).ok()
     }
 
     /// Adds rows to the file.
@@ -110,12 +113,15 @@ impl Journal {
 
     /// The rows of a job, those that `is_of` holds for: what an earlier run has left of them, or what
     /// `make` gives. None are made once the experiment is to end.
-    pub(super) fn job(
+    pub(super) fn job<R: Record>(
         &mut self,
-        is_of: impl Fn(&[String]) -> bool,
-        make: impl FnOnce() -> anyhow::Result<Vec<Row>>,
+        is_of: impl Fn(&R) -> bool,
+        make: impl FnOnce() -> anyhow::Result<Vec<R>>,
     ) -> anyhow::Result<()> {
-        let known: Vec<Row> = self.known.extract_if(.., |row| is_of(row)).collect();
+        let (known, others): (Vec<Row>, Vec<Row>) = std::mem::take(&mut self.known)
+            .into_iter()
+            .partition(|row| self.read(row).is_some_and(|record| is_of(&record)));
+        self.known = others;
         if !known.is_empty() {
             self.rows.extend(known);
             return Ok(());
@@ -128,7 +134,7 @@ impl Journal {
         if stop::is_raised() {
             return Err(self.interrupted());
         }
-        let made = made?;
+        let made = made?.iter().map(record::to_row).collect::<anyhow::Result<Vec<Row>>>()?;
         self.keep(&made)?;
         self.rows.extend(made);
         Ok(())

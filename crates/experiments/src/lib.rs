@@ -12,6 +12,7 @@ mod list;
 mod needle;
 mod outputs;
 mod plot;
+mod record;
 mod robustness;
 mod spec;
 mod stop;
@@ -61,7 +62,10 @@ impl Slice {
 /// A kind of experiments.
 trait Kind {
     /// The columns of its results.
-    fn columns(&self) -> Vec<&'static str>;
+    ///
+    /// # Errors
+    /// If they cannot be told, a mistake in the kind.
+    fn columns(&self) -> anyhow::Result<Vec<String>>;
 
     /// What it writes beside the results, and what it reads: paths in and from `folder`.
     fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>);
@@ -97,7 +101,7 @@ pub fn run(folder: &Path, part: &Part) -> anyhow::Result<String> {
     let source = Source::read(folder)?;
     let spec = source.spec()?;
     let kind = spec.kind();
-    let columns = kind.columns();
+    let columns = kind.columns()?;
     let (written, read) = kind.files(folder);
     let outputs = Outputs::declare(folder, written, read)?;
     let kept = match (&spec, part.methods.is_empty()) {
@@ -106,7 +110,7 @@ pub fn run(folder: &Path, part: &Part) -> anyhow::Result<String> {
         (_, false) => bail!("--method is for experiments of kind treefit"),
     };
     let mut journal = Journal::open(folder, &source.text, &columns, part)?;
-    journal.know(kept, treefit::is_same)?;
+    journal.know(kept, treefit::Fit::is_same)?;
     kind.rows(folder, Slice::default(), &mut journal).map_err(|error| journal.told(error))?;
     let table = journal.table();
     // Pictures may take a while as well: rows stay in the journal until all is written.
@@ -123,7 +127,7 @@ pub fn run(folder: &Path, part: &Part) -> anyhow::Result<String> {
 pub fn check(folder: &Path, slice: Slice) -> anyhow::Result<usize> {
     let spec = Source::read(folder)?.spec()?;
     let kind = spec.kind();
-    let mut journal = Journal::unkept(&kind.columns());
+    let mut journal = Journal::unkept(&kind.columns()?);
     kind.rows(folder, slice, &mut journal)?;
     let table = journal.table();
     table.check(&folder.join("results.csv"))?;

@@ -31,7 +31,7 @@ pub fn of(folder: &Path) -> anyhow::Result<String> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         // One that cannot be read does not hide the others.
         let (kind, question) = match Source::read(&path).and_then(|source| source.head()) {
-            Ok(head) => (format!("{:?}", head.kind).to_lowercase(), head.question),
+            Ok(head) => (head.kind.name().to_owned(), head.question),
             Err(error) => (String::new(), output::causes(&error, ": ")),
         };
         rows.push(vec![name, kind, question.split_whitespace().collect::<Vec<_>>().join(" ")]);

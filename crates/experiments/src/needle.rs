@@ -1,6 +1,7 @@
 //! How near to the truth parameters must be before their tree lies on the goal's.
 
 use super::plot::{Plot, Scale};
+use super::record::{self, Exact, Fixed};
 use super::spec::{Source, species_files};
 use super::within::{List, Part, Real, SpeciesName, Whole};
 use super::{Journal, Kind, Outputs, Slice, Table, progress};
@@ -14,14 +15,27 @@ use pleach_fit::{
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::{Parts, Species};
-use serde::Deserialize;
 use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Spanned;
 
-const COLUMNS: [&str; 8] =
-    ["species", "distance", "moved", "iou", "iou_sd", "pixel_accuracy", "empty_accuracy", "best_ellipse_iou"];
+/// Trees of lists at a distance from the truth.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+struct Around {
+    species: String,
+    /// Standard deviation of the moves, as a part of the search range.
+    distance: Exact,
+    /// Numbers that move.
+    moved: usize,
+    /// Means over lists.
+    iou: Fixed<4>,
+    iou_sd: Fixed<4>,
+    pixel_accuracy: Fixed<4>,
+    empty_accuracy: Fixed<4>,
+    best_ellipse_iou: Fixed<4>,
+}
 
 /// Side of every goal in pixels.
 const SIZE: u32 = 256;
@@ -56,8 +70,8 @@ impl NeedleSpec {
 }
 
 impl Kind for NeedleSpec {
-    fn columns(&self) -> Vec<&'static str> {
-        COLUMNS.to_vec()
+    fn columns(&self) -> anyhow::Result<Vec<String>> {
+        record::columns(&Around::default())
     }
 
     fn files(&self, _: &Path) -> (Vec<String>, Vec<PathBuf>) {
@@ -70,7 +84,10 @@ impl Kind for NeedleSpec {
         let bar = progress("species", species.len() as u64);
         for name in species {
             let name = name.get_ref().as_str();
-            journal.job(|row| row[0] == name, || rows_of(&pleach_generators::species(name)?, name, self))?;
+            journal.job(
+                |row: &Around| row.species == name,
+                || rows_of(&pleach_generators::species(name)?, name, self),
+            )?;
             bar.inc(1);
         }
         bar.finish_and_clear();
@@ -80,6 +97,7 @@ impl Kind for NeedleSpec {
     fn report(&self, _: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
         let mut plot =
             Plot::new("distance of every number, part of its range", "IoU", Scale::Log, Scale::Linear);
+        let rows: Vec<Around> = table.records()?;
         let mut lines = vec![
             std::iter::once("IoU at distance".to_owned())
                 .chain(self.distances.iter().map(|distance| distance.get_ref().to_string()))
@@ -88,14 +106,13 @@ impl Kind for NeedleSpec {
         ];
         for name in &self.species {
             let name = name.get_ref().as_str();
-            let of: Vec<&Vec<String>> = table.rows.iter().filter(|row| row[0] == name).collect();
-            let points: Vec<(f64, f64)> =
-                of.iter().filter_map(|row| Some((row[1].parse().ok()?, row[3].parse().ok()?))).collect();
+            let of: Vec<&Around> = rows.iter().filter(|row| row.species == name).collect();
+            let points: Vec<(f64, f64)> = of.iter().map(|row| (row.distance.0, row.iou.0)).collect();
             plot.line(name, &points, false);
             let mut line = vec![name.to_owned()];
             line.extend(points.iter().map(|(_, iou)| format!("{iou:.2}")));
-            let last = of.last().map_or(&[][..], |row| row.as_slice());
-            line.extend([7, 2].map(|at| last.get(at).cloned().unwrap_or_default()));
+            let of_all = |row: &&Around| [row.best_ellipse_iou.to_string(), row.moved.to_string()];
+            line.extend(of.last().map(of_all).unwrap_or_default());
             lines.push(line);
         }
         outputs.text(PLOT, &plot.svg())?;
@@ -103,7 +120,7 @@ impl Kind for NeedleSpec {
     }
 }
 
-fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<Vec<Vec<String>>> {
+fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<Vec<Around>> {
     let tree = species.grow(TREE_SEED)?;
     let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIZE, SIZE);
     let mut goal = Bitmap::default();
@@ -122,7 +139,7 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
     let space = SearchSpace::new(Arc::clone(generator), &truth.values, &Freedom::default(), fixed)?;
     // What is switched off, and what another choice would make another tree, stays as it is.
     let is_moved = |gene: &&pleach_fit::space::Gene| {
-        !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_read(&truth.values, gene)
+        !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_active(&truth.values, gene)
     };
     let moved: Vec<_> = space.genes().iter().filter(is_moved).collect();
     let evaluator = Evaluator::new(&problem, Objective::Iou, LIMITS)?.matching_height();
@@ -145,16 +162,16 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
         let mean = scores.iter().map(|score| score.iou).sum::<f64>() / n;
         let squares = scores.iter().map(|score| (score.iou - mean).powi(2)).sum::<f64>();
         let accuracy = scores.iter().map(|score| score.accuracy).sum::<f64>() / n;
-        rows.push(vec![
-            name.to_owned(),
-            distance.to_string(),
-            moved.len().to_string(),
-            format!("{mean:.4}"),
-            format!("{:.4}", (squares / (n - 1.0).max(1.0)).sqrt()),
-            format!("{accuracy:.4}"),
-            format!("{:.4}", evaluator.empty_accuracy()),
-            format!("{ellipse:.4}"),
-        ]);
+        rows.push(Around {
+            species: name.to_owned(),
+            distance: Exact(distance),
+            moved: moved.len(),
+            iou: Fixed(mean),
+            iou_sd: Fixed((squares / (n - 1.0).max(1.0)).sqrt()),
+            pixel_accuracy: Fixed(accuracy),
+            empty_accuracy: Fixed(evaluator.empty_accuracy()),
+            best_ellipse_iou: Fixed(ellipse),
+        });
     }
     Ok(rows)
 }

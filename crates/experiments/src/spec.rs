@@ -47,6 +47,21 @@ pub(super) enum Kind {
     Robustness,
 }
 
+impl Kind {
+    /// The word in `experiment.toml`.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Fits => "fits",
+            Self::Growth => "growth",
+            Self::Blend => "blend",
+            Self::Likeness => "likeness",
+            Self::Treefit => "treefit",
+            Self::Needle => "needle",
+            Self::Robustness => "robustness",
+        }
+    }
+}
+
 /// What every experiment says; the rest is up to its kind.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Head {

@@ -1,5 +1,6 @@
 //! Rows of results under a declared set of columns.
 
+use super::record::{self, Record};
 use anyhow::{Context, bail};
 use std::path::Path;
 
@@ -9,11 +10,16 @@ pub(super) type Row = Vec<String>;
 /// Rows of results under a declared set of columns.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Table {
-    pub(super) columns: Vec<&'static str>,
+    pub(super) columns: Vec<String>,
     pub(super) rows: Vec<Row>,
 }
 
 impl Table {
+    /// The rows as structs.
+    pub(super) fn records<R: Record>(&self) -> anyhow::Result<Vec<R>> {
+        self.rows.iter().map(|row| record::from_row(row, &self.columns)).collect()
+    }
+
     /// Writes the table, whole or not at all.
     pub(super) fn write(&self, path: &Path) -> anyhow::Result<()> {
         pleach_console::files::write_whole(path, |file| {
@@ -25,14 +31,14 @@ impl Table {
     }
 
     /// Reads a table that has these columns.
-    pub(super) fn read(path: &Path, columns: &[&'static str]) -> anyhow::Result<Self> {
+    pub(super) fn read(path: &Path, columns: &[String]) -> anyhow::Result<Self> {
         let text =
             std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
         Self::parse(&text, columns).with_context(|| path.display().to_string())
     }
 
     /// The table in `text`.
-    pub(super) fn parse(text: &str, columns: &[&'static str]) -> anyhow::Result<Self> {
+    pub(super) fn parse(text: &str, columns: &[String]) -> anyhow::Result<Self> {
         let mut csv = csv::Reader::from_reader(text.as_bytes());
         let heading: Row = csv.headers()?.iter().map(str::to_owned).collect();
         if heading != columns {

@@ -279,8 +279,7 @@ impl Evaluator {
             parallel: false,
         };
         let mut grow = |values: &[f64], growth: &Growth, tree: &mut Tree| {
-            params.set(self.generator.space(), values).is_ok()
-                && self.generator.grow(params, growth, workspace, tree).is_ok()
+            params.set(values).is_ok() && self.generator.grow(params, growth, workspace, tree).is_ok()
         };
         values.clone_from(&genome.values);
         if !grow(values, &growth, tree) {
@@ -343,7 +342,7 @@ impl Evaluator {
     ) -> Option<()> {
         self.with_memory(|memory| {
             let EvalWorkspace { params, tree, workspace, fine, .. } = memory;
-            params.set(self.generator.space(), &genome.values).ok()?;
+            params.set(&genome.values).ok()?;
             for number in 0..self.seeds {
                 let growth = Growth {
                     seed: genome.tree_seed.wrapping_add(u64::from(number)),

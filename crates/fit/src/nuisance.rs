@@ -10,6 +10,7 @@ use crate::evaluator::GoalView;
 use crate::space::{Gene, Place};
 use pleach_silhouette::{Frame, View};
 use pleach_tree::Kind;
+use pleach_tree::param::Scale;
 use serde::Serialize;
 
 /// What is not known of a view.
@@ -148,7 +149,10 @@ pub(crate) fn genes(goals: &[GoalView]) -> (Vec<Gene>, Vec<f64>) {
     let numbers = goals.iter().flat_map(|goal| goal.unknown.numbers(&goal.view));
     let gene = |(number, (nuisance, low, high, usual))| {
         let place = Place::Nuisance { number, nuisance };
-        (Gene { place, kind: Kind::Real { min: low, max: high }, low, high }, usual)
+        // Of azimuths none is simpler than another; an error of the frame may be absent.
+        let neutral = (nuisance != Nuisance::Azimuth).then_some(0.0);
+        let kind = Kind::real(low, high);
+        (Gene { place, kind, scale: Scale::Linear, neutral, low, high }, usual)
     };
     numbers.enumerate().map(gene).unzip()
 }

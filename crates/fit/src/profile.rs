@@ -6,6 +6,7 @@ use crate::run::{FitError, search_space};
 use crate::settings::FitSettings;
 use crate::space::{Gene, SearchSpace};
 use crate::stoppable;
+use pleach_tree::Slot;
 use serde::Serialize;
 use std::collections::VecDeque;
 use std::sync::atomic::AtomicBool;
@@ -18,7 +19,7 @@ pub enum Seen {
     Determined,
     /// A fifth of its range does.
     Loosely,
-    /// Neither does, or the tree does not read it.
+    /// Neither does, or the number is not active.
     NotSeen,
 }
 
@@ -26,7 +27,7 @@ pub enum Seen {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     /// The slot in the generator's parameter space.
-    pub slot: usize,
+    pub slot: Slot,
     /// How well it is determined.
     pub seen: Seen,
     /// By how much the cost rises when the number goes down, and up, by [`STEPS`] of its search range;
@@ -55,17 +56,17 @@ pub fn profile(
 ) -> Result<Vec<Profile>, FitError> {
     let (space, evaluator) = prepare(problem, settings)?;
     let mut moves: Vec<Genome> = Vec::new();
-    let mut plan: Vec<(usize, Vec<Move>)> = Vec::new();
+    let mut plan: Vec<(Slot, Vec<Move>)> = Vec::new();
     // They move this tree, and its size can make up for it: a picture does not tell them.
-    let hidden = space.size_variations(&best.genome.values);
+    let hidden = space.hidden_jitters(&best.genome.values);
     // Nuisances stay as they are: they are no parameters of the tree.
     for (gene, slot) in space.genes().iter().filter_map(|gene| Some((gene, gene.slot()?))) {
         let mut of_gene = Vec::new();
-        if !hidden.contains(&slot) && space.is_read(&best.genome.values, gene) {
-            for (place, value) in alternatives(gene, best.genome.values[slot]) {
+        if !hidden.contains(&slot) && space.is_active(&best.genome.values, gene) {
+            for (place, value) in alternatives(gene, gene.of(&best.genome)) {
                 of_gene.push(Move { place, number: moves.len() });
                 let mut genome = best.genome.clone();
-                genome.values[slot] = value;
+                gene.set(&mut genome, value);
                 moves.push(genome);
             }
         }
@@ -137,22 +138,22 @@ pub fn put_back_unseen(
     start: &[f64],
     tolerance: f64,
     stop: &AtomicBool,
-) -> Result<(Scored, Vec<usize>), FitError> {
+) -> Result<(Scored, Vec<Slot>), FitError> {
     let (space, evaluator) = prepare(problem, settings)?;
-    let hidden = space.size_variations(&best.genome.values);
+    let hidden = space.hidden_jitters(&best.genome.values);
     let most = best.score.cost + SPENT_ON_RETURN * tolerance;
     let back = Back { space: &space, evaluator: &evaluator, most, stop };
-    let moved: Vec<(usize, f64)> = profiles
+    let moved: Vec<(Slot, f64)> = profiles
         .iter()
         .filter(|profile| profile.seen == Seen::NotSeen && !hidden.contains(&profile.slot))
-        .map(|profile| (profile.slot, start[profile.slot]))
-        .filter(|&(slot, there)| best.genome.values[slot] != there)
+        .map(|profile| (profile.slot, start[profile.slot.index()]))
+        .filter(|&(slot, there)| best.genome.values[slot.index()] != there)
         .collect();
     let mut kept = best.clone();
     let gone = back.all(&mut kept, moved.clone())?;
     let halves = moved.into_iter().filter(|(slot, _)| !gone.contains(slot)).filter_map(|(slot, there)| {
         let gene = space.genes().iter().find(|gene| gene.slot() == Some(slot))?;
-        let here = kept.genome.values[slot];
+        let here = gene.of(&kept.genome);
         let half = gene.from_unit(gene.to_unit(here).midpoint(gene.to_unit(there)));
         (!gene.is_choice() && half != here).then_some((slot, half))
     });
@@ -173,19 +174,19 @@ struct Back<'a> {
 impl Back<'_> {
     /// Gives slots of `kept` their new values, one after the other, those first that alone cost least;
     /// returns those that had room.
-    fn all(&self, kept: &mut Scored, moves: Vec<(usize, f64)>) -> Result<Vec<usize>, FitError> {
+    fn all(&self, kept: &mut Scored, moves: Vec<(Slot, f64)>) -> Result<Vec<Slot>, FitError> {
         let alone: Vec<Genome> = moves
             .iter()
             .map(|&(slot, value)| {
                 let mut genome = kept.genome.clone();
-                genome.values[slot] = value;
+                genome.values[slot.index()] = value;
                 genome
             })
             .collect();
         let costs = stoppable::map(&alone, self.stop, |genome| {
             let slot = genome.values.iter().zip(&kept.genome.values).position(|(a, b)| a != b);
-            // What is not read leaves the tree and its score as they are.
-            if slot.is_some_and(|slot| self.is_read(&kept.genome, slot)) {
+            // What is not active leaves the tree and its score as they are.
+            if slot.is_some_and(|slot| self.is_active(&kept.genome, Slot::new(slot))) {
                 self.evaluator.score(genome).cost
             } else {
                 kept.score.cost
@@ -193,7 +194,7 @@ impl Back<'_> {
         })?;
         let mut order: Vec<usize> = (0..moves.len()).filter(|&i| costs[i] <= self.most).collect();
         order.sort_by(|&a, &b| costs[a].total_cmp(&costs[b]));
-        let mut waiting: VecDeque<(usize, f64)> = order.into_iter().map(|i| moves[i]).collect();
+        let mut waiting: VecDeque<(Slot, f64)> = order.into_iter().map(|i| moves[i]).collect();
         let mut slots = Vec::new();
         while !waiting.is_empty() {
             let steps = self.steps(&kept.genome, &waiting);
@@ -217,26 +218,26 @@ impl Back<'_> {
         Ok(slots)
     }
 
-    fn is_read(&self, genome: &Genome, slot: usize) -> bool {
+    fn is_active(&self, genome: &Genome, slot: Slot) -> bool {
         let gene = self.space.genes().iter().find(|gene| gene.slot() == Some(slot));
-        gene.is_none_or(|gene| self.space.is_read(&genome.values, gene))
+        gene.is_none_or(|gene| self.space.is_active(&genome.values, gene))
     }
 
     /// The next steps from `from`: as many as there are threads to grow their trees.
     ///
     /// Most numbers that are not seen do go back, so a step is tried before the one before it is known to
     /// be allowed. How many are tried together decides what is done in vain, not what comes of it.
-    fn steps(&self, from: &Genome, waiting: &VecDeque<(usize, f64)>) -> Vec<Step> {
+    fn steps(&self, from: &Genome, waiting: &VecDeque<(Slot, f64)>) -> Vec<Step> {
         let mut genome = from.clone();
         let mut trials = rayon::current_num_threads();
         let mut steps = Vec::new();
         for &(slot, value) in waiting {
-            let is_read = self.is_read(&genome, slot);
+            let is_read = self.is_active(&genome, slot);
             if is_read && trials == 0 {
                 break;
             }
             trials -= usize::from(is_read);
-            genome.values[slot] = value;
+            genome.values[slot.index()] = value;
             steps.push(Step { slot, genome: genome.clone(), is_read });
         }
         steps
@@ -245,7 +246,7 @@ impl Back<'_> {
 
 /// A number that goes back, after all those before it in a list have.
 struct Step {
-    slot: usize,
+    slot: Slot,
     genome: Genome,
     is_read: bool,
 }

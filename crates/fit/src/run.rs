@@ -11,6 +11,7 @@ use crate::search::{Evaluate, FitState, Search, SearchState};
 use crate::settings::{AnyMethod, FitSettings};
 use crate::space::{SearchSpace, SpaceError};
 use argmin::core::{Error, Executor, KV, Problem, Solver, TerminationReason, TerminationStatus};
+use pleach_tree::Slot;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -118,7 +119,7 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
     let fingerprint = parts
         .fold(Fingerprint::default(), |parts, (name, bytes)| parts.with_bytes(name, bytes))
         .with("generator", problem.generator.family())
-        .with_bytes("generator's settings", format!("{:?}", problem.generator))
+        .with_bytes("generator's settings", problem.generator.model().to_string())
         .with("fixed values", &problem.base)
         .with("free parameters", &settings.freedom)
         .with("optimizer", &settings.optimizer)
@@ -153,13 +154,9 @@ pub(crate) fn search_space(problem: &FitProblem, settings: &FitSettings) -> Resu
 ///
 /// # Errors
 /// Those of [`fit`] on the same problem and settings.
-pub fn settled(
-    problem: &FitProblem,
-    settings: &FitSettings,
-    genome: &Genome,
-) -> Result<Vec<usize>, FitError> {
-    let mut slots = search_space(problem, settings)?.size_variations(&genome.values);
-    slots.retain(|&slot| genome.values[slot] == 0.0);
+pub fn settled(problem: &FitProblem, settings: &FitSettings, genome: &Genome) -> Result<Vec<Slot>, FitError> {
+    let mut slots = search_space(problem, settings)?.hidden_jitters(&genome.values);
+    slots.retain(|&slot| genome.values[slot.index()] == 0.0);
     Ok(slots)
 }
 
@@ -221,7 +218,7 @@ impl<'a, 'e> Driver<'a, 'e> {
                 let checkpoint = Checkpoint::<AnyMethod>::read(&file.path, &fingerprint)?;
                 // What was scored has grown, so it is a list of this generator's.
                 if let Some(best) = &checkpoint.search.best
-                    && let Err(error) = space.params().check(best.genome.values.clone())
+                    && let Err(error) = space.params().check_all(&best.genome.values)
                 {
                     let message = format!("its best list: {error}");
                     return Err(CheckpointError::WrongBody { path: file.path.clone(), message }.into());

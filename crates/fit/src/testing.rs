@@ -2,50 +2,36 @@
 
 use crate::genome::{Genome, Score, Size};
 use crate::search::Evaluate;
-use pleach_tree::param::{Kind, Layout, Param, ParamSpace, Unit};
-use std::borrow::Cow;
-
-fn param(name: &'static str, kind: Kind, low: f64, high: f64) -> Param {
-    Param {
-        name: name.into(),
-        layout: Layout::Scalar,
-        kind,
-        search: Cow::Owned(vec![(low, high)]),
-        unit: Unit::Ratio,
-        default: Cow::Owned(vec![low]),
-        group: "test",
-        doc: "for tests".into(),
-        source: "none",
-    }
-}
+use pleach_tree::param::{Kind, Param, ParamSpace};
+use std::sync::Arc;
 
 /// A real number that is searched in `low..=high` and allowed ten times as far.
 pub(crate) fn real(name: &'static str, low: f64, high: f64) -> Param {
     let reach = 10.0 * low.abs().max(high.abs());
-    param(name, Kind::Real { min: -reach, max: reach }, low, high)
+    Param::scalar(name, Kind::real(-reach, reach), low).search([(low, high)]).neutral(0.0)
 }
 
 /// A whole number in `low..=high`.
 pub(crate) fn integer(name: &'static str, low: i64, high: i64) -> Param {
-    param(name, Kind::Integer { min: low, max: high }, low as f64, high as f64)
+    Param::scalar(name, Kind::integer(low, high), low as f64)
 }
 
 /// One of five names, from 0.
 pub(crate) fn choice(name: &'static str) -> Param {
-    param(name, Kind::Choice { first: 0, names: &["a", "b", "c", "d", "e"] }, 0.0, 4.0)
+    Param::scalar(name, Kind::choice(0, ["a", "b", "c", "d", "e"]), 0.0)
 }
 
 /// A switch with a magnitude up to `max`.
 pub(crate) fn flagged(name: &'static str, max: f64) -> Param {
-    param(name, Kind::Flagged { max, negative: "the other way" }, -max, max)
+    Param::scalar(name, Kind::flagged(max, "the other way"), -max).neutral(0.0)
 }
 
-pub(crate) fn params(list: Vec<Param>) -> ParamSpace {
-    ParamSpace::new(list)
+pub(crate) fn params(list: Vec<Param>) -> Arc<ParamSpace> {
+    Arc::new(ParamSpace::new(list).unwrap())
 }
 
 /// `dimensions` real numbers in `low..=high`.
-pub(crate) fn cube(dimensions: usize, low: f64, high: f64) -> ParamSpace {
+pub(crate) fn cube(dimensions: usize, low: f64, high: f64) -> Arc<ParamSpace> {
     const NAMES: [&str; 20] =
         ["a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m", "n", "o", "p", "q", "r", "s", "t"];
     params(NAMES[..dimensions].iter().map(|&name| real(name, low, high)).collect())

@@ -10,6 +10,7 @@ use pleach_fit::{
     Budget, Control, EvalWorkspace, Evaluator, FitError, FitProblem, FitSettings, Freedom, Genome, Objective,
     Score, Scored, Seen, Start, TreeSeed, fit, fresh_seeds, profile, put_back_unseen, settled,
 };
+use pleach_tree::Slot;
 use std::num::NonZeroU32;
 use std::sync::atomic::AtomicBool;
 
@@ -69,20 +70,20 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     // What is not seen goes back to the start, and nothing else does.
     let mut start = problem.base.clone();
     let slot = |name: &str| space.select(name).unwrap()[0];
-    start[slot("length[3]")] = 0.123;
-    start[slot("g_scale")] = 5.0;
+    start[slot("length[3]").index()] = 0.123;
+    start[slot("g_scale").index()] = 5.0;
     let (kept, slots) = put_back_unseen(&problem, &settings, &best, &profiles, &start, 0.05, &GO).unwrap();
     assert_eq!(slots, [slot("length[3]")]);
-    assert_eq!(kept.genome.values[slot("length[3]")], 0.123);
-    assert_eq!(kept.genome.values[slot("g_scale")], problem.base[slot("g_scale")]);
+    assert_eq!(kept.genome.values[slot("length[3]").index()], 0.123);
+    assert_eq!(kept.genome.values[slot("g_scale").index()], problem.base[slot("g_scale").index()]);
     assert_eq!(kept.score.cost, 0.0);
 }
 
 #[test]
 fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
     let problem = goal_of("acer", 2, 64);
-    let slots = problem.generator.size_variations(&problem.base);
-    assert!(slots.iter().any(|&slot| problem.base[slot] != 0.0), "the species has them");
+    let slots: Vec<Slot> = problem.generator.space().size_jitters().collect();
+    assert!(slots.iter().any(|&slot| problem.base[slot.index()] != 0.0), "the species has them");
     let result = |freedom: Freedom, optimizer: &str| {
         let settings = FitSettings {
             optimizer: optimizer.parse().unwrap(),
@@ -94,7 +95,7 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
         let clock = || std::time::Duration::ZERO;
         let stop = std::sync::atomic::AtomicBool::new(false);
         let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
-        let kept: Vec<f64> = slots.iter().map(|&slot| best.genome.values[slot]).collect();
+        let kept: Vec<f64> = slots.iter().map(|&slot| best.genome.values[slot.index()]).collect();
         (kept, settled(&problem, &settings, &best.genome).unwrap(), settings, best)
     };
     let (kept, told, settings, best) = result(Freedom::default(), "evolution");
@@ -104,13 +105,13 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
     assert!(slots.iter().all(|&slot| unseen(slot)));
     // Nor do they go back to the start.
     let (kept, _) = put_back_unseen(&problem, &settings, &best, &profiles, &problem.base, 0.01, &GO).unwrap();
-    assert!(slots.iter().all(|&slot| kept.genome.values[slot] == 0.0));
+    assert!(slots.iter().all(|&slot| kept.genome.values[slot.index()] == 0.0));
 
     // The dissertation's algorithm searches them, and what is fixed stays.
     assert!(result(Freedom::default(), "hewitt").1.is_empty());
     let fixed = Freedom { free: Vec::new(), fix: vec!["g_scale_v".to_owned()] };
     let (kept, told, ..) = result(fixed, "evolution");
-    assert_eq!(kept[0], problem.base[slots[0]]);
+    assert_eq!(kept[0], problem.base[slots[0].index()]);
     assert!(!told.contains(&slots[0]), "{told:?}");
 }
 
@@ -140,7 +141,8 @@ fn going_back_step_by_step_is_the_same_on_any_number_of_threads() {
     let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
     let best = Scored { genome: truth(&problem), score: Score::of_cost(0.0) };
     let space = problem.generator.space();
-    let all: Vec<_> = (0..space.len())
+    let all: Vec<_> = space
+        .slots()
         .map(|slot| pleach_fit::Profile { slot, seen: Seen::NotSeen, rises: [[None; 2]; 2] })
         .collect();
     let start = pleach_generators::preset("hill_cherry").unwrap().params.values().to_vec();
@@ -165,7 +167,7 @@ fn nothing_is_searched_that_nobody_would_draw() {
     let space = problem.generator.space();
     let slot = |name: &str| space.select(name).unwrap()[0];
     // A palm's trunk has rings and its fronds are long: fits that start there keep both.
-    assert!(problem.base[slot("taper[0]")] > 2.0 && problem.base[slot("leaf_scale")] > 0.5);
+    assert!(problem.base[slot("taper[0]").index()] > 2.0 && problem.base[slot("leaf_scale").index()] > 0.5);
     let acer = pleach_generators::preset("acer").unwrap().params.values().to_vec();
     let most = |start: &[f64], optimizer: &str| {
         let settings = FitSettings {
@@ -181,11 +183,11 @@ fn nothing_is_searched_that_nobody_would_draw() {
         let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
         let profiles = profile(&problem, &settings, &best, 0.02, &GO).unwrap();
         assert!(profiles.iter().any(|p| p.slot == slot("taper[1]")));
-        let tapers = space.select("taper").unwrap().into_iter().map(|slot| best.genome.values[slot]);
+        let tapers = space.select("taper").unwrap().into_iter().map(|slot| best.genome.values[slot.index()]);
         tapers.fold(0.0, f64::max)
     };
     for optimizer in ["evolution", "cma", "de"] {
         assert!(most(&acer, optimizer) <= 1.0, "{optimizer}");
-        assert!(most(&problem.base, optimizer) <= problem.base[slot("taper[0]")], "{optimizer}");
+        assert!(most(&problem.base, optimizer) <= problem.base[slot("taper[0]").index()], "{optimizer}");
     }
 }

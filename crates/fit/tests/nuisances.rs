@@ -45,7 +45,7 @@ fn only_nuisances(optimizer: &str, evaluations: u64, problem: &FitProblem) -> Fi
 
 fn groups(problem: &FitProblem) -> Vec<String> {
     let space = problem.generator.space();
-    (0..space.len()).map(|slot| space.slot_name(slot)).collect()
+    space.slots().map(|slot| space.slot_name(slot)).collect()
 }
 
 fn run(problem: &FitProblem, settings: &FitSettings) -> Outcome {

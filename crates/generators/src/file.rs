@@ -1,4 +1,4 @@
-//! Species from files and streams: bounded, and told apart from what is no species at all.
+//! Species from files and streams: bounded, and told apart from files that are not species.
 
 use crate::{RegistryError, read_text};
 use pleach_tree::param::Problem;

@@ -21,6 +21,9 @@ pub fn names() -> Vec<&'static str> {
     families().iter().flat_map(|family| family.presets().iter().map(|(name, _)| *name)).collect()
 }
 
+/// The fifteen species of Hewitt's dissertation.
+pub use pleach_weber_penn::HEWITT_2017;
+
 /// Why a species could not be had.
 #[derive(Debug, thiserror::Error)]
 pub enum RegistryError {
@@ -74,8 +77,7 @@ fn suggestion(nearest: &Option<String>) -> String {
 /// The species called `name` among those that come with pleach.
 #[must_use]
 pub fn preset(name: &str) -> Option<Species> {
-    let text = families().iter().flat_map(|f| f.presets()).find(|(known, _)| *known == name)?.1;
-    read_text(name, text).ok()
+    families().iter().find_map(|family| pleach_tree::species::preset(*family, name))
 }
 
 /// The names of known species that `name` may stand for: a name stands for itself, and a whole word of a
@@ -130,7 +132,7 @@ pub fn read_text(origin: &str, text: &str) -> Result<Species, SpeciesError> {
     use pleach_tree::param::Problem;
     let doc = SpeciesDoc::parse(origin, text)?;
     let wrong = |issue| SpeciesError { issues: vec![issue] };
-    let name = doc.text("generator").map_err(wrong)?.unwrap_or("weber-penn");
+    let name = doc.text("generator").map_err(wrong)?.unwrap_or_else(|| families()[0].name());
     let Some(family) = families().iter().find(|family| family.name() == name) else {
         let span = doc.get("generator").map_or(0..0, |node| node.span.clone());
         let problem = Problem::UnknownChoice {
@@ -140,7 +142,7 @@ pub fn read_text(origin: &str, text: &str) -> Result<Species, SpeciesError> {
         };
         return Err(wrong(doc.issue(span, "generator", problem)));
     };
-    family.read(&doc)
+    doc.species(*family)
 }
 
 #[cfg(test)]

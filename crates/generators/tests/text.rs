@@ -24,7 +24,7 @@ fn check(text: &str) -> Result<(), TestCaseError> {
             prop_assert_eq!(&again.params, &species.params);
             prop_assert_eq!(again.tree_seed, species.tree_seed);
             prop_assert_eq!(&again.appearance, &species.appearance);
-            prop_assert_eq!(again.generator.extra_toml(), species.generator.extra_toml());
+            prop_assert_eq!(again.generator.model(), species.generator.model());
             prop_assert!(species.name.is_empty() || check_name(&species.name).is_ok());
         }
         Err(error) => placed(&error, text)?,

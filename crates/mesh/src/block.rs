@@ -1,15 +1,55 @@
 //! Vertices and triangles as the writers take them.
 
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec2, Vec3};
 
-/// A corner: position in metres, unit normal, and texture coordinates, as `[x, y, z, nx, ny, nz, u, v]`.
-///
-/// On bark u is the part of a turn around the stem, 0 to 1, and v runs along it in metres, on through
-/// forks. On leaves u runs across and v from the tip (0) to the base (1); both stay within 0 to 1.
-pub type Vertex = [f32; 8];
+/// A corner of triangles.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vertex {
+    /// In metres.
+    pub position: Vec3,
+    /// Of length 1, outwards.
+    pub normal: Vec3,
+    /// Texture coordinates. On bark u is the part of a turn around the stem, 0 to 1, and v runs along it
+    /// in metres, on through forks. On leaves u runs across and v from the tip (0) to the base (1); both
+    /// stay within 0 to 1.
+    pub uv: Vec2,
+}
 
-/// What a shader needs to sway a corner, as two groups of four numbers; see [`crate::wind`].
-pub type Wind = [f32; 8];
+impl Vertex {
+    /// The eight numbers as files have them: position, normal, texture coordinates.
+    #[must_use]
+    pub const fn to_array(&self) -> [f32; 8] {
+        let Self { position: p, normal: n, uv } = self;
+        [p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y]
+    }
+}
+
+/// What a shader needs to sway a corner; see [`crate::wind`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wind {
+    /// The point about which the corner's stem turns, in metres.
+    pub pivot: Vec3,
+    /// In turns, 0 to 1.
+    pub phase: f32,
+    /// Level of the stem, 0 for trunks; leaves have one more than their stem.
+    pub level: f32,
+    /// Place along the stem or leaf, 0 to 1.
+    pub place: f32,
+    /// In Hz.
+    pub frequency: f32,
+    /// In radians.
+    pub amplitude: f32,
+}
+
+impl Wind {
+    /// The eight numbers as files have them, in two groups of four: pivot and phase, then the others in
+    /// the order of the fields.
+    #[must_use]
+    pub const fn to_array(&self) -> [f32; 8] {
+        let Self { pivot, phase, level, place, frequency, amplitude } = *self;
+        [pivot.x, pivot.y, pivot.z, phase, level, place, frequency, amplitude]
+    }
+}
 
 /// A run of a part's corners and triangles: what goes through a [`crate::Sink`] at a time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,21 +87,4 @@ pub struct Placement {
     pub rotation: Quat,
     /// Along the shape's own axes.
     pub scale: Vec3,
-}
-
-/// Position of a corner.
-#[must_use]
-pub fn position(vertex: &Vertex) -> Vec3 {
-    Vec3::new(vertex[0], vertex[1], vertex[2])
-}
-
-/// Normal of a corner.
-#[must_use]
-pub fn normal(vertex: &Vertex) -> Vec3 {
-    Vec3::new(vertex[3], vertex[4], vertex[5])
-}
-
-/// A corner from its parts.
-pub(crate) fn vertex(position: Vec3, normal: Vec3, u: f32, v: f32) -> Vertex {
-    [position.x, position.y, position.z, normal.x, normal.y, normal.z, u, v]
 }

@@ -1,8 +1,9 @@
 //! Upright cards that show a picture of a whole tree.
 
-use crate::block::{Block, vertex};
-use crate::tube::Count;
-use glam::Vec3;
+use crate::block::{Block, Vertex};
+use crate::part::{Count, Material, Part, Source};
+use glam::{Vec3, vec2};
+use std::ops::Range;
 
 /// One upright card.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,19 +14,31 @@ pub struct Card {
     pub uv: [f32; 4],
 }
 
-pub(crate) fn count(cards: &[Card]) -> Count {
-    Count { vertices: 4 * cards.len() as u64, triangles: 2 * cards.len() as u64 }
-}
+/// The cards of a tree as a source of triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct Cards<'a>(pub &'a [Card]);
 
-/// Appends the cards. Their normals point up, so that crossing cards are lit alike.
-pub(crate) fn push(cards: &[Card], block: &mut Block) {
-    for card in cards {
-        let base = block.vertices.len() as u32;
-        let [left, top, right, bottom] = card.uv;
-        let uv = [[left, bottom], [right, bottom], [right, top], [left, top]];
-        for (corner, [u, v]) in card.corners.iter().zip(uv) {
-            block.vertices.push(vertex(*corner, Vec3::Z, u, v));
+impl Source for Cards<'_> {
+    fn parts(&self, mesh: usize) -> Vec<Part> {
+        let cards = self.0.len() as u64;
+        let count = Count { vertices: 4 * cards, triangles: 2 * cards };
+        let part = Part { mesh, material: Material::Card, count, instances: 0, wind: false, rigged: false };
+        if cards == 0 { Vec::new() } else { vec![part] }
+    }
+
+    fn ranges(&self, _: Material) -> Vec<Range<usize>> {
+        std::iter::once(0..self.0.len()).collect()
+    }
+
+    /// Normals point up, so that crossing cards are lit alike.
+    fn fill(&self, _: Material, range: Range<usize>, block: &mut Block) {
+        for card in &self.0[range] {
+            let base = block.vertices.len() as u32;
+            let [left, top, right, bottom] = card.uv;
+            let uv = [vec2(left, bottom), vec2(right, bottom), vec2(right, top), vec2(left, top)];
+            let corners = card.corners.into_iter().zip(uv);
+            block.vertices.extend(corners.map(|(position, uv)| Vertex { position, normal: Vec3::Z, uv }));
+            block.triangles.extend([[base, base + 1, base + 2], [base, base + 2, base + 3]]);
         }
-        block.triangles.extend([[base, base + 1, base + 2], [base, base + 2, base + 3]]);
     }
 }

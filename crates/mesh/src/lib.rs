@@ -4,7 +4,8 @@
 //! | --- | --- |
 //! | [`settings`] | how fine a mesh should be |
 //! | [`mesher`] | from a [`pleach_tree::Tree`] to blocks of triangles, sizes known beforehand |
-//! | [`sink`] | where blocks go: files of five formats, or memory |
+//! | [`part`] | materials, and the traits of what triangles come from and go to |
+//! | [`stream`] | from the one to the other, block by block |
 //! | [`block`] | corners and triangles |
 //! | [`lod`] | levels of detail |
 //! | [`card`] | the last level: cards with pictures of the tree |
@@ -20,6 +21,7 @@
 //! forest does, by address), nothing here reads the clock or prints, and the number of threads changes
 //! nothing. A mesher knows trees, not generators.
 
+mod blobs;
 pub mod block;
 pub mod card;
 mod foliage;
@@ -28,20 +30,25 @@ pub mod lod;
 pub mod mesh;
 pub mod mesher;
 pub mod palette;
+pub mod part;
+mod placed;
 pub mod rig;
 pub mod settings;
-pub mod sink;
+pub mod stream;
 mod tube;
 pub mod weld;
+mod welded;
 pub mod wind;
 pub mod write;
 
 pub use block::{Block, Placement, Vertex, Wind};
+pub use card::{Card, Cards};
 pub use foliage::blossom_spread;
 pub use mesh::Mesh;
 pub use mesher::Mesher;
 pub use palette::Palette;
+pub use part::{Count, Material, MeshError, Part, Sink, Source};
 pub use rig::Rig;
 pub use settings::{LeafStyle, MeshSettings};
-pub use sink::{Material, MeshError, Part, Sink, send};
-pub use tube::Count;
+pub use stream::send;
+pub use welded::Welded;

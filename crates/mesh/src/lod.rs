@@ -77,15 +77,17 @@ pub fn level(tree: &Tree, settings: MeshSettings, level: u32) -> Level<'_> {
     Level { tree: Cow::Owned(coarse), settings }
 }
 
-/// Replaces every run of `run` leaves on a stem by one with the area of all: the one nearest to
+/// Replaces every `run` leaves of one shape on a stem by one with the area of all: the one nearest to
 /// their middle, grown about its own centre.
 fn merge(leaves: &mut Vec<Leaf>, run: usize) {
     if run < 2 {
         return;
     }
+    // Generators may mix the leaves of several stems; neighbours on a stem stay neighbours.
+    leaves.sort_by_key(|leaf| (leaf.stem, leaf.shape));
     let mut merged = Vec::with_capacity(leaves.len() / run + 1);
-    for on_stem in leaves.chunk_by(|a, b| a.stem == b.stem) {
-        for group in on_stem.chunks(run) {
+    for alike in leaves.chunk_by(|a, b| (a.stem, a.shape) == (b.stem, b.shape)) {
+        for group in alike.chunks(run) {
             let area: f32 = group.iter().map(Leaf::unit_area).sum();
             let middle = group.iter().map(center).sum::<glam::Vec3>() / group.len() as f32;
             let distance = |leaf: &&Leaf| center(leaf).distance_squared(middle);
@@ -153,6 +155,24 @@ mod tests {
             last = level.tree.leaves.len();
         }
         assert!(last * 10 < tree.leaves.len());
+    }
+
+    #[test]
+    fn leaves_of_stems_and_shapes_are_merged_apart() {
+        let leaf = |x: f32, stem: u32, shape: u16| Leaf {
+            position: glam::vec3(x, 0.0, 0.0),
+            along: glam::Vec3::Z,
+            across: glam::Vec3::X,
+            stem,
+            shape,
+        };
+        // Two stems take turns, and one of them has leaves of two shapes.
+        let mut leaves: Vec<Leaf> = (0..12).map(|i| leaf(i as f32, i % 2, (i % 4 == 3).into())).collect();
+        merge(&mut leaves, 3);
+        let mut kinds: Vec<(u32, u16)> = leaves.iter().map(|leaf| (leaf.stem, leaf.shape)).collect();
+        kinds.sort_unstable();
+        assert_eq!(kinds, [(0, 0), (0, 0), (1, 0), (1, 1)]);
+        assert!(leaves.iter().all(|leaf| (leaf.unit_area() - 3.0).abs() < 1e-5));
     }
 
     #[test]

@@ -2,8 +2,9 @@
 
 use crate::block::Block;
 use crate::mesher::Mesher;
+use crate::part::{Material, MeshError, Part, Sink};
 use crate::settings::MeshSettings;
-use crate::sink::{Material, MeshError, Part, Sink, send};
+use crate::stream::send;
 use pleach_tree::Tree;
 
 /// Parts with all their corners and triangles; also the sink that collects them.

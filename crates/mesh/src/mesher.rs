@@ -1,14 +1,15 @@
 //! From a tree to blocks of triangles: sizes first, then any run of stems or leaves.
 
-use crate::block::Block;
-use crate::card::{self, Card};
+use crate::blobs;
+use crate::block::{Block, Wind};
 use crate::foliage::UnitMesh;
+use crate::part::{Count, Material, Part, Source};
+use crate::placed::{self, Placed};
 use crate::rig::Rig;
-use crate::settings::MeshSettings;
-use crate::sink::{Material, Part};
-use crate::tube::{Count, Rings, Tubes};
+use crate::settings::{LeafStyle, MeshSettings};
+use crate::tube::{Rings, Tubes};
 use crate::wind;
-use pleach_tree::{Leaf, StemKind, Tree};
+use pleach_tree::{Leaf, Parts, StemKind, Tree};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -22,15 +23,15 @@ pub struct Mesher<'a> {
     settings: MeshSettings,
     rig: Option<&'a Rig>,
     tubes: Tubes,
-    leaf: UnitMesh,
-    blossom: UnitMesh,
+    leaves: Placed<'a>,
+    blossoms: Placed<'a>,
+    /// Vertices and triangles of the blobs, which follow the leaves.
+    blobs: Count,
     /// Corners before each stem's, and v where the stem starts, in metres.
     stems: Vec<StemStart>,
     bark: Count,
     blocks: Vec<Range<usize>>,
     instanced: bool,
-    cards: Option<&'a [Card]>,
-    welded: Option<&'a Block>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -49,6 +50,9 @@ impl<'a> Mesher<'a> {
             .stems
             .par_iter()
             .map_init(Rings::default, |rings, stem| {
+                if !settings.parts.has_stem(stem.kind) {
+                    return Count::default();
+                }
                 rings.sample(tree, stem, tubes.tolerance());
                 tubes.count(rings)
             })
@@ -70,56 +74,30 @@ impl<'a> Mesher<'a> {
         if first < counts.len() {
             blocks.push(first..counts.len());
         }
+        let has = |part| settings.parts.contains(part);
+        let leaves = if has(Parts::LEAVES) { &tree.leaves[..] } else { &[] };
+        let leaf_shapes = tree.leaf_shapes.iter().map(|shape| UnitMesh::leaf(shape, settings.leaves));
+        let blossoms = if has(Parts::BLOSSOMS) { &tree.blossoms[..] } else { &[] };
+        let blossom_shapes = tree.blossom_shapes.iter().map(|&s| UnitMesh::blossom(s, settings.leaves));
+        let shows_blobs = has(Parts::BLOBS) && settings.leaves != LeafStyle::None;
+        let blobs = if shows_blobs { blobs::count(tree) } else { Count::default() };
         Self {
             tree,
             settings,
             rig: None,
-            leaf: tree.leaf_shapes.first().map(|s| UnitMesh::leaf(s, settings.leaves)).unwrap_or_default(),
-            blossom: tree
-                .blossom_shapes
-                .first()
-                .map(|&s| UnitMesh::blossom(s, settings.leaves))
-                .unwrap_or_default(),
+            leaves: Placed::new(leaves, leaf_shapes.collect(), BLOCK_VERTICES),
+            blossoms: Placed::new(blossoms, blossom_shapes.collect(), BLOCK_VERTICES),
+            blobs,
             tubes,
             stems,
             bark,
             blocks,
             instanced: false,
-            cards: None,
-            welded: None,
         }
     }
 
-    /// Sends `bark`, from [`crate::weld::surface`] of the same tree, instead of a tube a stem. It has
-    /// neither wind data nor joints.
-    #[must_use]
-    pub fn with_welded_bark(mut self, bark: &'a Block) -> Self {
-        self.bark = Count { vertices: bark.vertices.len() as u64, triangles: bark.triangles.len() as u64 };
-        self.welded = Some(bark);
-        self
-    }
-
-    /// Sends `cards` that show pictures of `tree` instead of the tree itself.
-    #[must_use]
-    pub fn of_cards(tree: &'a Tree, cards: &'a [Card]) -> Self {
-        let settings = MeshSettings::default();
-        Self {
-            tree,
-            settings,
-            rig: None,
-            tubes: Tubes::new(settings),
-            leaf: UnitMesh::default(),
-            blossom: UnitMesh::default(),
-            stems: Vec::new(),
-            bark: Count::default(),
-            blocks: Vec::new(),
-            instanced: false,
-            cards: Some(cards),
-            welded: None,
-        }
-    }
-
-    /// Sends each leaf and blossom as a placement of one shape, for formats that have instances.
+    /// Sends each leaf as a placement of one shape, and each blossom, for formats that have instances.
+    /// Where leaves have several shapes, or there are blobs among them, they come as triangles.
     #[must_use]
     pub fn with_instanced_leaves(mut self) -> Self {
         self.instanced = true;
@@ -131,35 +109,6 @@ impl<'a> Mesher<'a> {
     pub fn with_rig(mut self, rig: &'a Rig) -> Self {
         self.rig = Some(rig);
         self
-    }
-
-    /// Its parts that are not empty, as mesh number `mesh`.
-    #[must_use]
-    pub fn parts(&self, mesh: usize) -> Vec<Part> {
-        if let Some(cards) = self.cards {
-            let count = card::count(cards);
-            let plain =
-                Part { mesh, material: Material::Card, count, instances: 0, wind: false, rigged: false };
-            return if cards.is_empty() { Vec::new() } else { vec![plain] };
-        }
-        let part = |material| {
-            let (count, placed) = match self.placed(material) {
-                None => (self.bark, 1),
-                Some((leaves, shape)) => (shape.count(), leaves.len() as u64),
-            };
-            let instanced = self.instanced && material != Material::Bark;
-            let welded = self.welded.is_some() && material == Material::Bark;
-            let times = if instanced { placed.min(1) } else { placed };
-            Part {
-                mesh,
-                material,
-                count: Count { vertices: count.vertices * times, triangles: count.triangles * times },
-                instances: if instanced { placed } else { 0 },
-                wind: self.settings.wind && !instanced && !welded,
-                rigged: self.rig.is_some() && !instanced && !welded,
-            }
-        };
-        Material::ALL.into_iter().map(part).filter(|p| p.count.triangles > 0).collect()
     }
 
     /// Corners and triangles of all parts together.
@@ -179,71 +128,27 @@ impl<'a> Mesher<'a> {
         self.stems[stem].vertex
     }
 
-    fn placed(&self, material: Material) -> Option<(&'a [Leaf], &UnitMesh)> {
+    fn placed(&self, material: Material) -> Option<&Placed<'a>> {
         match material {
             Material::Bark | Material::Card => None,
-            Material::Leaf => Some((&self.tree.leaves, &self.leaf)),
-            Material::Blossom => Some((&self.tree.blossoms, &self.blossom)),
+            Material::Leaf => Some(&self.leaves),
+            Material::Blossom => Some(&self.blossoms),
         }
     }
 
-    /// The stems or leaves of each block of a part.
-    pub(crate) fn ranges(&self, material: Material) -> Vec<Range<usize>> {
-        if let Some(cards) = self.cards {
-            return std::iter::once(0..cards.len()).collect();
-        }
-        if self.welded.is_some() && material == Material::Bark {
-            return std::iter::once(0..1).collect();
-        }
-        let Some((leaves, shape)) = self.placed(material) else { return self.blocks.clone() };
-        let size = (BLOCK_VERTICES / shape.count().vertices.max(1)).max(1) as usize;
-        (0..leaves.len()).step_by(size).map(|i| i..(i + size).min(leaves.len())).collect()
-    }
-
-    /// Appends the stems or leaves of `range` to `block`.
-    pub(crate) fn fill(&self, material: Material, range: Range<usize>, block: &mut Block) {
-        if let Some(cards) = self.cards {
-            return card::push(&cards[range], block);
-        }
-        if let (Some(bark), Material::Bark) = (self.welded, material) {
-            block.vertices.extend_from_slice(&bark.vertices);
-            block.triangles.extend_from_slice(&bark.triangles);
-            return;
-        }
-        let Some((leaves, shape)) = self.placed(material) else {
-            return self.fill_stems(range, block);
-        };
-        if self.instanced {
-            if range.start == 0 {
-                shape.push(&UNIT, 0, block);
-            }
-            block.instances.extend(leaves[range].iter().map(placement));
-            return;
-        }
-        let size = shape.count().vertices;
-        for i in range {
-            let leaf = &leaves[i];
-            shape.push(leaf, (i as u64 * size) as u32, block);
-            if self.settings.wind {
-                let wind = wind::of_leaf(leaf, i, &self.tree.stems[leaf.stem as usize]);
-                let first = block.wind.len();
-                block.wind.extend(block.vertices[first..].iter().map(|v| {
-                    let mut wind = wind;
-                    // The tip, at v = 0, moves most.
-                    wind[wind::PLACE] = 1.0 - v[7];
-                    wind
-                }));
-            }
-            if let Some(rig) = self.rig {
-                let joint = rig.joint_near(leaf.stem, leaf.position.as_dvec3());
-                block.joints.resize(block.vertices.len(), joint);
-            }
-        }
+    /// The one shape of which `material` is made, if it is sent as instances.
+    fn instanced(&self, material: Material) -> Option<&UnitMesh> {
+        let has_blobs = material == Material::Leaf && self.blobs.triangles > 0;
+        let placed = self.placed(material).filter(|_| self.instanced && !has_blobs)?;
+        placed.only_shape()
     }
 
     fn fill_stems(&self, range: Range<usize>, block: &mut Block) {
         let mut rings = Rings::default();
         for i in range {
+            if !self.settings.parts.has_stem(self.tree.stems[i].kind) {
+                continue;
+            }
             let StemStart { vertex, along } = self.stems[i];
             rings.sample(self.tree, &self.tree.stems[i], self.tubes.tolerance());
             let first = block.vertices.len();
@@ -253,27 +158,104 @@ impl<'a> Mesher<'a> {
                 let wind = wind::of_stem(self.tree, i);
                 block.wind.extend(block.vertices[first..].iter().map(|v| {
                     let mut wind = wind;
-                    wind[wind::PLACE] = ((f64::from(v[7]) - along) / length).clamp(0.0, 1.0) as f32;
+                    wind.place = ((f64::from(v.uv.y) - along) / length).clamp(0.0, 1.0) as f32;
                     wind
                 }));
             }
             if let Some(rig) = self.rig {
-                let joint = |v: &crate::Vertex| rig.joint_at(i as u32, f64::from(v[7]) - along);
+                let joint = |v: &crate::Vertex| rig.joint_at(i as u32, f64::from(v.uv.y) - along);
                 block.joints.extend(block.vertices[first..].iter().map(joint));
             }
         }
     }
 }
 
-/// Where the unit shape stands as it is.
-const UNIT: Leaf =
-    Leaf { position: glam::Vec3::ZERO, along: glam::Vec3::Y, across: glam::Vec3::X, stem: 0, shape: 0 };
+impl Source for Mesher<'_> {
+    fn parts(&self, mesh: usize) -> Vec<Part> {
+        let part = |material| {
+            let placed = self.placed(material);
+            let instances =
+                placed.filter(|_| self.instanced(material).is_some()).map(|p| p.leaves.len() as u64);
+            let mut count = match (placed, self.instanced(material)) {
+                (None, _) => self.bark,
+                (Some(placed), None) => placed.count,
+                (Some(placed), Some(_)) if placed.leaves.is_empty() => Count::default(),
+                (Some(_), Some(shape)) => shape.count(),
+            };
+            if material == Material::Leaf {
+                count += self.blobs;
+            }
+            Part {
+                mesh,
+                material,
+                count,
+                instances: instances.unwrap_or(0),
+                wind: self.settings.wind && instances.is_none(),
+                rigged: self.rig.is_some() && instances.is_none(),
+            }
+        };
+        Material::ALL.into_iter().map(part).filter(|p| p.count.triangles > 0).collect()
+    }
 
-/// Translation, rotation and scale that carry the unit shape to `leaf`.
-fn placement(leaf: &Leaf) -> crate::block::Placement {
-    let (width, length) = (leaf.across.length(), leaf.along.length());
-    let x = leaf.across.try_normalize().unwrap_or(glam::Vec3::X);
-    let y = (leaf.along - x * leaf.along.dot(x)).try_normalize().unwrap_or(glam::Vec3::Y);
-    let rotation = glam::Quat::from_mat3(&glam::Mat3::from_cols(x, y, x.cross(y)));
-    crate::block::Placement { translation: leaf.position, rotation, scale: glam::vec3(width, length, length) }
+    /// The stems or leaves of each block of a part; blobs are numbered after all leaves.
+    fn ranges(&self, material: Material) -> Vec<Range<usize>> {
+        let Some(placed) = self.placed(material) else { return self.blocks.clone() };
+        let mut ranges: Vec<Range<usize>> = placed.ranges().collect();
+        if material == Material::Leaf && self.blobs.triangles > 0 {
+            let first = placed.leaves.len();
+            ranges.push(first..first + self.tree.blobs.len());
+        }
+        ranges
+    }
+
+    /// Appends the stems, leaves or blobs of `range` to `block`.
+    fn fill(&self, material: Material, range: Range<usize>, block: &mut Block) {
+        let Some(placed) = self.placed(material) else {
+            return self.fill_stems(range, block);
+        };
+        if let Some(shape) = self.instanced(material) {
+            if range.start == 0 {
+                shape.push(&placed::UNIT, 0, block);
+            }
+            block.instances.extend(placed.leaves[range].iter().map(placed::placement));
+        } else if range.start < placed.leaves.len() {
+            placed.fill(range, block, |i, block| self.sway_leaf(&placed.leaves[i], i, block));
+        } else {
+            self.fill_blobs(placed.count.vertices, block);
+        }
+    }
+}
+
+impl Mesher<'_> {
+    /// Wind data and joints of the vertices of `leaf`, which were added last.
+    fn sway_leaf(&self, leaf: &Leaf, index: usize, block: &mut Block) {
+        if self.settings.wind {
+            let wind = wind::of_leaf(leaf, index, &self.tree.stems[leaf.stem as usize]);
+            let first = block.wind.len();
+            block.wind.extend(block.vertices[first..].iter().map(|v| {
+                let mut wind = wind;
+                // The tip, at v = 0, moves most.
+                wind.place = 1.0 - v.uv.y;
+                wind
+            }));
+        }
+        if let Some(rig) = self.rig {
+            let joint = rig.joint_near(leaf.stem, leaf.position.as_dvec3());
+            block.joints.resize(block.vertices.len(), joint);
+        }
+    }
+
+    /// All blobs, whose vertices count from `base`. A blob moves with the tip of its stem.
+    fn fill_blobs(&self, base: u64, block: &mut Block) {
+        for blob in &self.tree.blobs {
+            blobs::push(self.tree, blob, (base + block.vertices.len() as u64) as u32, block);
+            if self.settings.wind {
+                let wind = Wind { place: 1.0, ..wind::of_stem(self.tree, blob.stem as usize) };
+                block.wind.resize(block.vertices.len(), wind);
+            }
+            if let Some(rig) = self.rig {
+                block.joints.resize(block.vertices.len(), rig.joint_at(blob.stem, f64::INFINITY));
+            }
+        }
+    }
 }

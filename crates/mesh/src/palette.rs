@@ -1,6 +1,6 @@
 //! Colours of a species in a season.
 
-use crate::sink::Material;
+use crate::part::Material;
 pub use pleach_tree::species::BarkPattern;
 use pleach_tree::species::{Color, Look, Season};
 use pleach_tree::{Species, Tree};

@@ -1,19 +1,21 @@
 //! What a mesh should be like.
 
+use pleach_tree::Parts;
+
 /// How leaves and blossoms become triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LeafStyle {
-    /// The ten leaf outlines and three blossoms of the model.
+    /// Leaf outlines and blossoms as the model has them.
     #[default]
     Outline,
-    /// At most nine triangles a leaf, along the outline and with its area; blossoms as they are.
+    /// At most nine triangles for each leaf, along the outline and with its area; blossoms as they are.
     Reduced,
-    /// Two triangles a leaf with the area of the outline, four a blossom.
+    /// Two triangles for each leaf, with the area of the outline; four for each blossom.
     Simple,
     /// Two crossed cards through the middle of each leaf and one across each blossom, for pictures
     /// of leaves.
     CrossedCards,
-    /// No leaves and no blossom.
+    /// No foliage at all.
     None,
 }
 
@@ -31,6 +33,8 @@ pub struct MeshSettings {
     pub leaves: LeafStyle,
     /// Whether each corner carries wind data.
     pub wind: bool,
+    /// What of the tree becomes triangles.
+    pub parts: Parts,
 }
 
 impl MeshSettings {
@@ -53,8 +57,15 @@ impl MeshSettings {
 }
 
 impl Default for MeshSettings {
-    /// Two millimetres, 4 to 48 sides, leaves as outlines, no wind.
+    /// Two millimetres, 4 to 48 sides, leaves as outlines, no wind; everything but roots.
     fn default() -> Self {
-        Self { tolerance: 0.002, min_sides: 4, max_sides: 48, leaves: LeafStyle::Outline, wind: false }
+        Self {
+            tolerance: 0.002,
+            min_sides: 4,
+            max_sides: 48,
+            leaves: LeafStyle::Outline,
+            wind: false,
+            parts: Parts::LEAFY,
+        }
     }
 }

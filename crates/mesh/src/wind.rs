@@ -22,6 +22,7 @@
 //! A shader turns a corner about its pivot by `amplitude · place · sin(2π (frequency · time + phase))`.
 
 use crate::block::Wind;
+use glam::Vec3;
 use pleach_tree::{Leaf, Stem, Tree};
 
 /// What part of a turn separates neighbours: no two of a run come close.
@@ -59,23 +60,26 @@ pub(crate) fn of_stem(tree: &Tree, index: usize) -> Wind {
     let stem = &tree.stems[index];
     let pivot = tree.knots_of(stem)[0].point.as_vec3();
     let sway = Sway::of(tree, index);
-    wind([pivot.x, pivot.y, pivot.z], sway, stem.level)
+    wind(pivot, sway, stem.level)
 }
 
 /// Wind data of a leaf's corners, up to the place along it: it flutters about its stalk.
 pub(crate) fn of_leaf(leaf: &Leaf, index: usize, stem: &Stem) -> Wind {
     let sway =
         Sway { phase: (index as f64 * GOLDEN).fract(), frequency: 3.0, amplitude: 12.0_f64.to_radians() };
-    wind(leaf.position.to_array(), sway, stem.level.saturating_add(1))
+    wind(leaf.position, sway, stem.level.saturating_add(1))
 }
 
-fn wind([x, y, z]: [f32; 3], sway: Sway, level: u16) -> Wind {
-    let Sway { phase, frequency, amplitude } = sway;
-    [x, y, z, phase as f32, f32::from(level), 0.0, frequency as f32, amplitude as f32]
+fn wind(pivot: Vec3, sway: Sway, level: u16) -> Wind {
+    Wind {
+        pivot,
+        phase: sway.phase as f32,
+        level: f32::from(level),
+        place: 0.0,
+        frequency: sway.frequency as f32,
+        amplitude: sway.amplitude as f32,
+    }
 }
-
-/// Index of the place along the stem in [`Wind`].
-pub(crate) const PLACE: usize = 5;
 
 #[cfg(test)]
 mod tests {

@@ -98,6 +98,8 @@
 //! The crates below this one (`pleach-tree`, `pleach-silhouette`, …) have what is not named here.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+/// The vectors of the public types.
+pub use glam;
 pub use pleach_generators::{
     RegistryError, names as species_names, read as read_species, read_file as read_species_file, species,
 };
@@ -110,9 +112,12 @@ pub use pleach_tree::leaf_shape::{BlossomShape, LeafShape, Outline, OutlineError
 pub use pleach_tree::species::{Appearance, Color, Season};
 pub use pleach_tree::stats::Bounds;
 pub use pleach_tree::{
-    Blob, CheckedParams, Family, Foliage, Generator, GrowError, Growth, Knot, Leaf, Limits, MalformedTree,
-    Param, ParamSpace, Parts, Species, SpeciesError, Stem, StemKind, Tree, TreeStats, Workspace,
+    Blame, Blob, CheckedParams, Conflict, Family, Foliage, Generator, GrowError, Growth, Knot, Leaf, Limits,
+    MalformedTree, ModelId, Param, ParamSpace, Parts, Slot, Species, SpeciesDoc, SpeciesError, Stem,
+    StemKind, Tree, TreeStats, Workspace,
 };
+/// What generators of your own are made of; `docs/a-generator.md` shows how.
+pub use pleach_tree::{param, random, species};
 
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
@@ -125,7 +130,7 @@ pub use pleach_blend::{Blend, BlendError, BlendMap, Point, Settings as MapSettin
 
 #[cfg(feature = "mesh")]
 pub use pleach_mesh::{
-    LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Sink, send, write::glb::Glb,
+    LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Sink, Source, send, write::glb::Glb,
     write::glb::write as write_glb, write::obj::Obj, write::ply::Ply, write::stl::Stl, write::usda::Usda,
 };
 

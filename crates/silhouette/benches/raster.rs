@@ -1,10 +1,13 @@
 //! The rasteriser against tiny-skia on the same shapes, and the scores of a search.
 
+#[path = "../tests/support/referee.rs"]
+mod referee;
+
 use criterion::{Criterion, criterion_group, criterion_main};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
 use pleach_silhouette::score::likeness::{self, Descriptor};
-use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View, referee};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::Parts;
 use std::hint::black_box;
 use tiny_skia::{FillRule, Mask, PathBuilder, Transform};

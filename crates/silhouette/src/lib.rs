@@ -7,7 +7,6 @@
 //! | [`picture`] | overlays and sheets for people |
 //! | [`score`] | how alike two silhouettes are |
 //! | [`raster`] | a tree drawn straight into bits |
-//! | [`referee`] | the same by tiny-skia, many times as fine |
 //! | [`goal`] | a picture file becomes ink with a ground and a trunk |
 //! | [`mask`] | a photograph becomes ink |
 
@@ -17,7 +16,6 @@ pub mod goal;
 pub mod mask;
 pub mod picture;
 pub mod raster;
-pub mod referee;
 pub mod score;
 pub mod view;
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// Height above the ground at which the diameter of a trunk is measured, in metres.
 pub const BREAST_HEIGHT: f64 = 1.3;
 
-/// Share of the leaves that may hang below the base of the crown: a twig on the trunk is no crown.
+/// Share of the leaves that may hang below the base of the crown: a twig on the trunk is not a crown.
 const BELOW_CROWN: f64 = 0.02;
 /// Parts of one Bézier piece between which a height is looked for.
 const STEPS: u32 = 16;

@@ -28,7 +28,10 @@
 pub mod conformance;
 pub mod dendrometry;
 pub mod generator;
+mod grow_error;
+mod growth;
 pub mod leaf_shape;
+mod model;
 pub mod param;
 pub mod plant;
 pub mod random;
@@ -38,8 +41,11 @@ pub mod stats;
 pub mod trig;
 pub mod turtle;
 
-pub use generator::{Blame, Family, Foliage, Generator, GrowError, Growth, Limits, Workspace};
-pub use param::{CheckedParams, Kind, Layout, Param, ParamSpace, Unit};
+pub use generator::{Family, Generator};
+pub use grow_error::{Blame, Conflict, GrowError};
+pub use growth::{Foliage, Growth, Limits, Workspace};
+pub use model::ModelId;
+pub use param::{CheckedParams, Kind, Param, ParamSpace, Slot, Unit};
 pub use plant::{Blob, Knot, Leaf, MalformedTree, Parts, Stem, StemKind, Tree};
 pub use random::Key;
 pub use species::{Species, SpeciesDoc, SpeciesError};

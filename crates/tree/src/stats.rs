@@ -8,13 +8,13 @@ use serde::Serialize;
 /// level present.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct TreeStats {
-    /// Stems on each level, clones included.
+    /// Stems on each level, forks included.
     pub stems: Vec<usize>,
     /// Bézier points on each level.
     pub bezier_points: Vec<usize>,
     /// Sum of the lengths of the splines on each level, in metres.
     pub length_total_m: Vec<f64>,
-    /// Mean length of a spline on each level, in metres. A clone counts from its fork.
+    /// Mean length of a spline on each level, in metres. An arm of a fork counts from the fork.
     pub length_mean_m: Vec<f64>,
     /// Mean radius at the first point of each stem on each level, in metres.
     pub radius_mean_m: Vec<f64>,

@@ -1,11 +1,11 @@
 //! Growing every species on one thread, stems and leaves, memory reused.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use pleach_tree::{Family, Foliage, Growth, Tree, Workspace};
-use pleach_weber_penn::{WeberPennFamily, preset};
+use pleach_tree::{Foliage, Growth, Tree, Workspace};
+use pleach_weber_penn::{HEWITT_2017, preset};
 
 fn grow(c: &mut Criterion) {
-    for (name, _) in WeberPennFamily.presets().iter().take(15) {
+    for name in HEWITT_2017 {
         let species = preset(name).expect("a built-in species");
         let (mut workspace, mut tree) = (Workspace::default(), Tree::default());
         for (what, foliage) in [("whole", Foliage::All), ("stems", Foliage::None)] {

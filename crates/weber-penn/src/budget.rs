@@ -177,7 +177,7 @@ impl Budget<'_> {
         if over { Err(Exceeded::Work) } else { Ok(()) }
     }
 
-    /// Makes every other part stop as soon as it tells.
+    /// Makes every other part stop as soon as it reports.
     pub(crate) fn stop_all(&self) {
         if let Some(pool) = self.pool {
             pool.stop.store(true, Relaxed);

@@ -1,6 +1,6 @@
 //! How many stems and leaves a tree has for certain, by its numbers alone.
 //!
-//! A bound from below, so that monsters are refused before anything is grown and nothing else is.
+//! A lower bound: trees that are certain to be too large are refused before anything grows, and no others.
 //! It counts children on the lower parts of stems that cannot fork, be pruned or run out of
 //! thickness; where it knows nothing it says zero.
 
@@ -44,7 +44,7 @@ pub(crate) fn refusal(model: &Model, growth: &Growth) -> Option<GrowError> {
 impl Certain {
     pub(crate) fn of(model: &Model) -> Self {
         let mut certain = Self::default();
-        if model.prune.ratio > 0.0 {
+        if model.prune_ratio > 0.0 {
             return certain;
         }
         let scale = (model.g_scale - model.g_scale_v).max(model.g_scale * 1e-3);
@@ -54,7 +54,7 @@ impl Certain {
         if length < SAFE_SIZE {
             return certain;
         }
-        certain.stems[0] = f64::from(model.trunks);
+        certain.stems[0] = f64::from(model.trunks());
         // Length of a stem over the greatest of its siblings', at least.
         let mut relative = 1.0;
         for (depth, &counted) in COUNTED_PART.iter().enumerate().take(model.level_count - 1) {
@@ -80,21 +80,21 @@ impl Certain {
             if length < SAFE_SIZE {
                 return certain;
             }
-            certain.stems[depth + 1] = certain.stems[depth] * places(children, level, next);
+            certain.stems[depth + 1] = certain.stems[depth] * sites(children, level, next);
         }
         let deepest = model.level_count - 1;
         if deepest > 0 {
             let (level, next) = (&model.levels[deepest], model.child_level(deepest));
             let count = model.leaf_blos_num * scale / model.g_scale * relative;
             let count = if count < 0.0 { count } else { count * (1.0 - level.base_size) };
-            certain.leaves = certain.stems[deepest] * places(count, level, next);
+            certain.leaves = certain.stems[deepest] * sites(count, level, next);
         }
         certain
     }
 }
 
 /// Places that are left of `count` after all rounding; a negative count is a fan.
-fn places(count: f64, level: &Level, next: &Level) -> f64 {
+fn sites(count: f64, level: &Level, next: &Level) -> f64 {
     if count < 0.0 {
         return (-count * (1.0 - 1e-9)).floor();
     }
@@ -117,7 +117,8 @@ const fn least_shape_ratio(shape: i64) -> f64 {
 mod tests {
     use super::*;
     use crate::params::space;
-    use pleach_tree::{Key, Kind, Limits, Species};
+    use crate::params::table::Id;
+    use pleach_tree::{Key, Limits, Species};
 
     fn species() -> Species {
         crate::preset("lombardy_poplar").unwrap()
@@ -129,22 +130,23 @@ mod tests {
         let space = space();
         let mut values =
             if case.is_multiple_of(2) { species().params.values().to_vec() } else { space.defaults() };
-        for (slot, value) in values.iter_mut().enumerate() {
-            let param = space.param_of(slot);
-            let often = matches!(&*param.name, "branches" | "taper" | "base_size" | "branch_dist" | "shape");
-            if key.unit(0, slot as u32) > if often { 0.5 } else { 0.1 } {
+        for (slot, value) in space.slots().zip(values.iter_mut()) {
+            let (id, kind, number) =
+                (Id::ALL[space.info(slot).param], space.kind_of(slot), slot.index() as u32);
+            let often = matches!(id, Id::branches | Id::taper | Id::base_size | Id::branch_dist | Id::shape);
+            if key.unit(0, number) > if often { 0.5 } else { 0.1 } {
                 continue;
             }
-            let (low, high) = match (&*param.name, param.kind) {
-                ("branches", _) => (-30.0, 60.0),
-                ("leaf_blos_num", _) => (-50.0, 300.0),
-                ("floor_splits", _) => (0.0, 5.0),
-                ("prune_ratio", _) => (0.0, 0.0),
-                ("curve_res", _) => (1.0, 12.0),
-                (_, Kind::Choice { .. }) => param.kind.range(),
+            let (low, high) = match id {
+                Id::branches => (-30.0, 60.0),
+                Id::leaf_blos_num => (-50.0, 300.0),
+                Id::floor_splits => (0.0, 5.0),
+                Id::prune_ratio => (0.0, 0.0),
+                Id::curve_res => (1.0, 12.0),
+                _ if kind.is_choice() => kind.range(),
                 _ => space.search_range(slot),
             };
-            *value = param.kind.repair(low + (high - low) * key.unit(1, slot as u32));
+            *value = kind.repair(low + (high - low) * key.unit(1, number));
         }
         values
     }
@@ -177,13 +179,13 @@ mod tests {
     #[test]
     fn monsters_are_seen_by_their_numbers() {
         let mut values = species().params.values().to_vec();
-        let first = space().select("branches[0]").unwrap()[0];
+        let first = Id::branches.slot(0).index();
         assert!(refusal(&Model::new(&values), &Growth::seed(1)).is_none());
         values[first] = 10_000.0;
         let told = refusal(&Model::new(&values), &Growth::seed(1)).unwrap().to_string();
         assert!(told.contains("stems") && told.contains("`branches[0]`"), "{told}");
-        values[space().select("levels").unwrap()[0]] = 4.0;
-        values[space().select("length[3]").unwrap()[0]] = 0.5;
+        values[Id::level_count.slot(0).index()] = 4.0;
+        values[Id::length.slot(3).index()] = 0.5;
         values[first..first + 4].copy_from_slice(&[1.0, 1000.0, 1000.0, 1000.0]);
         let told = refusal(&Model::new(&values), &Growth::seed(1)).unwrap().to_string();
         assert!(told.contains("because of `branches[3]`, `branches[2]` and `branches[1]`"), "{told}");

@@ -4,11 +4,11 @@
 //! turned like children, so this module serves both.
 
 use crate::budget::{Budget, CHILD_STEPS, Cause, Exceeded};
-use crate::grow::{Bench, Job, MIN_LENGTH};
-use crate::model::{Level, Model, shape_ratio};
+use crate::grow::{Buffers, GrowContext, MIN_LENGTH};
+use crate::model::{Level, Model};
 use crate::path::PathPoint;
 use crate::purpose;
-use crate::stem::Seedling;
+use crate::stem::StemSpec;
 use glam::DVec3;
 use pleach_tree::spline::Cubic;
 use pleach_tree::turtle::Turtle;
@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 
 /// A place for a child or a leaf.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct ChildSite {
     /// Number along the stem, from 0 at its base, bare places included.
     pub(crate) number: u32,
     /// Index of the path's piece.
@@ -34,7 +34,7 @@ pub(crate) struct Place {
 /// What spacing needs to know of a stem and its children.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spacing<'a> {
-    pub(crate) stem: &'a Seedling,
+    pub(crate) stem: &'a StemSpec,
     /// Parameters of the stem's own level.
     pub(crate) level: &'a Level,
     /// Parameters of the children.
@@ -48,21 +48,21 @@ pub(crate) struct Spacing<'a> {
 impl Spacing<'_> {
     /// Calls `each` for every place that is not on the bare base, from base to tip. Bare places
     /// are work as well, so all of a segment's are counted before the first is tried.
-    pub(crate) fn places(
+    pub(crate) fn sites(
         &self,
         path: &[PathPoint],
         (budget, cause): (&mut Budget<'_>, Cause),
-        mut each: impl FnMut(&mut Budget<'_>, Place) -> Result<(), Exceeded>,
+        mut each: impl FnMut(&mut Budget<'_>, ChildSite) -> Result<(), Exceeded>,
     ) -> Result<(), Exceeded> {
         if self.count < 0.0 {
-            budget.work(cause, self.stem.depth, -self.count as u64)?;
-            return self.fan(path, |place| each(budget, place));
+            budget.work(cause, self.stem.level, -self.count as u64)?;
+            return self.fan(path, |site| each(budget, site));
         }
         let Self { stem, level, next, .. } = *self;
         let segments = f64::from(level.curve_res);
         let start = f64::from(stem.start());
         let bare = level.base_size * stem.length;
-        // A clone carries (1 − start/c)²: once by number, once by having fewer segments.
+        // A fork carries (1 − start/c)²: once by number, once by having fewer segments.
         let per_segment = self.count * (1.0 - start / segments) / segments;
         let mut carry = 0.0;
         let mut number = 0;
@@ -75,12 +75,12 @@ impl Spacing<'_> {
             if here == 0.0 {
                 continue;
             }
-            budget.work(cause, stem.depth, here as u64)?;
+            budget.work(cause, stem.level, here as u64)?;
             let here = here as u32;
-            let mut place = |number: u32, t: f64, rotation: f64| {
+            let mut site = |number: u32, t: f64, rotation: f64| {
                 let offset = stem.length * (start + piece as f64 + t) / segments;
                 if offset > bare {
-                    each(budget, Place { number, piece, t, offset, rotation, fan: None })
+                    each(budget, ChildSite { number, piece, t, offset, rotation, fan: None })
                 } else {
                     Ok(())
                 }
@@ -97,7 +97,7 @@ impl Spacing<'_> {
                     for member in 0..members {
                         let about = TAU * f64::from(member) / f64::from(members);
                         let rotation = turning.member(number, about);
-                        place(number, f64::from(whorl) / f64::from(whorls), rotation)?;
+                        site(number, f64::from(whorl) / f64::from(whorls), rotation)?;
                         number += 1;
                     }
                     turning.next_whorl();
@@ -107,7 +107,7 @@ impl Spacing<'_> {
                     let j_f = f64::from(j);
                     let shift = if j % 2 == 0 { 0.0 } else { next.branch_dist };
                     let rotation = turning.next(number);
-                    place(number, (j_f - shift) / f64::from(here), rotation)?;
+                    site(number, (j_f - shift) / f64::from(here), rotation)?;
                     number += 1;
                 }
             }
@@ -115,7 +115,7 @@ impl Spacing<'_> {
         Ok(())
     }
 
-    fn fan<E>(&self, path: &[PathPoint], mut each: impl FnMut(Place) -> Result<(), E>) -> Result<(), E> {
+    fn fan<E>(&self, path: &[PathPoint], mut each: impl FnMut(ChildSite) -> Result<(), E>) -> Result<(), E> {
         let Self { stem, next, .. } = *self;
         let members = (-self.count).floor() as u32;
         let offset = stem.length;
@@ -123,55 +123,55 @@ impl Spacing<'_> {
             let part = if members > 1 { f64::from(number) / f64::from(members - 1) - 0.5 } else { 0.0 };
             let varied = next.rotate_v * stem.key.signed(purpose::ROTATE, number);
             let fan = next.rotate * part + varied;
-            each(Place { number, piece: path.len() - 2, t: 1.0, offset, rotation: 0.0, fan: Some(fan) })?;
+            each(ChildSite { number, piece: path.len() - 2, t: 1.0, offset, rotation: 0.0, fan: Some(fan) })?;
         }
         Ok(())
     }
 
     /// Angle between a child at `offset` metres and the stem, radians.
-    pub(crate) fn down_angle(&self, place: &Place) -> f64 {
+    pub(crate) fn down_angle(&self, site: &ChildSite) -> f64 {
         let Self { stem, level, next, .. } = *self;
-        let draw = || stem.key.signed(purpose::DOWN_ANGLE, place.number);
+        let draw = || stem.key.signed(purpose::DOWN_ANGLE, site.number);
         if next.down_angle_v == 0.0 {
             next.down_angle
         } else if next.down_angle_v > 0.0 {
             next.down_angle + draw() * next.down_angle_v
         } else {
             let free = stem.length * (1.0 - level.base_size);
-            let q = ((stem.length - place.offset) / free).clamp(0.0, 1.0);
+            let q = ((stem.length - site.offset) / free).clamp(0.0, 1.0);
             let angle = next.down_angle + next.down_angle_v * (1.0 - 2.0 * (0.2 + 0.8 * q));
             angle + 0.1 * draw() * angle.abs()
         }
     }
 
-    /// A child or leaf at `place`: still on the axis of the stem, turned the way that it will grow.
-    pub(crate) fn sprout(&self, path: &[PathPoint], place: &Place) -> Sprout {
-        let (from, to) = (&path[place.piece], &path[place.piece + 1]);
+    /// A child or leaf at `site`: still on the axis of the stem, turned the way that it will grow.
+    pub(crate) fn child_frame(&self, path: &[PathPoint], site: &ChildSite) -> ChildFrame {
+        let (from, to) = (&path[site.piece], &path[site.piece + 1]);
         let cubic = Cubic::new(from.point, from.handle_out, to.handle_in, to.point);
-        let position = cubic.at(place.t);
-        let tangent = cubic.tangent(place.t, to.direction);
+        let position = cubic.at(site.t);
+        let tangent = cubic.tangent(site.t, to.direction);
         let right = if self.level.is_helix() {
             // t × t′ for a tangent t′ a little further on, in the limit: the same side of the coil
             // all along it.
-            tangent.cross(cubic.second_derivative(place.t)).try_normalize()
+            tangent.cross(cubic.second_derivative(site.t)).try_normalize()
         } else {
             to.direction.cross(to.right).cross(tangent).try_normalize()
         };
         let right = right.unwrap_or_else(|| tangent.any_orthonormal_vector());
         let mut turtle = Turtle { position, direction: tangent, right };
-        match place.fan {
-            None => turtle.roll_right(place.rotation),
+        match site.fan {
+            None => turtle.roll_right(site.rotation),
             Some(angle) => turtle.turn_right(angle),
         }
         let outward = turtle.down();
-        turtle.pitch_down(self.down_angle(place));
-        Sprout { turtle, outward }
+        turtle.pitch_down(self.down_angle(site));
+        ChildFrame { turtle, outward }
     }
 }
 
 /// A child's turtle, still on the axis of its parent.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sprout {
+pub(crate) struct ChildFrame {
     pub(crate) turtle: Turtle,
     /// Outward normal of the parent's surface on the child's side.
     pub(crate) outward: DVec3,
@@ -179,14 +179,14 @@ pub(crate) struct Sprout {
 
 /// The running angle of children about their parent.
 struct Turning<'a> {
-    stem: &'a Seedling,
+    stem: &'a StemSpec,
     next: &'a Level,
     angle: f64,
     side: f64,
 }
 
 impl<'a> Turning<'a> {
-    fn new(stem: &'a Seedling, next: &'a Level) -> Self {
+    fn new(stem: &'a StemSpec, next: &'a Level) -> Self {
         let angle = if next.rotate >= 0.0 { TAU * stem.key.unit(purpose::START_ROTATION, 0) } else { 0.0 };
         Self { stem, next, angle, side: 1.0 }
     }
@@ -229,67 +229,67 @@ fn wrap(angle: f64) -> f64 {
 
 /// Number of children of a whole, unforked stem (Weber and Penn 1995, §4.3, and what the species
 /// were tuned for: ±10 % on the trunk, and the count of a stem with a bare base packed on the rest).
-fn count(model: &Model, stem: &Seedling) -> f64 {
-    let next = model.child_level(stem.depth);
+fn count(model: &Model, stem: &StemSpec) -> f64 {
+    let next = model.child_level(stem.level);
     if next.branches < 0.0 {
         return next.branches;
     }
-    let count = match stem.depth {
+    let count = match stem.level {
         0 => next.branches * (0.9 + 0.2 * stem.key.unit(purpose::BRANCH_COUNT, 0)),
         1 => next.branches * (0.2 + 0.8 * relative_length(stem)),
         _ => next.branches * (1.0 - 0.5 * stem.offset / stem.parent_length),
     };
-    count / (1.0 - model.levels[stem.depth].base_size)
+    count / (1.0 - model.levels[stem.level].base_size)
 }
 
 /// Length of `stem` over the greatest that a child of its parent may have.
-pub(crate) fn relative_length(stem: &Seedling) -> f64 {
+pub(crate) fn relative_length(stem: &StemSpec) -> f64 {
     let greatest = stem.parent_length * stem.parent_child_length;
     if greatest > 0.0 { stem.length / greatest } else { 0.0 }
 }
 
-/// Adds the children of `stem`, whose index in the tree is `index`, to the end of `bench.children`.
+/// Adds the children of `stem`, whose index in the tree is `index`, to the end of `buffers.children`.
 pub(crate) fn collect(
-    job: &Job<'_>,
-    bench: &mut Bench<'_>,
-    stem: &Seedling,
+    context: &GrowContext<'_>,
+    buffers: &mut Buffers<'_>,
+    stem: &StemSpec,
     index: u32,
     child_length: f64,
     first_point: usize,
 ) -> Result<(), Exceeded> {
-    let model = job.model;
-    let level = &model.levels[stem.depth];
+    let model = context.model;
+    let level = &model.levels[stem.level];
     let spacing = Spacing {
         stem,
         level,
-        next: model.child_level(stem.depth),
+        next: model.child_level(stem.level),
         count: count(model, stem),
         forks_cost: true,
     };
-    let profile = job.profile(stem);
-    let Bench { path, children, budget, .. } = bench;
-    let prunes = model.prune.ratio > 0.0;
+    let profile = context.profile(stem);
+    let Buffers { path, children, budget, .. } = buffers;
+    let prunes = model.prune_ratio > 0.0;
     let path = &path[first_point..];
-    spacing.places(path, (budget, Cause::Children), |budget, place| {
-        let radius_here = profile.at(place.offset / stem.length);
+    spacing.sites(path, (budget, Cause::Children), |budget, site| {
+        let radius_here = profile.at(site.offset / stem.length);
         // The tip of a cone has no radius to bear a fan; its base has.
-        let radius_limit = if place.fan.is_some() { stem.radius } else { radius_here };
+        let radius_limit = if site.fan.is_some() { stem.radius } else { radius_here };
         if radius_limit < MIN_PARENT_RADIUS {
             return Ok(());
         }
-        let length = length(model, stem, child_length, place.offset);
+        let length = length(model, stem, child_length, site.offset);
         // What waits is counted as a stem, so it has to become one; pruning has the last word on it.
         let is_a_stem = length.is_finite() && length >= MIN_LENGTH;
         if !prunes && !is_a_stem {
             return Ok(());
         }
-        budget.work(Cause::Children, stem.depth, CHILD_STEPS)?;
-        let mut child = Seedling {
-            key: stem.key.child(purpose::CHILD, place.number),
-            depth: stem.depth + 1,
+        budget.work(Cause::Children, stem.level, CHILD_STEPS)?;
+        let mut child = StemSpec {
+            key: stem.key.child(purpose::CHILD, site.number),
+            level: stem.level + 1,
             turtle: Turtle::UP,
             parent: Some(index),
-            offset: place.offset,
+            offset: site.offset,
             length,
             radius: 0.0,
             radius_limit,
@@ -297,11 +297,11 @@ pub(crate) fn collect(
             parent_radius: stem.radius,
             parent_child_length: child_length,
             scale: stem.scale,
-            clone: None,
+            forked: None,
         };
         child.radius = child.branch_radius(model);
         // The child's base sits inside the rim of its parent (Hewitt 2017, §3.2.1).
-        let Sprout { turtle, outward } = spacing.sprout(path, &place);
+        let ChildFrame { turtle, outward } = spacing.child_frame(path, &site);
         child.turtle = turtle;
         child.turtle.position += outward * (radius_here - child.radius.min(radius_here));
         children.push(child);
@@ -313,12 +313,12 @@ pub(crate) fn collect(
 const MIN_PARENT_RADIUS: f64 = 1e-4;
 
 /// Nominal length of a child at `offset` metres along `stem`.
-fn length(model: &Model, stem: &Seedling, child_length: f64, offset: f64) -> f64 {
-    let length = if stem.depth == 0 {
+fn length(model: &Model, stem: &StemSpec, child_length: f64, offset: f64) -> f64 {
+    let length = if stem.level == 0 {
         // The bare base keeps its length when the trunk is pruned.
         let base = model.levels[0].base_size * stem.parent_length;
         let q = (stem.length - offset) / (stem.length - base);
-        stem.length * child_length * shape_ratio(model.shape, q, &model.prune)
+        stem.length * child_length * model.shape_ratio(q)
     } else {
         child_length * (stem.length - 0.7 * offset)
     };

@@ -1,10 +1,9 @@
 //! Species files of this generator, and those that come with pleach.
 
 use crate::generator::WeberPenn;
-use crate::params::space;
 use crate::solid::{SHAPES, Solid, Surroundings};
-use pleach_tree::species::{Appearance, Form, Issue, Key};
-use pleach_tree::{Family, Species, SpeciesDoc, SpeciesError};
+use pleach_tree::species::{Form, Issue, Key};
+use pleach_tree::{Family, Generator, Species, SpeciesDoc};
 use std::sync::Arc;
 
 /// Keys of a species file beside parameters.
@@ -40,38 +39,17 @@ impl Family for WeberPennFamily {
         KEYS
     }
 
-    fn read(&self, doc: &SpeciesDoc) -> Result<Species, SpeciesError> {
-        let (values, mut issues) = doc.read(space(), KEYS);
-        let inside = Solid::read_list(doc, "prune_inside", &mut issues);
-        let obstacles = Solid::read_list(doc, "prune_obstacles", &mut issues).unwrap_or_default();
-        let mut text = |read: Result<Option<&str>, Issue>| match read {
-            Ok(text) => text.unwrap_or_default().to_owned(),
-            Err(issue) => {
-                issues.push(issue);
-                String::new()
-            }
-        };
-        let (name, description) = (text(doc.name()), text(doc.description()));
-        let tree_seed = doc.tree_seed().unwrap_or_else(|issue| {
-            issues.push(issue);
-            None
-        });
-        let appearance = Appearance::read(doc, &mut issues);
-        // Values that were wrong have left their defaults behind, so this finds nothing new.
-        match space().check(values) {
-            Ok(params) if issues.is_empty() => Ok(Species {
-                name,
-                description,
-                generator: Arc::new(WeberPenn { surroundings: Surroundings { inside, obstacles } }),
-                params,
-                tree_seed,
-                appearance,
-            }),
-            _ => {
-                issues.sort_by_key(|issue| (issue.line, issue.column));
-                Err(SpeciesError { issues })
-            }
-        }
+    fn misplaced(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("height", "the height of the tree is `g_scale`"),
+            ("leaves", "the number of leaves on a stem is `leaf_blos_num`"),
+        ]
+    }
+
+    fn read(&self, doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Option<Arc<dyn Generator>> {
+        let inside = Solid::read_list(doc, "prune_inside", issues);
+        let obstacles = Solid::read_list(doc, "prune_obstacles", issues).unwrap_or_default();
+        Some(Arc::new(WeberPenn { surroundings: Surroundings { inside, obstacles } }))
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
@@ -79,14 +57,23 @@ impl Family for WeberPennFamily {
     }
 }
 
-macro_rules! presets {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../../species/weber-penn/", $name, ".toml")))),*]
+/// Declares a set of species and, with the others, all files.
+macro_rules! species {
+    ($(#[$doc:meta])* pub const $set:ident: $($of_set:literal,)* others: $($other:literal,)*) => {
+        $(#[$doc])*
+        pub const $set: &[&str] = &[$($of_set),*];
+
+        /// Name and text of each file.
+        const PRESETS: &[(&str, &str)] = &[
+            $(($of_set, include_str!(concat!("../species/", $of_set, ".toml"))),)*
+            $(($other, include_str!(concat!("../species/", $other, ".toml"))),)*
+        ];
     };
 }
 
-/// The fifteen species of the dissertation in the order of its figures, then five more.
-const PRESETS: &[(&str, &str)] = presets![
+species! {
+    /// The fifteen species of Hewitt's dissertation, in the order of its figures.
+    pub const HEWITT_2017:
     "quaking_aspen",
     "weeping_willow",
     "bamboo",
@@ -102,17 +89,16 @@ const PRESETS: &[(&str, &str)] = presets![
     "european_larch",
     "hill_cherry",
     "balsam_fir",
+    others:
     "cambridge_oak",
     "fan_palm",
     "sassafras",
     "sphere_tree",
     "weeping_willow_o",
-];
+}
 
 /// A species that comes with pleach.
 #[must_use]
 pub fn preset(name: &str) -> Option<Species> {
-    let (_, text) = PRESETS.iter().find(|(known, _)| *known == name)?;
-    let doc = SpeciesDoc::parse(name, text).ok()?;
-    WeberPennFamily.read(&doc).ok()
+    pleach_tree::species::preset(&WeberPennFamily, name)
 }

@@ -3,80 +3,78 @@
 //! Weber and Penn 1995, §4.9; Hewitt 2017, §3.2.2.
 
 use crate::budget::{Cause, Exceeded};
-use crate::children::{Spacing, Sprout, relative_length};
-use crate::grow::{Bench, Job};
+use crate::children::{ChildFrame, Spacing, relative_length};
+use crate::grow::{Buffers, GrowContext};
+use crate::leaf_batch::{LANES, LeafBatch, LeafSite};
 use crate::purpose;
-use crate::sprig::{Bud, LANES, Sprig};
-use crate::stem::Seedling;
+use crate::stem::StemSpec;
 use glam::{DVec3, Vec3};
 use pleach_tree::trig::{atan2, sin_cos};
 use pleach_tree::turtle::Turtle;
-use pleach_tree::{Foliage, Leaf, Tree};
+use pleach_tree::{Leaf, Tree};
 
 /// Grows the leaves and blossoms of `stem`, whose index in the tree is `index`.
 pub(crate) fn grow(
-    job: &Job<'_>,
-    bench: &mut Bench<'_>,
-    stem: &Seedling,
+    context: &GrowContext<'_>,
+    buffers: &mut Buffers<'_>,
+    stem: &StemSpec,
     index: u32,
     first_point: usize,
 ) -> Result<(), Exceeded> {
-    let model = job.model;
+    let model = context.model;
     let relative_scale = stem.scale / model.g_scale;
     let spacing = Spacing {
         stem,
-        level: &model.levels[stem.depth],
-        next: model.child_level(stem.depth),
+        level: &model.levels[stem.level],
+        next: model.child_level(stem.level),
         count: model.leaf_blos_num * relative_scale * relative_length(stem),
         forks_cost: false,
     };
-    let profile = job.profile(stem);
-    let coarse = Coarse::new(job.growth.foliage, stem);
-    let scale = relative_scale * coarse.scale;
+    let profile = context.profile(stem);
     let kinds = Kinds {
         stem: (stem, index),
         blossom_rate: model.blossom_rate,
-        leaf: ((model.leaf_scale * scale) as f32, (model.leaf_scale * model.leaf_scale_x * scale) as f32),
-        blossom: (model.blossom_scale * scale) as f32,
+        leaf: (
+            (model.leaf_scale * relative_scale) as f32,
+            (model.leaf_scale * model.leaf_scale_x * relative_scale) as f32,
+        ),
+        blossom: (model.blossom_scale * relative_scale) as f32,
     };
     let helix = spacing.level.is_helix();
 
-    let Bench { tree, path, budget, .. } = bench;
+    let Buffers { tree, path, budget, .. } = buffers;
     let path = &path[first_point..];
-    let mut sprig = Sprig::default();
+    let mut batch = LeafBatch::default();
     let mut numbers = [0; LANES];
-    spacing.places(path, (budget, Cause::Leaves), |budget, place| {
-        if !coarse.keeps(place.number) {
-            return Ok(());
-        }
+    spacing.sites(path, (budget, Cause::Leaves), |budget, site| {
         budget.leaf()?;
-        let radius = profile.at(place.offset / stem.length);
-        if place.fan.is_some() {
-            let Sprout { mut turtle, outward } = spacing.sprout(path, &place);
+        let radius = profile.at(site.offset / stem.length);
+        if site.fan.is_some() {
+            let ChildFrame { mut turtle, outward } = spacing.child_frame(path, &site);
             turtle.position += outward * radius;
             if model.leaf_bend > 0.0 {
                 face_the_light(model.leaf_bend, &mut turtle);
             }
             let (position, along, across) = (turtle.position, turtle.direction, turtle.right);
-            kinds.push(tree, place.number, (position.as_vec3(), along.as_vec3(), across.as_vec3()));
+            kinds.push(tree, site.number, (position.as_vec3(), along.as_vec3(), across.as_vec3()));
             return Ok(());
         }
-        let down_angle = spacing.down_angle(&place);
-        let bud = Bud { piece: place.piece, t: place.t, rotation: place.rotation, down_angle, radius };
-        numbers[sprig.len()] = place.number;
-        sprig.push(path, helix, &bud);
-        if sprig.len() == LANES {
-            kinds.flush(tree, &mut sprig, &numbers, helix, model.leaf_bend);
+        let down_angle = spacing.down_angle(&site);
+        numbers[batch.len()] = site.number;
+        let leaf = LeafSite { piece: site.piece, t: site.t, rotation: site.rotation, down_angle, radius };
+        batch.push(path, helix, &leaf);
+        if batch.len() == LANES {
+            kinds.flush(tree, &mut batch, &numbers, helix, model.leaf_bend);
         }
         Ok(())
     })?;
-    kinds.flush(tree, &mut sprig, &numbers, helix, model.leaf_bend);
+    kinds.flush(tree, &mut batch, &numbers, helix, model.leaf_bend);
     Ok(())
 }
 
 /// How large the leaves and blossoms of a stem are, and which are which.
 struct Kinds<'a> {
-    stem: (&'a Seedling, u32),
+    stem: (&'a StemSpec, u32),
     blossom_rate: f64,
     /// Length and width of the unit leaf, metres.
     leaf: (f32, f32),
@@ -85,15 +83,15 @@ struct Kinds<'a> {
 }
 
 impl Kinds<'_> {
-    fn flush(&self, tree: &mut Tree, sprig: &mut Sprig, numbers: &[u32; LANES], helix: bool, bend: f64) {
-        if sprig.len() == 0 {
+    fn flush(&self, tree: &mut Tree, batch: &mut LeafBatch, numbers: &[u32; LANES], helix: bool, bend: f64) {
+        if batch.len() == 0 {
             return;
         }
-        sprig.place(helix, bend as f32);
-        for (lane, &number) in numbers[..sprig.len()].iter().enumerate() {
-            self.push(tree, number, sprig.leaf(lane));
+        batch.site(helix, bend as f32);
+        for (lane, &number) in numbers[..batch.len()].iter().enumerate() {
+            self.push(tree, number, batch.leaf(lane));
         }
-        sprig.clear();
+        batch.clear();
     }
 
     fn push(&self, tree: &mut Tree, number: u32, (position, along, across): (Vec3, Vec3, Vec3)) {
@@ -128,31 +126,4 @@ pub(crate) fn face_the_light(leaf_bend: f64, turtle: &mut Turtle) {
     let (sin, cos) = sin_cos(leaf_bend * atan2(level, n.z));
     let lift = |v: DVec3| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos));
     (turtle.direction, turtle.right) = (lift(direction), lift(right));
-}
-
-/// Which leaves of a coarse crown are made, and how much larger.
-struct Coarse {
-    one_in: u32,
-    phase: u32,
-    scale: f64,
-}
-
-impl Coarse {
-    fn new(foliage: Foliage, stem: &Seedling) -> Self {
-        let one_in = match foliage {
-            Foliage::OneIn(n) => n.max(1),
-            Foliage::All | Foliage::None => 1,
-        };
-        // Stems with few leaves must not all keep their first.
-        let phase = if one_in == 1 {
-            0
-        } else {
-            (stem.key.bits(purpose::COARSE_PHASE, 0) % u64::from(one_in)) as u32
-        };
-        Self { one_in, phase, scale: f64::from(one_in).sqrt() }
-    }
-
-    const fn keeps(&self, number: u32) -> bool {
-        self.one_in == 1 || (number + self.phase).is_multiple_of(self.one_in)
-    }
 }

@@ -1,11 +1,11 @@
 //! The path of a stem: one point a segment, with handles, turns, tropism and forks.
 //!
-//! Weber and Penn 1995, §4.1, §4.2 and §4.8; Hewitt 2017, §3.2.1. A clone walks the rest of its
+//! Weber and Penn 1995, §4.1, §4.2 and §4.8; Hewitt 2017, §3.2.1. A fork walks the rest of its
 //! origin's segments.
 
 use crate::model::{Level, Model};
 use crate::purpose;
-use crate::stem::{CloneState, ForkState, Seedling};
+use crate::stem::{ForkStart, ForkState, StemSpec};
 use glam::DVec3;
 use pleach_tree::turtle::{Turtle, rotate};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -26,30 +26,30 @@ pub(crate) struct PathPoint {
 
 /// Receives the forks of a path; trials of pruning drop them.
 pub(crate) trait Forks {
-    fn clone_at(&mut self, turtle: Turtle, state: CloneState, index: u32);
+    fn clone_at(&mut self, turtle: Turtle, state: ForkStart, index: u32);
 }
 
 /// Drops all forks.
 pub(crate) struct NoForks;
 
 impl Forks for NoForks {
-    fn clone_at(&mut self, _: Turtle, _: CloneState, _: u32) {}
+    fn clone_at(&mut self, _: Turtle, _: ForkStart, _: u32) {}
 }
 
 /// Walks the path of `stem` at `length` metres for the whole stem; appends its points to `path`.
 ///
-/// `child_length` is handed on to clones. `carry` is the error that `seg_splits` diffuses from
-/// segment to segment and on to clones.
+/// `child_length` is handed on to forks. `carry` is the error that `seg_splits` diffuses from
+/// segment to segment and on to forks.
 pub(crate) fn walk(
     model: &Model,
-    stem: &Seedling,
+    stem: &StemSpec,
     length: f64,
     child_length: f64,
     carry: &mut f64,
     path: &mut Vec<PathPoint>,
     forks: &mut impl Forks,
 ) {
-    let level = &model.levels[stem.depth];
+    let level = &model.levels[stem.level];
     if level.is_helix() {
         helix(model, level, stem, length, path);
         return;
@@ -58,12 +58,12 @@ pub(crate) fn walk(
     let start = stem.start();
     let step = length / f64::from(segments);
     let handle = step / 3.0;
-    let pull = tropism(model, stem.depth);
+    let pull = tropism(model, stem.level);
     let mut fork = stem.fork();
     let mut keep = fork.branch_factor;
     let mut turtle = stem.turtle;
 
-    let leave = stem.clone.and_then(|c| c.first_handle).unwrap_or(turtle.direction);
+    let leave = stem.forked.and_then(|c| c.first_handle).unwrap_or(turtle.direction);
     path.push(PathPoint {
         point: turtle.position,
         handle_in: turtle.position - leave * handle,
@@ -90,7 +90,7 @@ pub(crate) fn walk(
         if i == segments {
             break;
         }
-        if parting.clones > 0 {
+        if parting.forked_stems > 0 {
             part(level, stem, i, parting, &mut turtle, &mut fork, child_length, forks);
         } else {
             turn(level, stem, i, &fork, &mut turtle);
@@ -102,42 +102,42 @@ pub(crate) fn walk(
 /// A fork about to happen.
 #[derive(Clone, Copy, Debug, Default)]
 struct Parting {
-    /// Number of clones that leave.
-    clones: u32,
+    /// Number of forks that leave.
+    forked_stems: u32,
     /// Whether this is the fork where the trunk's bare base ends.
     base: bool,
 }
 
-/// How many clones leave at point `i`; keeps the books of forking.
+/// How many forks leave at point `i`; updates the fork state.
 fn forks_at(
     model: &Model,
-    stem: &Seedling,
+    stem: &StemSpec,
     i: u32,
     carry: &mut f64,
     fork: &mut ForkState,
     keep: &mut f64,
 ) -> Parting {
-    let level = &model.levels[stem.depth];
+    let level = &model.levels[stem.level];
     let base = (level.base_size * f64::from(level.curve_res)).ceil() as u32;
-    if stem.depth == 0 && i == base.max(1) && model.base_splits != 0 {
-        return Parting { clones: base_splits(model, stem), base: true };
+    if stem.level == 0 && i == base.max(1) && model.base_splits != 0 {
+        return Parting { forked_stems: base_splits(model, stem), base: true };
     }
-    if level.seg_splits <= 0.0 || (stem.depth == 0 && i <= base) {
+    if level.seg_splits <= 0.0 || (stem.level == 0 && i <= base) {
         return Parting::default();
     }
     if stem.key.unit(purpose::SPLIT, i) > fork.probability {
         return Parting::default();
     }
-    let clones = (level.seg_splits + *carry).floor().max(0.0);
-    *carry += level.seg_splits - clones;
-    fork.probability /= clones + 1.0;
-    fork.branch_factor = (fork.branch_factor / (clones + 1.0)).max(0.8);
+    let forked_stems = (level.seg_splits + *carry).floor().max(0.0);
+    *carry += level.seg_splits - forked_stems;
+    fork.probability /= forked_stems + 1.0;
+    fork.branch_factor = (fork.branch_factor / (forked_stems + 1.0)).max(0.8);
     *keep *= fork.branch_factor;
-    Parting { clones: clones as u32, base: false }
+    Parting { forked_stems: forked_stems as u32, base: false }
 }
 
 /// Clones where the bare base ends; a negative number is the most that may be drawn.
-fn base_splits(model: &Model, stem: &Seedling) -> u32 {
+fn base_splits(model: &Model, stem: &StemSpec) -> u32 {
     let most = model.base_splits.unsigned_abs() as u32;
     if model.base_splits > 0 {
         most
@@ -146,13 +146,13 @@ fn base_splits(model: &Model, stem: &Seedling) -> u32 {
     }
 }
 
-/// Forks at point `i`, where `turtle` has just arrived: hands the clones to `forks` and turns the stem itself.
+/// Forks at point `i`, where `turtle` has just arrived: hands the new stems to `forks` and turns the stem itself.
 #[expect(clippy::too_many_arguments, reason = "one step of the walk, split off to be read alone")]
 fn part(
     level: &Level,
-    stem: &Seedling,
+    stem: &StemSpec,
     i: u32,
-    Parting { clones: count, base }: Parting,
+    Parting { forked_stems: count, base }: Parting,
     turtle: &mut Turtle,
     fork: &mut ForkState,
     child_length: f64,
@@ -192,7 +192,7 @@ fn part(
             };
             clone.rotate_about(DVec3::Z, about);
         }
-        let state = CloneState { start: i, first_handle, child_length, fork: *fork };
+        let state = ForkStart { start: i, first_handle, child_length, fork: *fork };
         forks.clone_at(clone, state, i * 32 + j);
     }
 
@@ -209,7 +209,7 @@ fn part(
 }
 
 /// Bends the turtle after point `i` of a segment that does not fork.
-fn turn(level: &Level, stem: &Seedling, i: u32, fork: &ForkState, turtle: &mut Turtle) {
+fn turn(level: &Level, stem: &StemSpec, i: u32, fork: &ForkState, turtle: &mut Turtle) {
     let segments = f64::from(level.curve_res);
     if level.bend_v != 0.0 {
         turtle.turn_right(-stem.key.signed(purpose::BEND, i) * level.bend_v / segments);
@@ -226,8 +226,8 @@ fn turn(level: &Level, stem: &Seedling, i: u32, fork: &ForkState, turtle: &mut T
 }
 
 /// The pull on stems of this level: only sideways on trunks and their branches.
-fn tropism(model: &Model, depth: usize) -> DVec3 {
-    if depth < 2 { model.tropism.with_z(0.0) } else { model.tropism }
+fn tropism(model: &Model, level: usize) -> DVec3 {
+    if level < 2 { model.tropism.with_z(0.0) } else { model.tropism }
 }
 
 /// Turns the turtle towards `pull`, by 10° a unit at right angles.
@@ -242,10 +242,10 @@ fn lean(turtle: &mut Turtle, pull: DVec3) {
 /// A helix of half a turn a segment (Hewitt 2017, §3.2.1 *Helical Branches*).
 ///
 /// The declination |`curve_v`| is kept within 1° and 89°, where the construction has a meaning.
-fn helix(model: &Model, level: &Level, stem: &Seedling, length: f64, path: &mut Vec<PathPoint>) {
+fn helix(model: &Model, level: &Level, stem: &StemSpec, length: f64, path: &mut Vec<PathPoint>) {
     let segments = level.curve_res;
     let mut turtle = stem.turtle;
-    lean(&mut turtle, tropism(model, stem.depth));
+    lean(&mut turtle, tropism(model, stem.level));
     let axis = turtle.direction;
 
     let vary = |purpose| 0.8 + 0.4 * stem.key.unit(purpose, 0);
@@ -261,8 +261,8 @@ fn helix(model: &Model, level: &Level, stem: &Seedling, length: f64, path: &mut 
     let spin = TAU * stem.key.unit(purpose::HELIX_SPIN, 0);
     let x = rotate(turtle.right, axis, spin);
     let y = axis.cross(x);
-    let place = |v: DVec3| x * v.x + y * v.y + axis * v.z;
-    let (to_b1, to_b2, to_b3) = (place(b1 - b0), place(b2 - b0), place(b3 - b0));
+    let site = |v: DVec3| x * v.x + y * v.y + axis * v.z;
+    let (to_b1, to_b2, to_b3) = (site(b1 - b0), site(b2 - b0), site(b3 - b0));
 
     let mut at = turtle.position;
     path.push(PathPoint {
@@ -293,17 +293,17 @@ mod tests {
     use super::*;
     use crate::params::space;
 
-    fn straight(values: &[(&str, f64)]) -> (Model, Seedling) {
+    fn straight(values: &[(&str, f64)]) -> (Model, StemSpec) {
         let mut all = space().defaults();
         for (name, value) in values {
             for slot in space().select(name).unwrap() {
-                all[slot] = *value;
+                all[slot.index()] = *value;
             }
         }
-        (Model::new(&all), Seedling::test_stem())
+        (Model::new(&all), StemSpec::test_stem())
     }
 
-    fn path(model: &Model, stem: &Seedling) -> Vec<PathPoint> {
+    fn path(model: &Model, stem: &StemSpec) -> Vec<PathPoint> {
         let mut path = Vec::new();
         walk(model, stem, stem.length, 1.0, &mut 0.0, &mut path, &mut NoForks);
         path
@@ -367,7 +367,7 @@ mod tests {
         stem.turtle = Turtle { position: DVec3::ZERO, direction: DVec3::X, right: DVec3::Y };
         let level_one = path(&model, &stem)[10].direction;
         assert_eq!(level_one, DVec3::X, "the vertical part spares level 1");
-        stem.depth = 2;
+        stem.level = 2;
         let drooping = path(&model, &stem)[10].direction;
         assert!(drooping.z < -0.99, "{drooping}");
     }

@@ -23,7 +23,6 @@ pub(crate) const HELIX_PITCH: Purpose = 23;
 pub(crate) const HELIX_RADIUS: Purpose = 24;
 pub(crate) const HELIX_SPIN: Purpose = 25;
 pub(crate) const BASE_SPLITS: Purpose = 26;
-pub(crate) const COARSE_PHASE: Purpose = 27;
 // Of a stem's segment.
 pub(crate) const BEND: Purpose = 30;
 pub(crate) const CURVE: Purpose = 31;

@@ -6,20 +6,20 @@ use pleach_tree::turtle::Turtle;
 
 /// A stem about to grow.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Seedling {
+pub(crate) struct StemSpec {
     /// Address of its random numbers.
     pub(crate) key: Key,
     /// Level, 0 for trunks.
-    pub(crate) depth: usize,
+    pub(crate) level: usize,
     /// Where it starts and how it is turned.
     pub(crate) turtle: Turtle,
     /// Index in the tree of the stem that it grows from.
     pub(crate) parent: Option<u32>,
     /// Metres along the parent at which it starts.
     pub(crate) offset: f64,
-    /// Length of the whole stem in metres. A clone has its origin's.
+    /// Length of the whole stem in metres. A fork has its origin's.
     pub(crate) length: f64,
-    /// Nominal radius at the base of the whole stem in metres. A clone has its origin's.
+    /// Nominal radius at the base of the whole stem in metres. A fork has its origin's.
     pub(crate) radius: f64,
     /// Largest radius that the base may have: the parent's where it starts.
     pub(crate) radius_limit: f64,
@@ -31,16 +31,16 @@ pub(crate) struct Seedling {
     pub(crate) parent_child_length: f64,
     /// The scale of the tree that it is part of, in metres.
     pub(crate) scale: f64,
-    /// Set for clones.
-    pub(crate) clone: Option<CloneState>,
+    /// Set for stems that fork off another one.
+    pub(crate) forked: Option<ForkStart>,
 }
 
-/// What a clone takes over from the stem that it forks from.
+/// What a fork takes over from its origin.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct CloneState {
+pub(crate) struct ForkStart {
     /// The point of the whole stem at which it starts, 1 or more.
     pub(crate) start: u32,
-    /// Direction along which the old stem arrived there: the clone leaves along it.
+    /// Direction along which the old stem arrived there: the fork leaves along it.
     pub(crate) first_handle: Option<glam::DVec3>,
     /// The whole stem's draw of the greatest relative length of its children.
     pub(crate) child_length: f64,
@@ -48,7 +48,7 @@ pub(crate) struct CloneState {
     pub(crate) fork: ForkState,
 }
 
-/// How willing a stem still is to fork, and what forks have cost it.
+/// Fork probability and accumulated penalties.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ForkState {
     /// Probability of the next fork.
@@ -63,21 +63,21 @@ impl ForkState {
     pub(crate) const UNFORKED: Self = Self { probability: 1.0, branch_factor: 1.0, correction: 0.0 };
 }
 
-impl Seedling {
-    /// The first point of the path, 0 unless it is a clone.
+impl StemSpec {
+    /// The first point of the path, 0 unless it forks off another stem.
     pub(crate) fn start(&self) -> u32 {
-        self.clone.map_or(0, |c| c.start)
+        self.forked.map_or(0, |c| c.start)
     }
 
     pub(crate) fn fork(&self) -> ForkState {
-        self.clone.map_or(ForkState::UNFORKED, |c| c.fork)
+        self.forked.map_or(ForkState::UNFORKED, |c| c.fork)
     }
 
     /// Base radius of a branch of this length (Weber and Penn 1995, §4.4; `radius_mod` and the floor
     /// are Hewitt's): thinner by a power of the length ratio, never thicker than its parent there.
     pub(crate) fn branch_radius(&self, model: &Model) -> f64 {
         let part = self.length / self.parent_length;
-        let radius = model.levels[self.depth].radius_mod * self.parent_radius * part.powf(model.ratio_power);
+        let radius = model.levels[self.level].radius_mod * self.parent_radius * part.powf(model.ratio_power);
         radius.max(MIN_RADIUS).min(self.radius_limit)
     }
 }
@@ -86,12 +86,12 @@ impl Seedling {
 const MIN_RADIUS: f64 = 0.005;
 
 #[cfg(test)]
-impl Seedling {
+impl StemSpec {
     /// A branch ten metres long on a trunk of twenty, straight up from the origin.
     pub(crate) fn test_stem() -> Self {
         Self {
             key: Key::root(1),
-            depth: 1,
+            level: 1,
             turtle: Turtle::UP,
             parent: None,
             offset: 0.0,
@@ -102,7 +102,7 @@ impl Seedling {
             parent_radius: 0.2,
             parent_child_length: 0.5,
             scale: 20.0,
-            clone: None,
+            forked: None,
         }
     }
 }

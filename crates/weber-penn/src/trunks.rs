@@ -16,29 +16,29 @@ const TRIES: u32 = 32;
 const GROWTH: f64 = 1.1;
 
 /// Positions of the trunks on the ground, in metres; a single one stands at the origin.
-pub(crate) fn places(
+pub(crate) fn sites(
     model: &Model,
     key: Key,
-    places: &mut Vec<DVec2>,
+    sites: &mut Vec<DVec2>,
     budget: &mut Budget<'_>,
 ) -> Result<(), Exceeded> {
-    places.clear();
-    if model.trunks <= 1 {
-        places.push(DVec2::ZERO);
+    sites.clear();
+    if model.trunks() <= 1 {
+        sites.push(DVec2::ZERO);
         return Ok(());
     }
     let trunk = &model.levels[0];
-    let mut disc = (f64::from(model.trunks) / 2.5 * model.g_scale * model.ratio).sqrt();
+    let mut disc = (f64::from(model.trunks()) / 2.5 * model.g_scale * model.ratio).sqrt();
     let length = trunk.length + key.signed(purpose::DART_SPACING, 0) * trunk.length_v;
     let spacing = 2.5 * model.ratio * trunk.radius_mod * (model.g_scale + model.g_scale_v) * length.max(0.0);
-    for i in 0..model.trunks {
+    for i in 0..model.trunks() {
         let dart_key = key.child(purpose::DART, i);
         for attempt in 0.. {
-            budget.work(Cause::Darts, 0, 1 + places.len() as u64 / DARTS_A_STEP)?;
+            budget.work(Cause::Darts, 0, 1 + sites.len() as u64 / DARTS_A_STEP)?;
             let distance = disc * dart_key.unit(purpose::DART_DISTANCE, attempt).sqrt();
             let dart = DVec2::from_angle(TAU * dart_key.unit(purpose::DART_AZIMUTH, attempt)) * distance;
-            if places.iter().all(|p| p.distance_squared(dart) >= spacing * spacing) {
-                places.push(dart);
+            if sites.iter().all(|p| p.distance_squared(dart) >= spacing * spacing) {
+                sites.push(dart);
                 break;
             }
             if attempt % TRIES == TRIES - 1 {

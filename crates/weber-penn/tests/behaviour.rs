@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_tree::{Family, Species, SpeciesDoc, SpeciesError, StemKind, Tree};
+use pleach_tree::{Species, SpeciesDoc, SpeciesError, StemKind, Tree};
 use pleach_weber_penn::WeberPennFamily;
 
 fn read(text: &str) -> Result<Species, SpeciesError> {
-    WeberPennFamily.read(&SpeciesDoc::parse("test.toml", text)?)
+    SpeciesDoc::parse("test.toml", text)?.species(&WeberPennFamily)
 }
 
 fn grow(text: &str) -> Tree {
@@ -285,7 +285,7 @@ fn blossoms_replace_leaves_at_their_rate() {
 #[test]
 fn leaf_bend_turns_leaves_outwards_and_up() {
     let facing = |bend: f64| {
-        let text = include_str!("../../../species/weber-penn/quaking_aspen.toml")
+        let text = include_str!("../species/quaking_aspen.toml")
             .replace("leaf_bend = 0.6", &format!("leaf_bend = {bend}"));
         let tree = grow(&text);
         let up: f32 = tree.leaves.iter().map(|l| l.along.cross(l.across).normalize().z).sum();
@@ -375,7 +375,7 @@ fn monsters_end_in_errors_within_the_limit() {
 #[test]
 fn without_variations_of_size_trunks_of_all_seeds_are_alike() {
     for name in ["quaking_aspen", "balsam_fir"] {
-        let path = format!("{}/../../species/weber-penn/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/species/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let species = read(&std::fs::read_to_string(path).unwrap()).unwrap();
         let space = species.generator.space();
         let lengths = |values: &[f64]| -> Vec<f64> {
@@ -388,12 +388,13 @@ fn without_variations_of_size_trunks_of_all_seeds_are_alike() {
         // Lengths of splines are good to 0.3 %.
         let spread = |lengths: &[f64]| lengths.iter().any(|l| (l / lengths[0] - 1.0).abs() > 0.02);
         assert!(spread(&lengths(&values)), "{name}");
-        let slots = species.generator.size_variations(&values);
-        assert_eq!(slots.len(), 2, "{name}");
-        slots.into_iter().for_each(|slot| values[slot] = 0.0);
+        assert!(!species.generator.shows_size_jitter(&values), "{name}");
+        let slots: Vec<String> = space.size_jitters().map(|slot| space.slot_name(slot)).collect();
+        assert_eq!(slots, ["g_scale_v", "length_v[0]"]);
+        space.size_jitters().for_each(|slot| values[slot.index()] = 0.0);
         assert!(!spread(&lengths(&values)), "{name}");
         // Several trunks show how much they differ.
-        values[space.select("branches[0]").unwrap()[0]] = 3.0;
-        assert!(species.generator.size_variations(&values).is_empty(), "{name}");
+        values[space.select("branches[0]").unwrap()[0].index()] = 3.0;
+        assert!(species.generator.shows_size_jitter(&values), "{name}");
     }
 }

@@ -6,16 +6,16 @@
 //!
 //! | number | features | unit |
 //! | --- | --- | --- |
-//! | real | itself | widths of its search range |
-//! | positive real, open above, search range over a factor of 3 to 100 | its logarithm | widths of its search range |
-//! | whole number up to 9 | itself | widths of its search range |
-//! | count beyond 9 | ln(1 + n) | widths of its search range |
+//! | of [scale](pleach_tree::param::Scale) `Linear` or `FineNearZero` | itself | widths of its search range |
+//! | of scale `Log` | its logarithm | widths of its search range |
+//! | of scale `Count`, up to 9 | itself | widths of its search range |
+//! | of scale `Count`, beyond 9 | ln(1 + n) | widths of its search range |
 //! | choice | one for each name, 1 or 0 | 1/√2: two different choices are 1 apart |
 //! | flagged | a *switch*, 1 or 0, and two *magnitudes*, one for each meaning of the sign | 1; widths of the range on that side |
-//! | with regimes ([`Generator::regimes`]) | one for each regime: how far through it the number is | the regime's width |
+//! | with [breakpoints](pleach_tree::Param::breakpoints) | one for each regime: how far through it the number is | the regime's width |
 //!
 //! A feature is **missing** where it means nothing: everything about levels, leaves, blossoms or
-//! pruning that a species does not have ([`Generator::reads`]), and the magnitude of the meaning
+//! pruning that a species does not have ([`Generator::is_active`]), and the magnitude of the meaning
 //! that a flagged number has not chosen. Zero is the start of both meanings of a flag, so there
 //! neither is missing. Missing features add nothing to a distance and do not take part in an
 //! average.
@@ -29,7 +29,7 @@ mod slot;
 pub use slot::Feature;
 use slot::SlotCode;
 
-use pleach_tree::{Generator, ParamSpace};
+use pleach_tree::{Generator, ParamSpace, Slot};
 
 /// How the numbers of a species become features.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,15 +60,16 @@ impl Coding {
     /// The coding of `space`, with units from its search ranges, or from `examples` (full lists of
     /// values) where these reach beyond them.
     #[must_use]
-    pub fn new(kind: Features, space: &ParamSpace, generator: &dyn Generator, examples: &[&[f64]]) -> Self {
+    pub fn new(kind: Features, space: &ParamSpace, examples: &[&[f64]]) -> Self {
         let mut features = Vec::new();
-        let slots = (0..space.len())
+        let slots = space
+            .slots()
             .map(|slot| {
                 let (low, high) = space.search_range(slot);
-                let values = examples.iter().map(|values| values[slot]);
+                let values = examples.iter().map(|values| values[slot.index()]);
                 let span = values.fold((low, high), |(a, b), v| (a.min(v), b.max(v)));
                 match kind {
-                    Features::Declared => SlotCode::declared(space, generator, slot, span, &mut features),
+                    Features::Declared => SlotCode::declared(space, slot, span, &mut features),
                     Features::Raw => SlotCode::raw(space, slot, &mut features),
                 }
             })
@@ -92,28 +93,28 @@ impl Coding {
     #[must_use]
     pub fn encode(&self, generator: &dyn Generator, values: &[f64]) -> Code {
         let mut code = vec![None; self.features.len()];
-        for (slot, coder) in self.slots.iter().enumerate() {
-            if self.kind == Features::Raw || generator.reads(values, slot) {
-                coder.encode(values[slot], &mut code);
+        for ((slot, coder), &value) in (0..).map(Slot::new).zip(&self.slots).zip(values) {
+            if self.kind == Features::Raw || generator.is_active(values, slot) {
+                coder.encode(value, &mut code);
             }
         }
         Code { values: code }
     }
 
-    /// The value of slot number `slot` that fits its features best: valid by kind and range, and
+    /// The value of `slot` that fits its features best: valid by kind and range, and
     /// rounded to twelve digits, since 0.55 reads better than 0.5499999999999999. `None` if its
     /// features are missing.
     ///
     /// `features` are all features, of which only those of the slot are read.
     #[must_use]
-    pub fn decode(&self, space: &ParamSpace, slot: usize, features: &[Option<f64>]) -> Option<f64> {
-        self.slots[slot].decode(features).map(|value| space.kind_of(slot).repair(rounded(value)))
+    pub fn decode(&self, space: &ParamSpace, slot: Slot, features: &[Option<f64>]) -> Option<f64> {
+        self.slots[slot.index()].decode(features).map(|value| space.kind_of(slot).repair(rounded(value)))
     }
 
-    /// The numbers of the features of slot number `slot`.
+    /// The numbers of the features of `slot`.
     #[must_use]
-    pub fn features_of(&self, slot: usize) -> std::ops::Range<usize> {
-        self.slots[slot].features()
+    pub fn features_of(&self, slot: Slot) -> std::ops::Range<usize> {
+        self.slots[slot.index()].features()
     }
 }
 
@@ -140,8 +141,7 @@ mod tests {
         let all = fifteen();
         let values: Vec<&[f64]> = all.iter().map(|s| s.params.values()).collect();
         let aspen = all[0].clone();
-        let coding =
-            Coding::new(Features::Declared, aspen.generator.space(), aspen.generator.as_ref(), &values);
+        let coding = Coding::new(Features::Declared, aspen.generator.space(), &values);
         (aspen, coding)
     }
 
@@ -160,18 +160,18 @@ mod tests {
             let all = fifteen();
             let values: Vec<&[f64]> = all.iter().map(|s| s.params.values()).collect();
             let space = all[0].generator.space();
-            let coding = Coding::new(kind, space, all[0].generator.as_ref(), &values);
+            let coding = Coding::new(kind, space, &values);
             for species in &all {
                 let values = species.params.values();
                 let code = coding.encode(species.generator.as_ref(), values);
-                for slot in 0..space.len() {
+                for slot in space.slots() {
                     match coding.decode(space, slot, &code.values) {
                         Some(value) => {
-                            let off = (value - values[slot]).abs();
+                            let off = (value - species.params.get(slot)).abs();
                             let (name, slot_name) = (&species.name, space.slot_name(slot));
-                            assert!(off < 1e-9 * values[slot].abs().max(1.0), "{name} {slot_name}: {value}");
+                            assert!(off < 1e-9 * value.abs().max(1.0), "{name} {slot_name}: {value}");
                         }
-                        None => assert!(!species.generator.reads(values, slot)),
+                        None => assert!(!species.generator.is_active(values, slot)),
                     }
                 }
             }
@@ -186,7 +186,7 @@ mod tests {
         let [switch, plus, minus] = coding.features_of(slot).collect::<Vec<_>>()[..] else { panic!() };
         let mut values = aspen.params.values().to_vec();
         let mut code_of = |v: f64| {
-            values[slot] = v;
+            values[slot.index()] = v;
             let code = coding.encode(aspen.generator.as_ref(), &values).values;
             (code[switch], code[plus], code[minus])
         };
@@ -247,7 +247,7 @@ mod tests {
             let space = aspen.generator.space();
             let features: Vec<Option<f64>> = features.into_iter().map(Some).collect();
             prop_assert!(coding.features().len() <= features.len());
-            let values = (0..space.len()).map(|s| coding.decode(space, s, &features).unwrap()).collect();
+            let values = space.slots().map(|s| coding.decode(space, s, &features).unwrap()).collect();
             prop_assert!(space.check(values).is_ok());
         }
     }

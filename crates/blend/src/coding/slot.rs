@@ -1,21 +1,21 @@
 //! The code of one slot.
 
-use pleach_tree::{Generator, Kind, ParamSpace};
+use pleach_tree::param::Scale;
+use pleach_tree::{Kind, ParamSpace, Slot};
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
 
-/// Search ranges of positive quantities over a factor in this range are compared as ratios. Below,
-/// logarithm and number are nearly the same; above, the low end is a way of saying nothing.
-const RATIO_RANGE: std::ops::RangeInclusive<f64> = 3.0..=100.0;
+/// How far below its search range a quantity is still compared by ratio: a hundredth of it.
+const LEAST_PART: f64 = 100.0;
 
-/// Whole numbers that reach beyond this are counts.
+/// Counts that reach beyond this are many: compared by ratio.
 const MAX_FEW: f64 = 9.0;
 
 /// One feature.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
     /// The slot that it says something about.
-    pub slot: usize,
+    pub slot: Slot,
     /// The slot's name, and which part of its meaning where there are several: `length[1]`,
     /// `shape = flame`, `rotate[2] < 0`, `taper[0] from 2`.
     pub name: String,
@@ -34,6 +34,16 @@ enum Stretch {
 }
 
 impl Stretch {
+    /// How numbers of this scale are stretched, where they are searched from `low` on and reach
+    /// `largest`.
+    fn of(scale: Scale, low: f64, largest: f64) -> Self {
+        match scale {
+            Scale::Log => Self::Log { floor: low / LEAST_PART },
+            Scale::Count if largest > MAX_FEW => Self::LogCount,
+            Scale::Count | Scale::Linear | Scale::FineNearZero => Self::Linear,
+        }
+    }
+
     fn apply(self, value: f64) -> f64 {
         match self {
             Self::Linear => value,
@@ -100,7 +110,7 @@ pub(super) struct SlotCode {
 
 impl SlotCode {
     /// The number itself.
-    pub(super) fn raw(space: &ParamSpace, slot: usize, features: &mut Vec<Feature>) -> Self {
+    pub(super) fn raw(space: &ParamSpace, slot: Slot, features: &mut Vec<Feature>) -> Self {
         let first = features.len();
         features.push(Feature { slot, name: space.slot_name(slot) });
         Self { first, code: Code::Quantity(Quantity { stretch: Stretch::Linear, zero: 0.0, unit: 1.0 }) }
@@ -109,18 +119,18 @@ impl SlotCode {
     /// By the declaration of the slot; `span` holds its search range and all examples.
     pub(super) fn declared(
         space: &ParamSpace,
-        generator: &dyn Generator,
-        slot: usize,
+        slot: Slot,
         span: (f64, f64),
         features: &mut Vec<Feature>,
     ) -> Self {
         let first = features.len();
         let name = space.slot_name(slot);
         let mut feature = |name: String| features.push(Feature { slot, name });
-        let breaks = generator.regimes(slot);
+        let breaks: &[f64] = &space.param_of(slot).breakpoints;
+        let (scale, low) = (space.scale_of(slot), space.search_range(slot).0);
         let code = match space.kind_of(slot) {
             Kind::Real { min, .. } if !breaks.is_empty() => {
-                let ends = regime_ends(min, breaks, span.1);
+                let ends = regime_ends(*min, breaks, span.1);
                 for (i, pair) in ends.windows(2).enumerate() {
                     feature(match (i, i + 2 == ends.len()) {
                         (0, _) => format!("{name} to {}", pair[1]),
@@ -130,30 +140,24 @@ impl SlotCode {
                 }
                 Code::Regimes(ends)
             }
-            Kind::Real { min, max } => {
+            Kind::Real { .. } | Kind::Integer { .. } => {
                 feature(name);
-                let (low, high) = space.search_range(slot);
-                let open_above = 2.0 * high < max;
-                let positive = min >= 0.0 && low > 0.0 && RATIO_RANGE.contains(&(high / low));
-                let floor = low / *RATIO_RANGE.end();
-                let stretch = if positive && open_above { Stretch::Log { floor } } else { Stretch::Linear };
-                Code::Quantity(Quantity::new(stretch, span))
-            }
-            Kind::Integer { .. } => {
-                feature(name);
-                Code::Quantity(Quantity::new(count_stretch(span.1), span))
+                Code::Quantity(Quantity::new(Stretch::of(scale, low, span.1), span))
             }
             Kind::Choice { first, names } => {
                 names.iter().for_each(|choice| feature(format!("{name} = {choice}")));
-                Code::OneOf { first, count: names.len() }
+                Code::OneOf { first: *first, count: names.len() }
             }
-            kind @ (Kind::Flagged { .. } | Kind::FlaggedInteger { .. }) => {
+            Kind::Flagged { .. } | Kind::FlaggedInteger { .. } => {
                 feature(format!("{name} < 0"));
                 feature(format!("{name} where > 0"));
                 feature(format!("{name} where < 0"));
                 let side = |reach: f64| {
-                    let stretch = if kind.is_whole() { count_stretch(reach) } else { Stretch::Linear };
-                    Quantity::new(stretch, (0.0, reach.max(0.0)))
+                    let reach = reach.max(0.0);
+                    // A magnitude begins at zero, where there is no ratio.
+                    let stretch =
+                        if scale == Scale::Log { Stretch::Linear } else { Stretch::of(scale, low, reach) };
+                    Quantity::new(stretch, (0.0, reach))
                 };
                 Code::Flagged { positive: side(span.1), negative: side(-span.0) }
             }
@@ -228,10 +232,6 @@ impl SlotCode {
             }
         }
     }
-}
-
-fn count_stretch(largest: f64) -> Stretch {
-    if largest > MAX_FEW { Stretch::LogCount } else { Stretch::Linear }
 }
 
 /// The ends of the regimes: the breaks, the smallest allowed value, and the largest in use.

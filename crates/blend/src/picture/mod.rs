@@ -14,7 +14,7 @@ use crate::plane::Point;
 use crate::traits::Trait;
 use contour::Grid;
 use pleach_silhouette::Bitmap;
-use pleach_tree::Kind;
+use pleach_tree::{Kind, Slot};
 use rayon::prelude::*;
 
 /// What is drawn beside dots, names, regions and hull.
@@ -227,12 +227,12 @@ fn clip(polygon: &[Point], window: &[Point]) -> Vec<Point> {
 fn switches(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) -> Result<(), BlendError> {
     let space = map.landmarks().space();
     let (points, _) = sheet.grid(SWITCH_COLUMNS);
-    let slots: Vec<usize> = (0..space.len())
-        .filter(|&slot| {
-            matches!(space.kind_of(slot), Kind::Choice { .. }) || space.kind_of(slot).is_flagged()
-        })
+    let slots: Vec<Slot> = space
+        .slots()
+        .filter(|&slot| space.kind_of(slot).is_choice() || space.kind_of(slot).is_flagged())
         .collect();
-    let few: Vec<usize> = (0..space.len())
+    let few: Vec<Slot> = space
+        .slots()
         .filter(|&slot| matches!(space.kind_of(slot), Kind::Integer { min, max } if max - min < 10))
         .collect();
     let cells = points
@@ -244,17 +244,19 @@ fn switches(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) -> Result<(), Blen
             let blend = map.at(point)?;
             let values = blend.params.values();
             let generator = &map.landmarks().species()[blend.weights.dominant()].generator;
-            let read = |slot: usize, value: f64| if generator.reads(values, slot) { value } else { f64::NAN };
-            let sign = |slot: &usize| read(*slot, if values[*slot] < 0.0 { -1.0 } else { 1.0 });
-            let choice = |slot: &usize| read(*slot, values[*slot]);
+            let read =
+                |slot: Slot, value: f64| if generator.is_active(values, slot) { value } else { f64::NAN };
+            let value = |slot: Slot| blend.params.get(slot);
+            let sign = |slot: &Slot| read(*slot, if value(*slot) < 0.0 { -1.0 } else { 1.0 });
+            let choice = |slot: &Slot| read(*slot, value(*slot));
             let switch =
-                |slot: &usize| if space.kind_of(*slot).is_flagged() { sign(slot) } else { choice(slot) };
+                |slot: &Slot| if space.kind_of(*slot).is_flagged() { sign(slot) } else { choice(slot) };
             Ok(Some(slots.iter().map(switch).chain(few.iter().map(choice)).collect::<Vec<f64>>()))
         })
         .collect::<Result<Vec<Option<Vec<f64>>>, BlendError>>()?;
     let grid = Grid { columns: SWITCH_COLUMNS, cells };
     let differing = |a: &Vec<f64>, b: &Vec<f64>| {
-        // Values that are not read are NaN and differ from nothing.
+        // Values that are not active are NaN and differ from nothing.
         a.iter().zip(b).filter(|(a, b)| !a.is_nan() && !b.is_nan() && a != b).count() as f64
     };
     let step = (sheet.high.x - sheet.low.x) / (SWITCH_COLUMNS - 1) as f64;

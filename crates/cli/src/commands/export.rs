@@ -1,14 +1,18 @@
 //! Meshes for `pleach grow`: what was asked for, and the files.
 
 use super::grow::formats::Format;
-use crate::files;
+use crate::choice::{Choice, one_of};
+use crate::files::{self, Out};
 use anyhow::{Context, bail};
 use clap::ValueEnum;
 use pleach_mesh::forest;
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{obj, ply, stl, usda};
-use pleach_mesh::{Block, LeafStyle, Material, MeshSettings, Mesher, Palette, Rig, send, weld};
+use pleach_mesh::{
+    Block, Card, Cards, LeafStyle, Material, MeshError, MeshSettings, Mesher, Palette, Rig, Source, Welded,
+    send, weld,
+};
 use pleach_render::{Billboards, billboard, leaf_picture, png_file};
 use pleach_tree::species::Season;
 use pleach_tree::{Species, Tree};
@@ -34,24 +38,41 @@ pub(crate) enum Leaves {
     None,
 }
 
-/// The time of the year.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SeasonArg {
-    Spring,
-    Summer,
-    Autumn,
-    Winter,
+pub(super) const SEASONS: &[Choice<Season>] = &[
+    (Season::Spring.name(), "", Season::Spring),
+    (Season::Summer.name(), "", Season::Summer),
+    (Season::Autumn.name(), "", Season::Autumn),
+    (Season::Winter.name(), "", Season::Winter),
+];
+
+/// A tree, dressed for its season, and the file that it goes to.
+#[derive(Clone, Copy)]
+pub(super) struct Export<'a> {
+    /// The file, or `-` for standard output.
+    pub(super) path: &'a Path,
+    pub(super) species: &'a Species,
+    pub(super) seed: u64,
+    pub(super) tree: &'a Tree,
+    pub(super) palette: Palette,
 }
 
-impl From<SeasonArg> for Season {
-    fn from(season: SeasonArg) -> Self {
-        match season {
-            SeasonArg::Spring => Self::Spring,
-            SeasonArg::Summer => Self::Summer,
-            SeasonArg::Autumn => Self::Autumn,
-            SeasonArg::Winter => Self::Winter,
-        }
+impl Export<'_> {
+    /// Writes the file, whole or not at all.
+    fn write(&self, send: impl FnOnce(&mut dyn Out) -> Result<(), MeshError>) -> anyhow::Result<()> {
+        files::write_out(self.path, |out| Ok(send(out)?))
     }
+}
+
+/// `mesher` with `bark` instead of its tubes, if there is one.
+fn with_bark<'a>(mesher: Mesher<'a>, bark: Option<&'a Block>) -> Box<dyn Source + 'a> {
+    match bark {
+        Some(bark) => Box::new(Welded::new(bark, mesher)),
+        None => Box::new(mesher),
+    }
+}
+
+fn cards(cards: &[Card]) -> Box<dyn Source + '_> {
+    Box::new(Cards(cards))
 }
 
 /// Options of mesh files.
@@ -75,8 +96,8 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_enum, value_name = "HOW", conflicts_with = "no_leaves")]
     pub(super) leaves: Option<Leaves>,
     /// Season; by default the species file's own, or summer with all its blossom
-    #[arg(long, value_enum)]
-    pub(super) season: Option<SeasonArg>,
+    #[arg(long, value_parser = one_of(SEASONS))]
+    pub(super) season: Option<Season>,
     /// Give each vertex the data that shaders need for wind (.glb, .ply)
     #[arg(long)]
     pub(super) wind: bool,
@@ -161,43 +182,34 @@ impl MeshArgs {
         Ok(())
     }
 
-    /// Writes `tree`, dressed for the season, as a mesh.
-    pub(super) fn write(
-        &self,
-        path: &Path,
-        format: Format,
-        species: &Species,
-        seed: u64,
-        tree: &Tree,
-    ) -> anyhow::Result<()> {
-        self.check_alone(path, format)?;
-        let palette = Palette::of(species, self.season.map(Season::from));
+    /// The colours of the season that was asked for.
+    pub(super) fn palette(&self, species: &Species) -> Palette {
+        Palette::of(species, self.season)
+    }
+
+    /// Writes a tree as a mesh.
+    pub(super) fn write(&self, format: Format, export: &Export<'_>) -> anyhow::Result<()> {
+        self.check_alone(export.path, format)?;
+        let bark = self.weld.map(|cell| weld::surface(export.tree, cell / 1000.0)).transpose()?;
+        let bark = bark.as_ref();
         match format {
-            Format::Glb => self.write_glb(path, species, seed, tree, palette),
-            Format::Obj => self.write_obj(path, species, tree, palette),
+            Format::Glb => self.write_glb(export, bark),
+            Format::Obj => self.write_obj(export, bark),
             Format::Ply => {
-                let bark = self.welded(tree)?;
-                let meshers = [self.plain(tree, self.settings(), bark.as_ref())];
-                files::write_out(path, |out| Ok(send(&meshers, &mut ply::Ply::new(out, palette))?))
+                let sources = [self.source(export.tree, bark)];
+                export.write(|out| send(&sources, &mut ply::Ply::new(out, export.palette)))
             }
             Format::Stl => {
-                let bark = self.welded(tree)?;
-                let meshers = [self.plain(tree, self.settings(), bark.as_ref())];
-                files::write_out(path, |out| Ok(send(&meshers, &mut stl::Stl::new(out))?))
+                let sources = [self.source(export.tree, bark)];
+                export.write(|out| send(&sources, &mut stl::Stl::new(out)))
             }
-            Format::Usda => self.write_usda(path, species, seed, tree, palette),
+            Format::Usda => self.write_usda(export, bark),
             Format::Json | Format::Png => bail!("a .{} file holds no mesh", format.suffix()),
         }
     }
 
-    /// The bark as one surface, if that was asked for.
-    fn welded(&self, tree: &Tree) -> anyhow::Result<Option<Block>> {
-        Ok(self.weld.map(|cell| weld::surface(tree, cell / 1000.0)).transpose()?)
-    }
-
-    fn plain<'a>(&self, tree: &'a Tree, settings: MeshSettings, bark: Option<&'a Block>) -> Mesher<'a> {
-        let mesher = Mesher::new(tree, settings);
-        if let Some(bark) = bark { mesher.with_welded_bark(bark) } else { mesher }
+    fn source<'a>(&self, tree: &'a Tree, bark: Option<&'a Block>) -> Box<dyn Source + 'a> {
+        with_bark(Mesher::new(tree, self.settings()), bark)
     }
 
     /// PNG files that leaves, blossom and billboards show.
@@ -219,41 +231,39 @@ impl MeshArgs {
         Ok(pictures)
     }
 
-    fn write_glb(
-        &self,
-        path: &Path,
-        species: &Species,
-        seed: u64,
-        tree: &Tree,
-        palette: Palette,
-    ) -> anyhow::Result<()> {
+    fn write_glb(&self, export: &Export<'_>, bark: Option<&Block>) -> anyhow::Result<()> {
+        let Export { species, seed, tree, palette, .. } = *export;
         let levels = lod::levels(tree, self.settings(), self.levels());
         let rig = self.sway.then(|| Rig::of(tree));
         let billboards = self.billboard.map(|sides| Billboards::paint(&[tree], &palette, sides));
-        let bark = self.welded(tree)?;
-        let mut meshers = self.meshers(&levels, rig.as_ref());
-        if let Some(bark) = &bark {
-            meshers = meshers.into_iter().map(|mesher| mesher.with_welded_bark(bark)).collect();
-        }
-        meshers.extend(billboards.iter().map(|b| Mesher::of_cards(tree, &b.cards[0])));
+        let mut sources = self.sources(&levels, rig.as_ref(), bark);
+        sources.extend(billboards.iter().map(|b| cards(&b.cards[0])));
         let scene = Scene {
             name: species.name.clone(),
             palette,
             extras: extras(species, json!(seed)),
-            placed: vec![Placed::at_origin(&species.name, meshers.len())],
+            placed: vec![Placed::at_origin(&species.name, sources.len())],
             rig: rig.as_ref(),
             pictures: self.pictures(tree, &palette, billboards.as_ref())?,
         };
-        files::write_out(path, |out| Ok(send(&meshers, &mut Glb::new(out, &scene))?))
+        export.write(|out| send(&sources, &mut Glb::new(out, &scene)))
     }
 
-    fn meshers<'a>(&self, levels: &'a [Level<'a>], rig: Option<&'a Rig>) -> Vec<Mesher<'a>> {
+    fn sources<'a>(
+        &self,
+        levels: &'a [Level<'a>],
+        rig: Option<&'a Rig>,
+        bark: Option<&'a Block>,
+    ) -> Vec<Box<dyn Source + 'a>> {
         let mesher = |level: &'a Level<'a>| {
             let mut mesher = Mesher::new(&level.tree, level.settings);
             if let Some(rig) = rig {
                 mesher = mesher.with_rig(rig);
             }
-            if self.leaves == Some(Leaves::Instances) { mesher.with_instanced_leaves() } else { mesher }
+            if self.leaves == Some(Leaves::Instances) {
+                mesher = mesher.with_instanced_leaves();
+            }
+            with_bark(mesher, bark)
         };
         levels.iter().map(mesher).collect()
     }
@@ -272,7 +282,7 @@ impl MeshArgs {
         let mut used: Vec<u32> = sites.iter().map(|s| s.variant).collect();
         used.sort_unstable();
         used.dedup();
-        let season = self.season.map(Season::from);
+        let season = self.season;
         let mut trees = Vec::new();
         let mut palette = None;
         for &variant in &used {
@@ -289,10 +299,10 @@ impl MeshArgs {
             let trees: Vec<&Tree> = trees.iter().collect();
             Billboards::paint(&trees, &palette, sides)
         });
-        let mut meshers: Vec<Mesher<'_>> = Vec::new();
+        let mut sources = Vec::new();
         for (i, levels) in levels.iter().enumerate() {
-            meshers.extend(self.meshers(levels, None));
-            meshers.extend(billboards.iter().map(|b| Mesher::of_cards(&trees[i], &b.cards[i])));
+            sources.extend(self.sources(levels, None, None));
+            sources.extend(billboards.iter().map(|b| cards(&b.cards[i])));
         }
         let each = self.levels() as usize + usize::from(billboards.is_some());
         let placed = sites.iter().enumerate().map(|(i, site)| {
@@ -314,32 +324,25 @@ impl MeshArgs {
             rig: None,
             pictures: self.pictures(&trees[0], &palette, billboards.as_ref())?,
         };
-        files::write_out(path, |out| Ok(send(&meshers, &mut Glb::new(out, &scene))?))?;
+        files::write_out(path, |out| Ok(send(&sources, &mut Glb::new(out, &scene))?))?;
         Ok(sites.len())
     }
 
-    fn write_obj(&self, path: &Path, species: &Species, tree: &Tree, palette: Palette) -> anyhow::Result<()> {
+    fn write_obj(&self, export: &Export<'_>, bark: Option<&Block>) -> anyhow::Result<()> {
+        let Export { path, species, tree, palette, .. } = *export;
         // Standard output has nothing beside it.
         let materials = (!files::is_stdout(path)).then(|| path.with_extension("mtl"));
         let name = materials.as_deref().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
-        let bark = self.welded(tree)?;
-        let meshers = [self.plain(tree, self.settings(), bark.as_ref())];
-        files::write_out(path, |out| Ok(send(&meshers, &mut obj::Obj::new(out, &species.name, &name))?))?;
+        let sources = [self.source(tree, bark)];
+        export.write(|out| send(&sources, &mut obj::Obj::new(out, &species.name, &name)))?;
         let Some(materials) = materials else { return Ok(()) };
         let pictures = self.pictures_beside(path, tree, &palette)?;
         files::write_text(&materials, &obj::materials(&palette, &pictures))
     }
 
-    fn write_usda(
-        &self,
-        path: &Path,
-        species: &Species,
-        seed: u64,
-        tree: &Tree,
-        palette: Palette,
-    ) -> anyhow::Result<()> {
-        let bark = self.welded(tree)?;
-        let meshers = [self.plain(tree, self.settings(), bark.as_ref()).with_instanced_leaves()];
+    fn write_usda(&self, export: &Export<'_>, bark: Option<&Block>) -> anyhow::Result<()> {
+        let Export { path, species, seed, tree, palette } = *export;
+        let sources = [with_bark(Mesher::new(tree, self.settings()).with_instanced_leaves(), bark)];
         let about = [
             ("generator", species.generator.family().to_string()),
             ("seed", seed.to_string()),
@@ -350,7 +353,7 @@ impl MeshArgs {
             about: about.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
             pictures: self.pictures_beside(path, tree, &palette)?,
         };
-        files::write_out(path, |out| Ok(send(&meshers, &mut usda::Usda::new(out, &notes, palette))?))
+        export.write(|out| send(&sources, &mut usda::Usda::new(out, &notes, palette)))
     }
 
     /// Writes the pictures of leaves and blossom beside `path`, and says their names.
@@ -383,7 +386,7 @@ fn extras(species: &Species, seed: Value) -> Value {
         .iter()
         .enumerate()
         .map(|(i, param)| {
-            let values = species.params.of(space, i);
+            let values = species.params.of(i);
             let value = if let [one] = values { json!(one) } else { json!(values) };
             (param.name.to_string(), value)
         })

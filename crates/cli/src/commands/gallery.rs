@@ -10,8 +10,6 @@ use pleach_tree::{Species, Tree, TreeStats};
 
 /// Species per row, each with two pictures.
 const ACROSS: u32 = 3;
-/// How many of the built-in species are the dissertation's, in front.
-const FIFTEEN: usize = 15;
 const INK: Color = Color::opaque([40, 44, 40]);
 const GRAY: Color = Color::opaque([120, 124, 120]);
 
@@ -21,7 +19,7 @@ pub(super) fn sheet(
     grow: impl Fn(&Species) -> anyhow::Result<Tree>,
     settings: &PreviewSettings,
 ) -> anyhow::Result<Picture> {
-    let names = &pleach_generators::names()[..FIFTEEN];
+    let names = pleach_generators::HEWITT_2017;
     let rows = names.len().div_ceil(ACROSS as usize) as u32;
     let (gap, label) = (size / 6, size / 5);
     let (across, down) = (2 * size + gap, size + label + gap / 2);

@@ -1,13 +1,11 @@
 //! Which species a map or a blend is made of, and how they are laid out: shared by `map` and `blend`.
 
+use crate::choice::{Choice, one_of};
 use crate::{input, output};
 use anyhow::{Context, bail};
 use pleach_blend::{BlendError, BlendMap, Features, Point, Settings, looks};
 use pleach_tree::Species;
 use std::path::{Path, PathBuf};
-
-/// How many of the built-in species are the dissertation's, in front.
-const FIFTEEN: usize = 15;
 
 /// Where dots stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -19,15 +17,10 @@ enum Layout {
     Looks,
 }
 
-/// How numbers are compared.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum Coding {
-    /// By what their declarations say they mean
-    #[default]
-    Declared,
-    /// As the plain list of numbers, the dissertation's way
-    Raw,
-}
+const FEATURES: &[Choice<Features>] = &[
+    ("declared", "By what their declarations say they mean", Features::Declared),
+    ("raw", "As the plain list of numbers, the dissertation's way", Features::Raw),
+];
 
 /// Species and layout of a map.
 #[derive(Clone, Debug, clap::Args)]
@@ -49,8 +42,8 @@ pub(super) struct MapArgs {
     #[arg(long, value_enum, default_value_t)]
     layout: Layout,
     /// How numbers are compared and averaged
-    #[arg(long, value_enum, default_value_t)]
-    features: Coding,
+    #[arg(long, value_parser = one_of(FEATURES), default_value = "declared")]
+    features: Features,
 }
 
 impl MapArgs {
@@ -102,10 +95,7 @@ impl MapArgs {
 
     /// How numbers are compared and averaged.
     pub(super) const fn features(&self) -> Features {
-        match self.features {
-            Coding::Declared => Features::Declared,
-            Coding::Raw => Features::Raw,
-        }
+        self.features
     }
 
     /// Refuses options that choose or place the species of a map, where no map is asked for. Shares may
@@ -131,9 +121,9 @@ impl MapArgs {
         if let Some(names) = &self.only {
             return names.iter().map(|name| Ok(input::species(name)?)).collect();
         }
-        let names = pleach_generators::names();
-        let count = if self.all { names.len() } else { FIFTEEN };
-        Ok(names.iter().take(count).filter_map(|name| pleach_generators::preset(name)).collect())
+        let all = pleach_generators::names();
+        let names = if self.all { &all } else { pleach_generators::HEWITT_2017 };
+        Ok(names.iter().filter_map(|name| pleach_generators::preset(name)).collect())
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod blend;
 mod completions;
+mod describe;
 mod experiment;
 mod export;
 mod fit;

@@ -2,9 +2,10 @@
 
 use crate::output;
 use anyhow::bail;
+use pleach_tree::param::Shape;
 use pleach_tree::param::nearest;
 use pleach_tree::species::{self, Form, Key};
-use pleach_tree::{Kind, Layout, Param, ParamSpace};
+use pleach_tree::{Kind, Param, ParamSpace, Slot};
 use serde_json::json;
 
 const EXAMPLES: &str = "Examples:
@@ -118,10 +119,10 @@ impl Params {
     }
 
     /// Some numbers of some parameters: a group, a level, or one number.
-    fn slots(&self, name: &str, space: &ParamSpace, slots: &[usize]) -> anyhow::Result<()> {
+    fn slots(&self, name: &str, space: &ParamSpace, slots: &[Slot]) -> anyhow::Result<()> {
         let is_group = space.of_group(name).next().is_some();
         if self.json {
-            let value = |&slot: &usize| slot_as_json(space, slot);
+            let value = |&slot: &Slot| slot_as_json(space, slot);
             let list: Vec<_> = if is_group {
                 space.of_group(name).map(as_json).collect()
             } else {
@@ -202,23 +203,23 @@ fn row(param: &Param) -> Vec<String> {
     ]
 }
 
-fn slot_row(space: &ParamSpace, slot: usize) -> Vec<String> {
+fn slot_row(space: &ParamSpace, slot: Slot) -> Vec<String> {
     let (param, (low, high)) = (space.param_of(slot), space.search_range(slot));
     vec![
         space.slot_name(slot),
         param.kind.word().to_owned(),
         range(param),
-        param.default[space.slots()[slot].index].to_string(),
+        space.default_of(slot).to_string(),
         format!("{low}..{high}"),
         param.doc.to_string(),
     ]
 }
 
-const fn layout(param: &Param) -> &'static str {
-    match param.layout {
-        Layout::Scalar => "",
-        Layout::PerLevel => "[4]",
-        Layout::Vector => "[x, y, z]",
+fn layout(param: &Param) -> String {
+    match param.shape {
+        Shape::Scalar => String::new(),
+        Shape::List { len, .. } => format!("[{len}]"),
+        Shape::Vector => "[x, y, z]".to_owned(),
     }
 }
 
@@ -238,9 +239,9 @@ fn in_full(param: &Param) -> String {
     described(param, &title, numbers(&param.default), &search.join(", "))
 }
 
-fn slot_in_full(space: &ParamSpace, slot: usize) -> String {
+fn slot_in_full(space: &ParamSpace, slot: Slot) -> String {
     let (param, (low, high)) = (space.param_of(slot), space.search_range(slot));
-    let default = param.default[space.slots()[slot].index].to_string();
+    let default = space.default_of(slot).to_string();
     described(param, &space.slot_name(slot), default, &format!("{low}..{high}"))
 }
 
@@ -251,19 +252,19 @@ fn described(param: &Param, title: &str, default: String, searched: &str) -> Str
     add("range", range(param));
     add("unit", param.unit.to_string());
     add("default", default);
-    add("group", param.group.to_owned());
-    match param.kind {
+    add("group", param.group.to_string());
+    match &param.kind {
         Kind::Choice { first, names } => {
-            let names: Vec<String> = names.iter().zip(first..).map(|(n, i)| format!("{i} {n}")).collect();
+            let names: Vec<String> = names.iter().zip(*first..).map(|(n, i)| format!("{i} {n}")).collect();
             add("choices", names.join(", "));
         }
         Kind::Flagged { negative, .. } | Kind::FlaggedInteger { negative, .. } => {
-            add("negative", negative.to_owned());
+            add("negative", negative.to_string());
         }
         _ => {}
     }
     add("searched", searched.to_owned());
-    add("source", param.source.to_owned());
+    add("source", param.source.to_string());
     lines.join("\n")
 }
 
@@ -294,25 +295,25 @@ fn key_in_full(key: &FileKey, inside: &[&FileKey]) -> String {
 
 fn as_json(param: &Param) -> serde_json::Value {
     let (min, max) = param.kind.range();
-    let (choices, negative) = match param.kind {
+    let (choices, negative) = match &param.kind {
         Kind::Choice { names, .. } => (Some(names), None),
         Kind::Flagged { negative, .. } | Kind::FlaggedInteger { negative, .. } => (None, Some(negative)),
         _ => (None, None),
     };
     json!({
-        "name": param.name, "values": param.layout.len(), "kind": param.kind.word(), "min": min, "max": max,
+        "name": param.name, "values": param.shape.slot_count(), "kind": param.kind.word(), "min": min, "max": max,
         "unit": param.unit.to_string(), "default": param.default, "search": param.search, "group": param.group,
         "choices": choices, "negative": negative, "doc": param.doc, "source": param.source, "parameter": true,
     })
 }
 
 /// One number of a parameter: like the parameter, with a list of one.
-fn slot_as_json(space: &ParamSpace, slot: usize) -> serde_json::Value {
+fn slot_as_json(space: &ParamSpace, slot: Slot) -> serde_json::Value {
     let param = space.param_of(slot);
     let mut value = as_json(param);
     value["name"] = json!(space.slot_name(slot));
     value["values"] = json!(1);
-    value["default"] = json!([param.default[space.slots()[slot].index]]);
+    value["default"] = json!([space.default_of(slot)]);
     value["search"] = json!([space.search_range(slot)]);
     value
 }

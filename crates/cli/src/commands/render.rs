@@ -1,11 +1,11 @@
 //! `pleach render`: a shaded picture of a tree, or one that turns.
 
-use super::export::SeasonArg;
+use super::export::SEASONS;
 use super::gallery;
+use crate::choice::{Choice, one_of};
 use crate::input::LimitArgs;
 use crate::{files, input, output};
 use anyhow::{Context, bail};
-use clap::ValueEnum;
 use pleach_mesh::Palette;
 use pleach_render::preview::{Background, Ground};
 use pleach_render::{Picture, Preview, PreviewSettings, png_file};
@@ -55,8 +55,8 @@ pub(crate) struct Render {
     #[arg(long, value_name = "AZ,EL", default_value = "0,5", value_parser = input::view, allow_hyphen_values = true)]
     view: View,
     /// Season; by default the species file's own, or summer with all its blossom
-    #[arg(long, value_enum)]
-    season: Option<SeasonArg>,
+    #[arg(long, value_parser = one_of(SEASONS))]
+    season: Option<Season>,
     /// Draw stems only
     #[arg(long)]
     no_leaves: bool,
@@ -64,8 +64,8 @@ pub(crate) struct Render {
     #[arg(long, value_name = "WHAT", default_value = "studio", value_parser = background)]
     background: Background,
     /// What the tree stands on
-    #[arg(long, value_enum, default_value_t)]
-    ground: GroundArg,
+    #[arg(long, value_parser = one_of(GROUNDS), default_value = "shadow")]
+    ground: Ground,
     /// This many pictures around the tree: one animated PNG, or files in a folder
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=360))]
     turntable: Option<u32>,
@@ -73,16 +73,11 @@ pub(crate) struct Render {
     limits: LimitArgs,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum GroundArg {
-    /// The tree's shadow
-    #[default]
-    Shadow,
-    /// Grass
-    Grass,
-    /// Nothing
-    None,
-}
+const GROUNDS: &[Choice<Ground>] = &[
+    ("shadow", "The tree's shadow", Ground::Shadow),
+    ("grass", "Grass", Ground::Grass),
+    ("none", "Nothing", Ground::None),
+];
 
 fn background(text: &str) -> Result<Background, String> {
     match text {
@@ -112,7 +107,7 @@ impl Render {
         let seed = self.seed.or(species.tree_seed).unwrap_or(1);
         let file = self.file()?;
         let mut tree = self.grow(species, seed)?;
-        let mut palette = Palette::of(species, self.season.map(Season::from));
+        let mut palette = Palette::of(species, self.season);
         palette.leaves &= !self.no_leaves;
         palette.blossoms &= !self.no_leaves;
         palette.dress(&mut tree);
@@ -175,11 +170,7 @@ impl Render {
             azimuth: self.view.azimuth + turn,
             elevation: self.view.elevation,
             background: self.background,
-            ground: match self.ground {
-                GroundArg::Shadow => Ground::Shadow,
-                GroundArg::Grass => Ground::Grass,
-                GroundArg::None => Ground::None,
-            },
+            ground: self.ground,
             all_around: self.turntable.is_some(),
         }
     }

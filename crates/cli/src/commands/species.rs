@@ -61,7 +61,7 @@ fn all_values(species: &Species) -> serde_json::Value {
         .iter()
         .enumerate()
         .map(|(i, param)| {
-            let values = species.params.of(space, i);
+            let values = species.params.of(i);
             (param.name.to_string(), if values.len() == 1 { json!(values[0]) } else { json!(values) })
         })
         .collect();

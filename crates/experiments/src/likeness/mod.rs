@@ -8,6 +8,7 @@ mod rates;
 mod report;
 mod walk;
 
+use super::record::{self, Exact};
 use super::spec::{LikenessSpec, species_files};
 use super::within::SpeciesName;
 use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
@@ -16,22 +17,30 @@ use pictures::Drawn;
 use pleach_silhouette::Bitmap;
 use pleach_tree::Species;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 pub(super) use walk::{Line, MIN_STEPS};
 
 /// One number of one question about one set of pictures.
-///
-/// `against` is what another tree of the species had to beat, or the parameter that walked;
-/// `comparisons` how many the value was made from.
-const COLUMNS: [&str; 6] = ["question", "set", "against", "measure", "comparisons", "value"];
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+struct Answer {
+    question: String,
+    set: String,
+    /// What another tree of the species had to beat, or the parameter that walked.
+    against: String,
+    measure: String,
+    /// How many the value was made from.
+    comparisons: u64,
+    value: Exact,
+}
 
 /// Pixels to a side of all pictures.
 const SIDE: u32 = 256;
 
 impl Kind for LikenessSpec {
-    fn columns(&self) -> Vec<&'static str> {
-        COLUMNS.to_vec()
+    fn columns(&self) -> anyhow::Result<Vec<String>> {
+        record::columns(&Answer::default())
     }
 
     fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>) {
@@ -46,16 +55,16 @@ impl Kind for LikenessSpec {
     fn rows(&self, folder: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
         for (set, foliage) in [("reference", true), ("reference, bare", false)] {
             let make = || rows(|rows| judge(set, &pictures::read(folder, self, foliage)?, rows));
-            journal.job(|row| row[0] != "walk" && row[1] == set, make)?;
+            journal.job(|row: &Answer| row.question != "walk" && row.set == set, make)?;
         }
         let all = species(&self.species)?;
         if slice.repetitions.is_none() {
-            let is_own = |row: &[String]| row[0] != "walk" && row[1].starts_with("own");
+            let is_own = |row: &Answer| row.question != "walk" && row.set.starts_with("own");
             journal.job(is_own, || rows(|rows| own(self, &all, rows)))?;
         }
         let walking = &all[..slice.of(all.len())];
         journal.job(
-            |row| row[0] == "walk",
+            |row: &Answer| row.question == "walk",
             || {
                 let lines = walk::lines(walking, self)?;
                 rows(|rows| {
@@ -73,7 +82,7 @@ impl Kind for LikenessSpec {
         }
         figures::curves(outputs, self.walked.get().map_or(&[], Vec::as_slice), self)?;
         figures::sheet(outputs, self)?;
-        Ok(report::tables(table))
+        Ok(report::tables(&table.records()?))
     }
 }
 
@@ -82,20 +91,19 @@ fn species(names: &[Spanned<SpeciesName>]) -> anyhow::Result<Vec<Species>> {
 }
 
 /// What `make` collects.
-fn rows(make: impl FnOnce(&mut Rows) -> anyhow::Result<()>) -> anyhow::Result<Vec<Vec<String>>> {
+fn rows(make: impl FnOnce(&mut Rows) -> anyhow::Result<()>) -> anyhow::Result<Vec<Answer>> {
     let mut rows = Rows(Vec::new());
     make(&mut rows)?;
     Ok(rows.0)
 }
 
 /// Collects rows.
-struct Rows(Vec<Vec<String>>);
+struct Rows(Vec<Answer>);
 
 impl Rows {
-    fn add(&mut self, [question, set, against, measure]: [&str; 4], comparisons: u64, value: f64) {
-        let value = format!("{}", (value * 1e6).round() / 1e6);
-        let cells = [question, set, against, measure, &comparisons.to_string(), &value];
-        self.0.push(cells.map(str::to_owned).to_vec());
+    fn add(&mut self, texts: [&str; 4], comparisons: u64, value: f64) {
+        let [question, set, against, measure] = texts.map(str::to_owned);
+        self.0.push(Answer { question, set, against, measure, comparisons, value: Exact::millionths(value) });
     }
 }
 

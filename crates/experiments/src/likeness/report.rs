@@ -1,13 +1,13 @@
 //! The tables of the experiment's README, from its rows.
 
-use super::Table;
+use super::Answer;
 use super::measures::MEASURES;
 use pleach_console::output;
 
 /// Measures that stand beside each other in the first tables; the rest are the ablation.
 const BESIDE: usize = 5;
 
-pub(super) fn tables(table: &Table) -> String {
+pub(super) fn tables(table: &[Answer]) -> String {
     let beside = &MEASURES[..BESIDE];
     let ablation = [&MEASURES[..1], &MEASURES[BESIDE..]].concat();
     let sections = [
@@ -25,10 +25,10 @@ fn percent(value: f64) -> String {
 }
 
 /// The rows of a question in order, each (set, against) once.
-fn subjects<'a>(table: &'a Table, question: &str) -> Vec<(&'a str, &'a str)> {
+fn subjects<'a>(table: &'a [Answer], question: &str) -> Vec<(&'a str, &'a str)> {
     let mut seen = Vec::new();
-    for row in table.rows.iter().filter(|row| row[0] == question) {
-        let key = (row[1].as_str(), row[2].as_str());
+    for row in table.iter().filter(|row| row.question == question) {
+        let key = (row.set.as_str(), row.against.as_str());
         if seen.last() != Some(&key) {
             seen.push(key);
         }
@@ -36,13 +36,16 @@ fn subjects<'a>(table: &'a Table, question: &str) -> Vec<(&'a str, &'a str)> {
     seen
 }
 
-fn value(table: &Table, question: &str, (set, against): (&str, &str), measure: &str) -> Option<f64> {
-    let wanted = |row: &&Vec<String>| row[..4] == [question, set, against, measure];
-    table.rows.iter().find(wanted).and_then(|row| row[5].parse().ok())
+fn value(table: &[Answer], question: &str, (set, against): (&str, &str), measure: &str) -> Option<f64> {
+    let wanted = |row: &&Answer| {
+        (row.question.as_str(), row.set.as_str()) == (question, set)
+            && (row.against.as_str(), row.measure.as_str()) == (against, measure)
+    };
+    table.iter().find(wanted).map(|row| row.value.0)
 }
 
 /// A table with a line a subject and a column a measure.
-fn shares(table: &Table, question: &str, subjects: &[(&str, &str)], measures: &[&str]) -> String {
+fn shares(table: &[Answer], question: &str, subjects: &[(&str, &str)], measures: &[&str]) -> String {
     let heading = ["set", "against"].iter().chain(measures).map(|s| (*s).to_owned()).collect();
     let mut rows: Vec<Vec<String>> = vec![heading];
     for &subject in subjects {
@@ -53,36 +56,36 @@ fn shares(table: &Table, question: &str, subjects: &[(&str, &str)], measures: &[
     output::table(&rows, &(2..2 + measures.len()).collect::<Vec<_>>())
 }
 
-fn species(table: &Table, measures: &[&str]) -> String {
+fn species(table: &[Answer], measures: &[&str]) -> String {
     let mut all = subjects(table, "other species");
     all.retain(|s| s.1 == "all");
     shares(table, "other species", &all, measures)
 }
 
-fn by_species(table: &Table, measures: &[&str]) -> String {
+fn by_species(table: &[Answer], measures: &[&str]) -> String {
     let mut own = subjects(table, "other species");
     own.retain(|s| s.0 == "own" && s.1 != "all");
     shares(table, "other species", &own, measures)
 }
 
-fn blobs(table: &Table, measures: &[&str]) -> String {
+fn blobs(table: &[Answer], measures: &[&str]) -> String {
     shares(table, "blobs", &subjects(table, "blobs"), measures)
 }
 
 /// Correlations of all walks, or of those of one parameter, by one measure.
-fn correlations(table: &Table, parameter: Option<&str>, measure: &str) -> Vec<f64> {
-    let of = |row: &&Vec<String>| {
-        let name = row[2].split(' ').next();
-        row[0] == "walk" && row[3] == measure && (parameter.is_none() || name == parameter)
+fn correlations(table: &[Answer], parameter: Option<&str>, measure: &str) -> Vec<f64> {
+    let of = |row: &&Answer| {
+        let name = row.against.split(' ').next();
+        row.question == "walk" && row.measure == measure && (parameter.is_none() || name == parameter)
     };
-    table.rows.iter().filter(of).filter_map(|row| row[5].parse().ok()).collect()
+    table.iter().filter(of).map(|row| row.value.0).collect()
 }
 
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
-fn walks(table: &Table, measures: &[&str]) -> String {
+fn walks(table: &[Answer], measures: &[&str]) -> String {
     let mut parameters: Vec<Option<&str>> = vec![None];
     for (_, against) in subjects(table, "walk") {
         let name = against.split(' ').next();
@@ -108,7 +111,7 @@ fn walks(table: &Table, measures: &[&str]) -> String {
 
 /// A line a measure: species told apart, the worst blob, the mean of all walks, and what a goal that
 /// is moved aside or mirrored has.
-fn ablated(table: &Table, measures: &[&str]) -> String {
+fn ablated(table: &[Answer], measures: &[&str]) -> String {
     let sets = ["own, not tuned on", "own", "own, bare", "own, goal's scale", "reference"];
     let heading = ["measure"]
         .iter()

@@ -81,7 +81,7 @@ impl Goal {
     fn walk(&self, species: &Species, parameter: &str, sign: f64, steps: u32) -> anyhow::Result<Walk> {
         let space = species.generator.space();
         let slot = space.select(parameter).map_err(|e| anyhow::anyhow!("`{parameter}`: {e}"))?[0];
-        let truth = species.params.values()[slot];
+        let truth = species.params.get(slot);
         let places: Vec<(u32, f64)> = (1..=steps)
             .map(|step| (step, truth + sign * STEP * f64::from(step) * truth.abs()))
             .map(|(step, value)| (step, if space.kind_of(slot).is_whole() { value.round() } else { value }))
@@ -89,7 +89,7 @@ impl Goal {
             .collect();
         let walked = places.into_par_iter().map(|(step, value)| {
             let mut values = species.params.values().to_vec();
-            values[slot] = value;
+            values[slot.index()] = value;
             let there = Species { params: space.check(values)?, ..species.clone() };
             let usual = Limits::default();
             let limits =

@@ -7,36 +7,45 @@ mod areas;
 mod mutate;
 mod worker;
 
+use super::record::{self, Fixed};
 use super::spec::Source;
 use super::within::{Real, Seconds, Whole};
 use super::{Journal, Kind, Outputs, Slice, Table, progress};
 use areas::Area;
 use pleach_console::{files, output};
-use serde::Deserialize;
 use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 use worker::{Judged, Verdict};
 
-const COLUMNS: [&str; 12] = [
-    "area",
-    "block",
-    "cases",
-    "accepted",
-    "refused",
-    "unclear",
-    "wrong",
-    "panics",
-    "over_time",
-    "wall_cpu_s",
-    "wall_slowest_s",
-    "wall_peak_mb",
-];
+/// What came of a block of cases. Those from `unclear` to `over_time` should be 0 throughout.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+struct Block {
+    area: String,
+    block: u64,
+    cases: usize,
+    accepted: usize,
+    refused: usize,
+    unclear: usize,
+    wrong: usize,
+    panics: usize,
+    over_time: usize,
+    wall_cpu_s: Fixed<2>,
+    wall_slowest_s: Fixed<2>,
+    wall_peak_mb: Option<u64>,
+}
 
-/// Columns that should be 0 throughout, behind those of cases, accepted and refused.
-const COUNTS: usize = 7;
+impl Block {
+    /// Counts of cases, in the order of the columns.
+    const fn counts(&self) -> [usize; 7] {
+        let Self { cases, accepted, refused, unclear, wrong, panics, over_time, .. } = *self;
+        [cases, accepted, refused, unclear, wrong, panics, over_time]
+    }
+}
+
 /// Where inputs that were found are kept, for who mends it.
 const FINDINGS: &str = "findings";
 /// Most inputs of an area that are kept in a run.
@@ -85,8 +94,8 @@ impl RobustnessSpec {
 }
 
 impl Kind for RobustnessSpec {
-    fn columns(&self) -> Vec<&'static str> {
-        COLUMNS.to_vec()
+    fn columns(&self) -> anyhow::Result<Vec<String>> {
+        record::columns(&Block::default())
     }
 
     fn files(&self, _: &Path) -> (Vec<String>, Vec<PathBuf>) {
@@ -104,8 +113,7 @@ impl Kind for RobustnessSpec {
         for (area, blocks) in &areas {
             let mut shown = 0;
             for block in 0..*blocks.min(&most) {
-                let key = [area.name().to_owned(), block.to_string()];
-                let is_of = |row: &[String]| row[..2] == key;
+                let is_of = |row: &Block| (row.area.as_str(), row.block) == (area.name(), block);
                 let first = block * *self.block;
                 journal.job(is_of, || {
                     let judged =
@@ -121,7 +129,7 @@ impl Kind for RobustnessSpec {
                             }
                         }
                     }
-                    Ok(vec![row(&key, judged.values())])
+                    Ok(vec![counted(area.name(), block, judged.values())])
                 })?;
                 bar.inc(1);
             }
@@ -131,22 +139,24 @@ impl Kind for RobustnessSpec {
     }
 
     fn report(&self, _: &Path, table: &Table, _: &Outputs) -> anyhow::Result<String> {
-        let heading = ["area"].iter().chain(&COLUMNS[2..]);
+        let columns = self.columns()?;
+        let heading = columns.iter().filter(|name| *name != "block");
         let mut lines = vec![heading.map(|name| name.trim_start_matches("wall_").to_owned()).collect()];
+        let rows: Vec<Block> = table.records()?;
         for (area, _) in self.areas()? {
-            let of: Vec<&Vec<String>> = table.rows.iter().filter(|row| row[0] == area.name()).collect();
-            let values = |column: usize| of.iter().filter_map(move |row| row[column].parse::<f64>().ok());
-            let sums = (2..2 + COUNTS).map(|column| (values(column).sum::<f64>() + 0.0).to_string());
-            let time = format!("{:.1}", values(2 + COUNTS).sum::<f64>() + 0.0);
-            let most = |column: usize| values(column).fold(0.0, f64::max).to_string();
-            let line = std::iter::once(area.name().to_owned()).chain(sums).chain([
-                time,
-                most(3 + COUNTS),
-                most(4 + COUNTS),
-            ]);
-            lines.push(line.collect::<Vec<_>>());
+            let of: Vec<&Block> = rows.iter().filter(|row| row.area == area.name()).collect();
+            let mut sums = [0; 7];
+            for row in &of {
+                sums.iter_mut().zip(row.counts()).for_each(|(sum, count)| *sum += count);
+            }
+            let time = of.iter().map(|row| row.wall_cpu_s.0).sum::<f64>() + 0.0;
+            let slowest = of.iter().map(|row| row.wall_slowest_s.0).fold(0.0, f64::max);
+            let peak = of.iter().filter_map(|row| row.wall_peak_mb).max().unwrap_or(0);
+            let line = std::iter::once(area.name().to_owned()).chain(sums.map(|sum| sum.to_string()));
+            let times = [format!("{time:.1}"), slowest.to_string(), peak.to_string()];
+            lines.push(line.chain(times).collect::<Vec<_>>());
         }
-        Ok(output::table(&lines, &(1..COLUMNS.len()).collect::<Vec<_>>()))
+        Ok(output::table(&lines, &(1..columns.len()).collect::<Vec<_>>()))
     }
 }
 
@@ -164,20 +174,21 @@ fn finding(verdict: &Verdict) -> Option<String> {
 }
 
 /// The row of a block.
-fn row<'a>(key: &[String; 2], judged: impl Iterator<Item = &'a Judged> + Clone) -> Vec<String> {
-    let count = |is: fn(&Verdict) -> bool| judged.clone().filter(|j| is(&j.verdict)).count().to_string();
-    let cpu = judged.clone().map(|j| j.cpu).sum::<Duration>();
-    let slowest = judged.clone().map(|j| j.cpu).max().unwrap_or_default();
-    let counts = [
-        count(|_| true),
-        count(|v| matches!(v, Verdict::Accepted)),
-        count(|v| matches!(v, Verdict::Refused)),
-        count(|v| matches!(v, Verdict::Unclear(_))),
-        count(|v| matches!(v, Verdict::Wrong(_))),
-        count(|v| matches!(v, Verdict::Panicked(_))),
-        count(|v| matches!(v, Verdict::OverTime)),
-    ];
-    let times = [cpu, slowest].map(|time| format!("{:.2}", time.as_secs_f64()));
-    let peak = worker::peak_megabytes().map_or_else(String::new, |mb| mb.to_string());
-    key.iter().cloned().chain(counts).chain(times).chain([peak]).collect()
+fn counted<'a>(area: &str, block: u64, judged: impl Iterator<Item = &'a Judged> + Clone) -> Block {
+    let count = |is: fn(&Verdict) -> bool| judged.clone().filter(|j| is(&j.verdict)).count();
+    let seconds = |time: Duration| Fixed(time.as_secs_f64());
+    Block {
+        area: area.to_owned(),
+        block,
+        cases: count(|_| true),
+        accepted: count(|v| matches!(v, Verdict::Accepted)),
+        refused: count(|v| matches!(v, Verdict::Refused)),
+        unclear: count(|v| matches!(v, Verdict::Unclear(_))),
+        wrong: count(|v| matches!(v, Verdict::Wrong(_))),
+        panics: count(|v| matches!(v, Verdict::Panicked(_))),
+        over_time: count(|v| matches!(v, Verdict::OverTime)),
+        wall_cpu_s: seconds(judged.clone().map(|j| j.cpu).sum()),
+        wall_slowest_s: seconds(judged.clone().map(|j| j.cpu).max().unwrap_or_default()),
+        wall_peak_mb: worker::peak_megabytes(),
+    }
 }

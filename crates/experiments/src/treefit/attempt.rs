@@ -2,7 +2,8 @@
 
 use super::goals::{self, Problem};
 use super::spec::{From, MethodSpec};
-use super::{FRESH, stop};
+use super::{FRESH, Fit, stop};
+use crate::record::Fixed;
 use anyhow::Context;
 use pleach_fit::{
     Budget, Candidate, Control, FirstGuess, FitProblem, FitSettings, FreshSeeds, Genome, GuessSettings,
@@ -18,7 +19,7 @@ const TREE_SEED: u64 = 1;
 
 /// What came of a fit.
 pub(super) struct Attempt {
-    pub(super) row: Vec<String>,
+    pub(super) row: Fit,
     pub(super) best: Genome,
     /// The nearest tree before the search.
     pub(super) guess: Option<Genome>,
@@ -94,8 +95,9 @@ pub(super) fn fit(
         From::Random => (),
     }
     let guess = first.as_ref().map(|_| Genome::new(fit.base.clone(), TREE_SEED));
-    let (name, confidence, before) = first
-        .map_or_else(Default::default, |(name, confidence, seconds)| (name, number(confidence), seconds));
+    let (named, confidence, before) = first.map_or_else(Default::default, |(name, confidence, seconds)| {
+        (name, Some(Fixed(confidence)), seconds)
+    });
     let started = Instant::now();
     let clock = || before + started.elapsed();
     let outcome = pleach_fit::fit(&fit, &settings, Control::new(&clock, stop::flag()))?;
@@ -112,47 +114,42 @@ pub(super) fn fit(
     let clean = problem.clean.as_ref().map(|clean| alike(problem, &best, &clean.goals[0])).transpose()?;
     let held_out = problem.held_out.as_ref().map(|view| alike(problem, &best, view)).transpose()?;
     let ceiling = problem.ceiling;
-    let of_fresh = |of: fn(&FreshSeeds) -> f64| fresh.as_ref().map_or_else(String::new, |f| number(of(f)));
-    let of_guess = |of: fn(&ScoreCard) -> f64| guessed.as_ref().map_or_else(String::new, |c| number(of(c)));
-    let of_pair = |pair: Option<[f64; 2]>, at: usize| pair.map_or_else(String::new, |pair| number(pair[at]));
+    let of_fresh = |of: fn(&FreshSeeds) -> f64| fresh.as_ref().map(|fresh| Fixed(of(fresh)));
     // The ellipse scores nothing and other trees of the true parameters all that can be asked for.
-    let skill = match (&fresh, ceiling) {
-        (Some(fresh), Some(ceiling)) => {
-            let floor = scores.best_ellipse_iou;
-            number((fresh.iou.mean - floor) / (ceiling.iou - floor))
-        }
-        _ => String::new(),
-    };
-    let row = vec![
-        problem.name.clone(),
-        problem.spec.kind().name().to_owned(),
-        method.name.clone(),
-        seed.to_string(),
-        outcome.evaluations.to_string(),
-        name,
+    let skill = fresh.as_ref().zip(ceiling).map(|(fresh, ceiling)| {
+        let floor = scores.best_ellipse_iou;
+        Fixed((fresh.iou.mean - floor) / (ceiling.iou - floor))
+    });
+    let row = Fit {
+        goal: problem.name.clone(),
+        kind: problem.spec.kind().name().to_owned(),
+        method: method.name.clone(),
+        repetition: seed,
+        evaluations: outcome.evaluations,
+        named,
         confidence,
-        of_guess(|card| card.likeness),
-        of_guess(|card| card.iou),
-        number(scores.likeness),
-        number(scores.iou),
-        number(scores.blurred_iou.sixty_fourth),
-        number(scores.boundary_f),
-        number(scores.pixel_accuracy),
-        number(scores.empty_accuracy),
-        number(scores.best_ellipse_iou),
-        of_pair(clean, 0),
-        of_pair(clean, 1),
-        of_pair(held_out, 0),
-        of_pair(held_out, 1),
-        of_fresh(|fresh| fresh.likeness.mean),
-        of_fresh(|fresh| fresh.likeness.sd),
-        of_fresh(|fresh| fresh.iou.mean),
-        of_fresh(|fresh| fresh.iou.sd),
-        ceiling.map_or_else(String::new, |ceiling| number(ceiling.likeness)),
-        ceiling.map_or_else(String::new, |ceiling| number(ceiling.iou)),
+        guess_likeness: guessed.as_ref().map(|card| Fixed(card.likeness)),
+        guess_iou: guessed.as_ref().map(|card| Fixed(card.iou)),
+        likeness: Fixed(scores.likeness),
+        iou: Fixed(scores.iou),
+        blurred_iou_64: Fixed(scores.blurred_iou.sixty_fourth),
+        boundary_f: Fixed(scores.boundary_f),
+        pixel_accuracy: Fixed(scores.pixel_accuracy),
+        empty_accuracy: Fixed(scores.empty_accuracy),
+        best_ellipse_iou: Fixed(scores.best_ellipse_iou),
+        clean_likeness: clean.map(|[likeness, _]| Fixed(likeness)),
+        clean_iou: clean.map(|[_, iou]| Fixed(iou)),
+        held_out_likeness: held_out.map(|[likeness, _]| Fixed(likeness)),
+        held_out_iou: held_out.map(|[_, iou]| Fixed(iou)),
+        fresh_likeness: of_fresh(|fresh| fresh.likeness.mean),
+        fresh_likeness_sd: of_fresh(|fresh| fresh.likeness.sd),
+        fresh_iou: of_fresh(|fresh| fresh.iou.mean),
+        fresh_iou_sd: of_fresh(|fresh| fresh.iou.sd),
+        ceiling_likeness: ceiling.map(|ceiling| Fixed(ceiling.likeness)),
+        ceiling_iou: ceiling.map(|ceiling| Fixed(ceiling.iou)),
         skill,
-        format!("{seconds:.1}"),
-    ];
+        wall_s: Fixed(seconds),
+    };
     Ok(Attempt { row, best, guess })
 }
 
@@ -162,15 +159,11 @@ fn alike(problem: &Problem, genome: &Genome, view: &pleach_fit::GoalView) -> any
     Ok([Likeness::of(&picture, &view.goal).value(), goals::iou(&picture, &view.goal)])
 }
 
-fn number(value: f64) -> String {
-    format!("{value:.4}")
-}
-
 /// The known species as candidates of a first guess.
 fn candidates(problem: &FitProblem) -> Vec<Candidate> {
     let species = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
     species
-        .filter(|s| s.generator.family() == problem.generator.family() && s.generator.extra_toml().is_empty())
+        .filter(|s| s.generator.model() == problem.generator.model())
         .map(|s| Candidate { name: s.name.clone(), values: s.params.values().to_vec() })
         .collect()
 }

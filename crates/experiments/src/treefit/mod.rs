@@ -3,12 +3,14 @@
 mod attempt;
 mod goals;
 mod report;
+mod row;
 mod sheet;
 mod spec;
 
+pub(super) use row::Fit;
 pub(super) use spec::TreefitSpec;
 
-use super::table::Row;
+use super::record;
 use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use anyhow::{Context, bail};
 use attempt::Guesses;
@@ -20,37 +22,6 @@ use pleach_tree::species::Appearance;
 use spec::{GoalSpec, MethodSpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-const COLUMNS: [&str; 28] = [
-    "goal",
-    "kind",
-    "method",
-    "repetition",
-    "evaluations",
-    "named",
-    "confidence",
-    "guess_likeness",
-    "guess_iou",
-    "likeness",
-    "iou",
-    "blurred_iou_64",
-    "boundary_f",
-    "pixel_accuracy",
-    "empty_accuracy",
-    "best_ellipse_iou",
-    "clean_likeness",
-    "clean_iou",
-    "held_out_likeness",
-    "held_out_iou",
-    "fresh_likeness",
-    "fresh_likeness_sd",
-    "fresh_iou",
-    "fresh_iou_sd",
-    "ceiling_likeness",
-    "ceiling_iou",
-    "skill",
-    "wall_s",
-];
 
 /// Side of every goal in pixels.
 const SIZE: u32 = 256;
@@ -65,14 +36,9 @@ fn guess_file(goal: &str) -> String {
     format!("fits/{goal}-guess.toml")
 }
 
-/// Whether two rows are of the same fit.
-pub(super) fn is_same(a: &[String], b: &[String]) -> bool {
-    [0, 2, 3].iter().all(|&at| a[at] == b[at])
-}
-
 impl Kind for TreefitSpec {
-    fn columns(&self) -> Vec<&'static str> {
-        COLUMNS.to_vec()
+    fn columns(&self) -> anyhow::Result<Vec<String>> {
+        record::columns(&Fit::default())
     }
 
     fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>) {
@@ -109,8 +75,8 @@ impl Kind for TreefitSpec {
         let keeps = journal.is_kept();
         for (goal, method, repetition) in jobs {
             let name = goal.name();
-            let key = [(0, &name), (2, &method.name), (3, &repetition.to_string())];
-            let is_of = |row: &[String]| key.iter().all(|(at, cell)| row[*at] == **cell);
+            let is_of =
+                |row: &Fit| (&row.goal, &row.method, row.repetition) == (&name, &method.name, repetition);
             let make = || {
                 let is_first = repetition == 1 && method.name == self.first_method().name;
                 let row = fitted(folder, goal, method, repetition, &mut current, keeps && is_first)?;
@@ -125,21 +91,21 @@ impl Kind for TreefitSpec {
 
     fn report(&self, folder: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
         sheet::draw(folder, self, outputs)?;
-        report::of(self, table)
+        Ok(report::of(self, &table.records()?))
     }
 }
 
 impl TreefitSpec {
     /// The rows of methods that are not run again.
-    pub(super) fn rows_of_others(&self, folder: &Path, again: &[String]) -> anyhow::Result<Vec<Row>> {
+    pub(super) fn rows_of_others(&self, folder: &Path, again: &[String]) -> anyhow::Result<Vec<Fit>> {
         for name in again {
             if self.methods().all(|method| method.name != *name) {
                 let names: Vec<&str> = self.methods().map(|method| method.name.as_str()).collect();
                 bail!("there is no method `{name}`; the experiment has {}", names.join(", "));
             }
         }
-        let mut rows = Table::read(&folder.join("results.csv"), &COLUMNS)?.rows;
-        rows.retain(|row| !again.contains(&row[2]));
+        let mut rows: Vec<Fit> = Table::read(&folder.join("results.csv"), &self.columns()?)?.records()?;
+        rows.retain(|row| !again.contains(&row.method));
         Ok(rows)
     }
 }
@@ -152,7 +118,7 @@ fn fitted(
     repetition: u64,
     current: &mut Option<(Problem, Guesses)>,
     is_kept: bool,
-) -> anyhow::Result<Row> {
+) -> anyhow::Result<Fit> {
     let name = goal.name();
     let (problem, guesses) = match current.take().filter(|(problem, _)| problem.name == name) {
         Some(same) => current.insert(same),

@@ -8,7 +8,7 @@ use crate::settings::FitSettings;
 use crate::space::TreeSeed;
 use crate::stoppable;
 use pleach_silhouette::{Bitmap, Frame, View};
-use pleach_tree::Limits;
+use pleach_tree::{Limits, ModelId};
 use std::sync::atomic::AtomicBool;
 
 /// The trees that goals are compared with, kept from goal to goal.
@@ -24,7 +24,7 @@ pub struct GuessLibrary {
 /// What the trees of a library depend on.
 #[derive(Debug, PartialEq)]
 struct Key {
-    generator: String,
+    generator: ModelId,
     candidates: Vec<Candidate>,
     guess: GuessSettings,
     seed: u64,
@@ -98,7 +98,7 @@ impl GuessLibrary {
         let goals = problem.goals.iter();
         let side = goals.map(|goal| side_for(goal.frame.width, goal.frame.height)).max().unwrap_or_default();
         let key = Key {
-            generator: format!("{:?}", problem.generator),
+            generator: problem.generator.model(),
             candidates: candidates.to_vec(),
             guess: GuessSettings { detect_leaves: false, keep: 0, ..*guess },
             seed: settings.seed,

@@ -308,7 +308,7 @@ fn tries(
             let mut draws = Stream::at(settings.seed, VARIATION, candidate as u64, i);
             let mut genome = space.individual(values, first_seed(settings));
             let mut read = Vec::new();
-            space.read_genes(values, &mut read);
+            space.active_genes(values, &mut read);
             for gene in read.into_iter().map(|g| &space.genes()[g]).filter(|gene| !gene.is_choice()) {
                 let value = gene.clamp(gene.of(&genome) * (1.0 + guess.spread * draws.normal()));
                 gene.set(&mut genome, value);

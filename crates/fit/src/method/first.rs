@@ -37,14 +37,14 @@ pub(super) fn given(
     }
 }
 
-/// A random list in which numbers that may be zero are so with a chance of up to `sparsity`, drawn
+/// A random list in which numbers that have a neutral value have it with a chance of up to `sparsity`, drawn
 /// anew for each list: bends, variations and forks are absent from most trees.
 fn sparse(space: &SearchSpace, sparsity: f64, draws: &mut Stream) -> Genome {
     let mut genome = space.random(draws);
     let share = sparsity * draws.unit();
-    for gene in space.genes().iter().filter(|gene| gene.may_be_zero()) {
+    for (gene, neutral) in space.genes().iter().filter_map(|gene| Some((gene, gene.neutral()?))) {
         if draws.chance(share) {
-            gene.set(&mut genome, 0.0);
+            gene.set(&mut genome, neutral);
         }
     }
     genome

@@ -116,7 +116,7 @@ impl Hewitt {
             value = -value;
         }
         // The text knows no search range: any allowed value may be reached.
-        let value = match gene.kind {
+        let value = match &gene.kind {
             Kind::Choice { .. } => gene.clamp(value),
             _ if gene.is_periodic() => gene.clamp(value),
             kind => kind.repair(value),
@@ -162,7 +162,7 @@ impl Method for Hewitt {
         };
         let mut read = Vec::new();
         if self.settings.only_read {
-            space.read_genes(&base.values, &mut read);
+            space.active_genes(&base.values, &mut read);
         } else {
             read.extend(0..space.genes().len());
         }

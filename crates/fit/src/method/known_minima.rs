@@ -11,7 +11,7 @@ use pleach_tree::ParamSpace;
 use std::sync::Arc;
 
 /// Mean cost over three seeds after `evaluations`, by argmin's executor.
-fn reached(name: &str, function: fn(&[f64]) -> f64, params: &ParamSpace, evaluations: u64) -> f64 {
+fn reached(name: &str, function: fn(&[f64]) -> f64, params: &Arc<ParamSpace>, evaluations: u64) -> f64 {
     let run = |seed| {
         let base = params.defaults();
         let space =
@@ -88,7 +88,7 @@ fn needle(x: &[f64]) -> f64 {
     reals + flags + wholes + names
 }
 
-fn mixed() -> ParamSpace {
+fn mixed() -> Arc<ParamSpace> {
     params(vec![
         real("a", 0.0, 1.0),
         real("b", 0.0, 1.0),

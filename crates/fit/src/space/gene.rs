@@ -3,13 +3,14 @@
 use crate::genome::Genome;
 use crate::nuisance::Nuisance;
 use crate::stream::Stream;
-use pleach_tree::Kind;
+use pleach_tree::param::Scale;
+use pleach_tree::{Kind, Slot};
 
 /// Where the number of a gene is in a [`Genome`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// In [`Genome::values`]: a slot of the generator's parameter space.
-    Slot(usize),
+    Slot(Slot),
     /// In [`Genome::nuisances`].
     Nuisance {
         /// Which of them.
@@ -26,6 +27,10 @@ pub struct Gene {
     pub place: Place,
     /// What the number means.
     pub kind: Kind,
+    /// How numbers are compared.
+    pub scale: Scale,
+    /// The number that stands for the absence of what it is about, if there is one.
+    pub neutral: Option<f64>,
     /// Smallest value that searches try.
     pub low: f64,
     /// Largest value that searches try.
@@ -33,12 +38,13 @@ pub struct Gene {
 }
 
 impl Gene {
-    /// A range over more than this factor is searched by ratio: 2 to 4 is as far as 100 to 200.
+    /// From this factor between its ends on, a range of numbers that are compared by ratio is searched
+    /// so. Below, equal steps find the same.
     const LOG_FROM: f64 = 20.0;
 
     /// The slot in the generator's parameter space; none for a nuisance.
     #[must_use]
-    pub const fn slot(&self) -> Option<usize> {
+    pub const fn slot(&self) -> Option<Slot> {
         match self.place {
             Place::Slot(slot) => Some(slot),
             Place::Nuisance { .. } => None,
@@ -49,7 +55,7 @@ impl Gene {
     #[must_use]
     pub fn of(&self, genome: &Genome) -> f64 {
         match self.place {
-            Place::Slot(slot) => genome.values[slot],
+            Place::Slot(slot) => genome.values[slot.index()],
             Place::Nuisance { number, .. } => genome.nuisances[number],
         }
     }
@@ -57,7 +63,7 @@ impl Gene {
     /// Makes `value` the number in `genome`, as it is.
     pub fn set(&self, genome: &mut Genome, value: f64) {
         match self.place {
-            Place::Slot(slot) => genome.values[slot] = value,
+            Place::Slot(slot) => genome.values[slot.index()] = value,
             Place::Nuisance { number, .. } => genome.nuisances[number] = value,
         }
     }
@@ -73,16 +79,17 @@ impl Gene {
         self.is_azimuth() && self.high - self.low >= 360.0
     }
 
-    /// Whether steps are ratios and not differences: for positive quantities of unknown size.
+    /// Whether steps are ratios and not differences: for positive quantities that are declared so, and
+    /// differ much within the range.
     #[must_use]
     pub fn is_log(&self) -> bool {
-        !matches!(self.kind, Kind::Choice { .. }) && self.low > 0.0 && self.high / self.low >= Self::LOG_FROM
+        self.scale != Scale::Linear && self.low > 0.0 && self.high / self.low >= Self::LOG_FROM
     }
 
     /// Whether the number is the name of a thing, so that neighbours are no more alike than others.
     #[must_use]
     pub const fn is_choice(&self) -> bool {
-        matches!(self.kind, Kind::Choice { .. })
+        self.kind.is_choice()
     }
 
     /// Whether both signs of a switch are within the search range.
@@ -91,11 +98,10 @@ impl Gene {
         self.kind.is_flagged() && self.low < 0.0 && 0.0 < self.high
     }
 
-    /// Whether zero is in range and stands for the absence of a bend, a variation or the like. Counts
-    /// are no such thing: none of them is not the simple case but another tree.
+    /// The number that stands for absence, if there is one and it is in range.
     #[must_use]
-    pub fn may_be_zero(&self) -> bool {
-        !self.kind.is_whole() && !self.is_azimuth() && self.low <= 0.0 && 0.0 <= self.high
+    pub fn neutral(&self) -> Option<f64> {
+        self.neutral.filter(|neutral| (self.low..=self.high).contains(neutral))
     }
 
     /// Whether there is but one value.
@@ -166,38 +172,48 @@ mod tests {
     use super::*;
 
     fn gene(kind: Kind, low: f64, high: f64) -> Gene {
-        Gene { place: Place::Slot(0), kind, low, high }
+        let (place, scale) = (Place::Slot(Slot::new(0)), Scale::Linear);
+        Gene { place, kind, scale, neutral: None, low, high }
     }
 
     #[test]
     fn units_go_there_and_back() {
         let real = gene(Kind::Real { min: 0.0, max: 10.0 }, 1.0, 3.0);
         assert_eq!((real.to_unit(1.5), real.from_unit(0.25), real.from_unit(7.0)), (0.25, 1.5, 3.0));
-        let count = gene(Kind::Integer { min: 0, max: 1000 }, 1.0, 100.0);
-        assert!(count.is_log());
+        let linear = gene(Kind::integer(0, 1000), 1.0, 100.0);
+        let count = Gene { scale: Scale::Count, ..linear.clone() };
+        assert!(count.is_log() && !linear.is_log() && !Gene { high: 19.0, ..count.clone() }.is_log());
         assert_eq!(count.from_unit(0.5), 10.0);
         assert_eq!(count.to_unit(10.0), 0.5);
         assert_eq!(count.clamp(f64::NAN), 51.0);
     }
 
     #[test]
+    fn absence_is_declared_and_in_range() {
+        let bend = Gene { neutral: Some(0.0), ..gene(Kind::real(-9.0, 9.0), -1.0, 1.0) };
+        assert_eq!(bend.neutral(), Some(0.0));
+        assert_eq!(Gene { low: 0.5, ..bend.clone() }.neutral(), None);
+        assert_eq!(Gene { neutral: None, ..bend }.neutral(), None);
+    }
+
+    #[test]
     fn random_values_cover_their_range() {
         let mut stream = Stream::at(1, 0, 0, 0);
-        let choice = gene(Kind::Choice { first: 2, names: &["a", "b", "c"] }, 2.0, 4.0);
+        let choice = gene(Kind::choice(2, ["a", "b", "c"]), 2.0, 4.0);
         let mut counts = [0; 3];
         for _ in 0..3000 {
             counts[choice.random(&mut stream) as usize - 2] += 1;
         }
         assert!(counts.iter().all(|c| (900..1100).contains(c)), "{counts:?}");
 
-        let flag = gene(Kind::Flagged { max: 360.0, negative: "fans" }, -90.0, 360.0);
+        let flag = gene(Kind::flagged(360.0, "fans"), -90.0, 360.0);
         let values: Vec<f64> = (0..3000).map(|_| flag.random(&mut stream)).collect();
         let negative = values.iter().filter(|v| **v < 0.0).count();
         assert!((1400..1600).contains(&negative), "signs are drawn first: {negative}");
         assert!(values.iter().all(|v| (-90.0..=360.0).contains(v)));
         assert!(values.iter().any(|v| *v > 300.0) && values.iter().any(|v| *v < -80.0));
 
-        let many = gene(Kind::Integer { min: 0, max: 1000 }, 1.0, 1000.0);
+        let many = Gene { scale: Scale::Count, ..gene(Kind::integer(0, 1000), 1.0, 1000.0) };
         let small = (0..3000).filter(|_| many.random(&mut stream) <= 31.0).count();
         assert!((1350..1650).contains(&small), "half of all draws below the root: {small}");
     }

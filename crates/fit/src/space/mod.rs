@@ -11,8 +11,8 @@ use crate::evaluator::FitProblem;
 use crate::genome::Genome;
 use crate::nuisance;
 use crate::stream::Stream;
-use pleach_tree::param::{Problem, Unit};
-use pleach_tree::{Generator, ParamSpace};
+use pleach_tree::param::Problem;
+use pleach_tree::{Generator, ParamSpace, Slot};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -60,7 +60,7 @@ const DIRECTIONS: usize = 8;
 /// The free numbers of a problem, and the values of all others.
 #[derive(Clone, Debug)]
 pub struct SearchSpace {
-    params: ParamSpace,
+    params: Arc<ParamSpace>,
     generator: Option<Arc<dyn Generator>>,
     genes: Vec<Gene>,
     base: Vec<f64>,
@@ -92,7 +92,7 @@ fn free_slots(params: &ParamSpace, freedom: &Freedom) -> Result<Vec<bool>, Space
                 .select(pattern)
                 .map_err(|problem| SpaceError::Pattern { pattern: pattern.clone(), problem })?;
             for slot in slots {
-                is_free[slot] = value;
+                is_free[slot.index()] = value;
             }
         }
     }
@@ -115,7 +115,7 @@ impl SearchSpace {
         freedom: &Freedom,
         tree_seed: TreeSeed,
     ) -> Result<Self, SpaceError> {
-        let mut space = Self::of_params(generator.space().clone(), base, freedom, tree_seed)?;
+        let mut space = Self::of_params(Arc::clone(generator.space()), base, freedom, tree_seed)?;
         space.generator = Some(generator);
         Ok(space)
     }
@@ -129,19 +129,19 @@ impl SearchSpace {
         freedom: &Freedom,
         tree_seed: TreeSeed,
     ) -> Result<Self, SpaceError> {
-        let params = problem.generator.space().clone();
+        let params = Arc::clone(problem.generator.space());
         let unknown = nuisance::genes(&problem.goals);
         let mut space = Self::build(params, &problem.base, freedom, tree_seed, unknown)?;
         space.generator = Some(Arc::clone(&problem.generator));
         Ok(space)
     }
 
-    /// The same without a generator: every slot counts as read. For tests on known functions.
+    /// The same without a generator: every slot counts as active. For tests on known functions.
     ///
     /// # Errors
     /// As [`SearchSpace::new`].
     pub fn of_params(
-        params: ParamSpace,
+        params: Arc<ParamSpace>,
         base: &[f64],
         freedom: &Freedom,
         tree_seed: TreeSeed,
@@ -150,23 +150,27 @@ impl SearchSpace {
     }
 
     fn build(
-        params: ParamSpace,
+        params: Arc<ParamSpace>,
         base: &[f64],
         freedom: &Freedom,
         tree_seed: TreeSeed,
         (nuisances, usual): (Vec<Gene>, Vec<f64>),
     ) -> Result<Self, SpaceError> {
-        params.check(base.to_vec())?;
+        params.check_all(base)?;
         let is_free = free_slots(&params, freedom)?;
-        let genes: Vec<Gene> = (0..params.len())
-            .filter(|&slot| is_free[slot])
+        let genes: Vec<Gene> = params
+            .slots()
+            .filter(|slot| is_free[slot.index()])
             .map(|slot| {
-                let (low, high) = params.search_range(slot);
+                let ((low, high), start) = (params.search_range(slot), base[slot.index()]);
+                let param = params.param_of(slot);
                 Gene {
                     place: Place::Slot(slot),
-                    kind: params.kind_of(slot),
-                    low: low.min(base[slot]),
-                    high: high.max(base[slot]),
+                    kind: param.kind.clone(),
+                    scale: params.scale_of(slot),
+                    neutral: param.neutral,
+                    low: low.min(start),
+                    high: high.max(start),
                 }
             })
             .filter(|gene| !gene.is_constant())
@@ -193,26 +197,25 @@ impl SearchSpace {
     /// # Errors
     /// Values that are not allowed.
     pub fn widen(&mut self, values: &[f64]) -> Result<(), SpaceError> {
-        self.params.check(values.to_vec())?;
+        self.params.check_all(values)?;
         for gene in &mut self.genes {
             if let Some(slot) = gene.slot() {
-                gene.low = gene.low.min(values[slot]);
-                gene.high = gene.high.max(values[slot]);
+                gene.low = gene.low.min(values[slot.index()]);
+                gene.high = gene.high.max(values[slot.index()]);
             }
         }
         Ok(())
     }
 
-    /// Narrows the ranges to what is [plausible](Generator::plausible), unless `start`, one value a slot,
+    /// Narrows the ranges to what is [plausible](pleach_tree::Param::plausible), unless `start`, one value a slot,
     /// has more or less.
     #[must_use]
     pub fn plausible(mut self, start: &[f64]) -> Self {
-        let Some(generator) = &self.generator else { return self };
         for gene in &mut self.genes {
             if let Some(slot) = gene.slot() {
-                let (low, high) = generator.plausible(slot);
-                gene.low = gene.low.max(low.min(start[slot]));
-                gene.high = gene.high.min(high.max(start[slot]));
+                let ((low, high), start) = (self.params.plausible_range(slot), start[slot.index()]);
+                gene.low = gene.low.max(low.min(start));
+                gene.high = gene.high.min(high.max(start));
             }
         }
         self.genes.retain(|gene| !gene.is_constant());
@@ -241,7 +244,7 @@ impl SearchSpace {
 
     /// All parameters, free or not.
     #[must_use]
-    pub const fn params(&self) -> &ParamSpace {
+    pub const fn params(&self) -> &Arc<ParamSpace> {
         &self.params
     }
 
@@ -264,7 +267,7 @@ impl SearchSpace {
         let mut genome = Genome { values: self.base.clone(), nuisances: self.usual.clone(), tree_seed: seed };
         for gene in &self.genes {
             if let Some(slot) = gene.slot() {
-                genome.values[slot] = gene.clamp(values[slot]);
+                genome.values[slot.index()] = gene.clamp(values[slot.index()]);
             }
         }
         if let TreeSeed::Fixed(seed) = self.tree_seed {
@@ -273,12 +276,12 @@ impl SearchSpace {
         genome
     }
 
-    /// Whether all sizes in metres are free, so that individuals may be resized.
+    /// Whether there are sizes and all of them are free, so that individuals may be resized.
     #[must_use]
     pub fn sizes_are_free(&self) -> bool {
         let is_free = |slot| self.genes.iter().any(|gene| gene.slot() == Some(slot));
-        let mut sizes = (0..self.params.len()).filter(|&s| self.params.param_of(s).unit == Unit::Meters);
-        sizes.all(is_free)
+        let mut sizes = self.params.sizes().peekable();
+        sizes.peek().is_some() && sizes.all(is_free)
     }
 
     /// Makes the tree of `genome` larger by `factor`, as [`Generator::resize`] does.
@@ -299,19 +302,20 @@ impl SearchSpace {
     /// The first tree that a search likes stands at one end of such a variation or the other, and
     /// trees of other seeds would be larger or smaller than the goal without anyone having asked.
     pub fn settle(&self, genome: &mut Genome) {
-        for slot in self.size_variations(&genome.values) {
-            genome.values[slot] = 0.0;
+        for slot in self.hidden_jitters(&genome.values) {
+            genome.values[slot.index()] = 0.0;
         }
     }
 
     /// The slots that [`SearchSpace::settle`] sets to zero in an individual with these values.
-    pub(crate) fn size_variations(&self, values: &[f64]) -> Vec<usize> {
+    pub(crate) fn hidden_jitters(&self, values: &[f64]) -> Vec<Slot> {
         let generator = self.generator.as_ref().filter(|_| self.settles);
-        let mut slots = generator.map_or_else(Vec::new, |generator| generator.size_variations(values));
-        slots.retain(|&slot| {
-            self.genes.iter().any(|gene| gene.slot() == Some(slot) && gene.clamp(0.0) == 0.0)
-        });
-        slots
+        if generator.is_none_or(|generator| generator.shows_size_jitter(values)) {
+            return Vec::new();
+        }
+        let may_go =
+            |slot: &Slot| self.genes.iter().any(|gene| gene.slot() == Some(*slot) && gene.clamp(0.0) == 0.0);
+        self.params.size_jitters().filter(may_go).collect()
     }
 
     /// A random parameter list: every free number drawn as [`Gene::random`] says.
@@ -349,19 +353,19 @@ impl SearchSpace {
         stream.bits() >> (64 - Self::SEED_BITS)
     }
 
-    /// Whether the value of `gene` can change the tree of `values`: see [`Generator::reads`].
+    /// Whether the value of `gene` can change the tree of `values`: see [`Generator::is_active`].
     #[must_use]
-    pub fn is_read(&self, values: &[f64], gene: &Gene) -> bool {
+    pub fn is_active(&self, values: &[f64], gene: &Gene) -> bool {
         match (&self.generator, gene.slot()) {
-            (Some(generator), Some(slot)) => generator.reads(values, slot),
+            (Some(generator), Some(slot)) => generator.is_active(values, slot),
             _ => true,
         }
     }
 
-    /// Collects the numbers (in [`SearchSpace::genes`]) of the genes that `values` reads.
-    pub fn read_genes(&self, values: &[f64], into: &mut Vec<usize>) {
+    /// Collects the numbers (in [`SearchSpace::genes`]) of the genes that are active with `values`.
+    pub fn active_genes(&self, values: &[f64], into: &mut Vec<usize>) {
         into.clear();
-        into.extend((0..self.genes.len()).filter(|&g| self.is_read(values, &self.genes[g])));
+        into.extend((0..self.genes.len()).filter(|&g| self.is_active(values, &self.genes[g])));
     }
 }
 
@@ -393,7 +397,9 @@ mod tests {
         let space = params(vec![real("a", 0.0, 1.0), real("b", 0.0, 1.0), integer("n", 1, 9)]);
         let build =
             |f: Freedom, base: &[f64]| SearchSpace::of_params(space.clone(), base, &f, TreeSeed::Fixed(1));
-        let names = |s: &SearchSpace| s.genes().iter().filter_map(Gene::slot).collect::<Vec<_>>();
+        let names = |s: &SearchSpace| -> Vec<usize> {
+            s.genes().iter().filter_map(Gene::slot).map(Slot::index).collect()
+        };
         let base = [0.5, 0.5, 3.0];
         assert_eq!(names(&build(Freedom::default(), &base).unwrap()), [0, 1, 2]);
         assert_eq!(names(&build(freedom(&["a", "n"], &[]), &base).unwrap()), [0, 2]);
@@ -417,7 +423,7 @@ mod tests {
         let mut seeds = Vec::new();
         for member in 0..100 {
             let genome = space.random(&mut Stream::at(1, 0, 0, member));
-            space.params().check(genome.values.clone()).unwrap();
+            space.params().check_all(&genome.values).unwrap();
             assert_eq!(genome.values[1], 0.25);
             seeds.push(genome.tree_seed);
         }

@@ -28,9 +28,10 @@ impl Prior {
             let (mut sum, mut count) = (0.0, 0.0);
             for (gene, slot) in genes.iter().filter_map(|gene| Some((gene, gene.slot()?))) {
                 count += 1.0;
+                let (value, there) = (values[slot.index()], list[slot.index()]);
                 sum += if !gene.is_choice() {
-                    (gene.to_unit(values[slot]) - gene.to_unit(list[slot])).powi(2)
-                } else if values[slot] == list[slot] {
+                    (gene.to_unit(value) - gene.to_unit(there)).powi(2)
+                } else if value == there {
                     0.0
                 } else {
                     OTHER_CHOICE * OTHER_CHOICE

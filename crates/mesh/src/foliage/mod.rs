@@ -2,10 +2,10 @@
 
 mod ear;
 
-use crate::block::{Block, vertex};
+use crate::block::{Block, Vertex};
+use crate::part::Count;
 use crate::settings::LeafStyle;
-use crate::tube::Count;
-use glam::{Vec3, vec3};
+use glam::{Vec2, Vec3, vec3};
 use pleach_tree::Leaf;
 use pleach_tree::leaf_shape::{BlossomShape, Outline};
 
@@ -55,9 +55,10 @@ impl UnitMesh {
         let unit = |v: Vec3| v.normalize_or_zero();
         let (x, y, z) = (unit(leaf.across), unit(leaf.along), unit(up));
         for corner in &self.corners {
-            let at = leaf.position + leaf.across * corner.at.x + leaf.along * corner.at.y + up * corner.at.z;
+            let position =
+                leaf.position + leaf.across * corner.at.x + leaf.along * corner.at.y + up * corner.at.z;
             let normal = x * corner.normal.x + y * corner.normal.y + z * corner.normal.z;
-            block.vertices.push(vertex(at, normal, corner.uv[0], corner.uv[1]));
+            block.vertices.push(Vertex { position, normal, uv: Vec2::from(corner.uv) });
         }
         block.triangles.extend(self.triangles.iter().map(|t| t.map(|i| base + i)));
     }
@@ -286,9 +287,9 @@ mod tests {
         let leaf = Leaf { position: vec3(1.0, 2.0, 3.0), along, across, stem: 0, shape: 0 };
         let mut block = Block::default();
         UnitMesh::leaf(LeafShape::Rectangle.outline(), LeafStyle::Outline).push(&leaf, 10, &mut block);
-        let corners: Vec<Vec3> = block.vertices.iter().map(crate::block::position).collect();
+        let corners: Vec<Vec3> = block.vertices.iter().map(|v| v.position).collect();
         assert!(corners.contains(&vec3(2.5, 2.0, 5.0)) && corners.contains(&vec3(-0.5, 2.0, 3.0)));
-        assert_eq!(crate::block::normal(&block.vertices[0]), vec3(0.0, -1.0, 0.0));
+        assert_eq!(block.vertices[0].normal, vec3(0.0, -1.0, 0.0));
         assert!(block.triangles.iter().flatten().all(|i| (10..14).contains(i)));
     }
 }

@@ -14,27 +14,12 @@ mod shape_tests;
 
 pub(crate) use rings::Rings;
 
-use crate::block::{Block, vertex};
+use crate::block::{Block, Vertex};
+use crate::part::Count;
 use crate::settings::MeshSettings;
-use glam::DVec3;
+use glam::{DVec3, vec2};
 use pleach_tree::trig::sin_cos;
 use std::f64::consts::{PI, TAU};
-
-/// How many corners and triangles something has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Count {
-    /// Corners.
-    pub vertices: u64,
-    /// Triangles.
-    pub triangles: u64,
-}
-
-impl std::ops::AddAssign for Count {
-    fn add_assign(&mut self, other: Self) {
-        self.vertices += other.vertices;
-        self.triangles += other.triangles;
-    }
-}
 
 /// A regular polygon that stands for a circle.
 #[derive(Clone, Debug)]
@@ -95,22 +80,22 @@ impl Tubes {
         let n = self.sides(rings);
         let polygon = &self.polygons[n as usize];
         let mut wide = 0;
-        let mut ring = |center: DVec3,
-                        (x, y): (DVec3, DVec3),
-                        tangent: DVec3,
-                        radius: f64,
-                        slope: f64,
-                        v: f64| {
-            let radius = radius * polygon.reach;
-            let level = 1.0 / (1.0 + slope * slope).sqrt();
-            for (j, &(cos, sin)) in polygon.corners.iter().enumerate() {
-                let out = x * cos + y * sin;
-                let normal = (out - tangent * slope) * level;
-                let u = j as f32 / n as f32;
-                block.vertices.push(vertex((center + out * radius).as_vec3(), normal.as_vec3(), u, v as f32));
-            }
-            wide += 1;
-        };
+        let mut ring =
+            |center: DVec3, (x, y): (DVec3, DVec3), tangent: DVec3, radius: f64, slope: f64, v: f64| {
+                let radius = radius * polygon.reach;
+                let level = 1.0 / (1.0 + slope * slope).sqrt();
+                for (j, &(cos, sin)) in polygon.corners.iter().enumerate() {
+                    let out = x * cos + y * sin;
+                    let normal = (out - tangent * slope) * level;
+                    let u = j as f32 / n as f32;
+                    block.vertices.push(Vertex {
+                        position: (center + out * radius).as_vec3(),
+                        normal: normal.as_vec3(),
+                        uv: vec2(u, v as f32),
+                    });
+                }
+                wide += 1;
+            };
         let blunt = usize::from(!rings.pointed);
         for (i, r) in rings.rings[..rings.rings.len() - 1 + blunt].iter().enumerate() {
             let axes = (r.side, r.tangent.cross(r.side));
@@ -128,8 +113,11 @@ impl Tubes {
             }
             top += tip.tangent * height;
         }
-        let apex = vertex(top.as_vec3(), tip.tangent.as_vec3(), 0.5, (along + tip.along) as f32);
-        block.vertices.push(apex);
+        block.vertices.push(Vertex {
+            position: top.as_vec3(),
+            normal: tip.tangent.as_vec3(),
+            uv: vec2(0.5, (along + tip.along) as f32),
+        });
         faces(base, n, wide, &mut block.triangles);
     }
 }

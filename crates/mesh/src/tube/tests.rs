@@ -1,7 +1,6 @@
 //! Every tube is closed and right side out, whatever the spline does.
 
 use super::*;
-use crate::block::{normal, position};
 use glam::dvec3;
 use pleach_tree::{Knot, Stem, StemKind, Tree};
 use proptest::prelude::*;
@@ -49,8 +48,8 @@ fn tube(knots: Vec<Knot>, tolerance: f64) -> (Rings, Count, Block) {
 
 /// The first broken promise of a closed tube.
 fn broken(block: &Block) -> Result<(), String> {
-    let corner = |i: u32| position(&block.vertices[i as usize]).as_dvec3();
-    let key = |i: u32| position(&block.vertices[i as usize]).to_array().map(f32::to_bits);
+    let corner = |i: u32| block.vertices[i as usize].position.as_dvec3();
+    let key = |i: u32| block.vertices[i as usize].position.to_array().map(f32::to_bits);
     let mut edges: HashMap<_, i32> = HashMap::new();
     let mut volume = 0.0;
     let origin = corner(0);
@@ -74,10 +73,10 @@ fn broken(block: &Block) -> Result<(), String> {
         return Err(format!("the tube is inside out: volume {volume}"));
     }
     for v in &block.vertices {
-        if v.iter().any(|x| !x.is_finite()) || (normal(v).length() - 1.0).abs() > 1e-4 {
+        if v.to_array().iter().any(|x| !x.is_finite()) || (v.normal.length() - 1.0).abs() > 1e-4 {
             return Err(format!("a corner is not finite or its normal not of length 1: {v:?}"));
         }
-        if !(0.0..=1.0).contains(&v[6]) || v[7] < 0.0 {
+        if !(0.0..=1.0).contains(&v.uv.x) || v.uv.y < 0.0 {
             return Err(format!("texture coordinates out of range: {v:?}"));
         }
     }
@@ -107,7 +106,7 @@ proptest! {
 /// No face between two rings is inside out: the corners of each ring lie ahead of the plane of the
 /// one before and behind the plane of the one after.
 fn faces_outwards(block: &Block, rings: &Rings) -> Result<(), String> {
-    let corner = |i: u32| position(&block.vertices[i as usize]).as_dvec3();
+    let corner = |i: u32| block.vertices[i as usize].position.as_dvec3();
     let apex = block.vertices.len() as u32 - 1;
     let sides = block.triangles.iter().filter(|t| t.contains(&apex)).count() as u32;
     for (k, t) in block.triangles.iter().enumerate().skip(sides as usize - 2) {
@@ -144,7 +143,7 @@ fn straight(radii: &[f64]) -> Vec<Knot> {
 #[test]
 fn a_cone_has_the_volume_of_a_cone() {
     let (_, _, block) = tube(straight(&[0.5, 0.25, 0.0]), 1e-4);
-    let corner = |i: u32| position(&block.vertices[i as usize]).as_dvec3();
+    let corner = |i: u32| block.vertices[i as usize].position.as_dvec3();
     let volume: f64 =
         block.triangles.iter().map(|t| t.map(corner)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum();
     let cone = PI * 0.25 * 2.0 / 3.0;
@@ -156,8 +155,8 @@ fn a_cone_has_the_volume_of_a_cone() {
 fn normals_of_a_cone_lean_by_its_taper() {
     let (_, _, block) = tube(straight(&[1.0, 0.5, 0.0]), 1e-3);
     let lean = 0.5_f64.atan();
-    for v in block.vertices.iter().filter(|v| (v[2] - 1.0).abs() < 1e-6) {
-        assert!((f64::from(v[5]) - lean.sin()).abs() < 1e-3, "{v:?}");
+    for v in block.vertices.iter().filter(|v| (v.position.z - 1.0).abs() < 1e-6) {
+        assert!((f64::from(v.normal.z) - lean.sin()).abs() < 1e-3, "{v:?}");
     }
 }
 
@@ -165,9 +164,9 @@ fn normals_of_a_cone_lean_by_its_taper() {
 fn texture_runs_along_in_metres_and_once_around() {
     let (_, _, block) = tube(straight(&[0.1, 0.1, 0.1]), 1e-3);
     for v in &block.vertices[..block.vertices.len() - 1] {
-        assert!((v[7] - v[2]).abs() < 0.02, "v is the height of an upright stem: {v:?}");
+        assert!((v.uv.y - v.position.z).abs() < 0.02, "v is the height of an upright stem: {v:?}");
     }
-    let around: Vec<f32> = block.vertices.iter().filter(|v| v[2] == 0.0).map(|v| v[6]).collect();
+    let around: Vec<f32> = block.vertices.iter().filter(|v| v.position.z == 0.0).map(|v| v.uv.x).collect();
     assert_eq!((around[0], around[around.len() - 1]), (0.0, 1.0));
 }
 
@@ -175,7 +174,7 @@ fn texture_runs_along_in_metres_and_once_around() {
 fn a_blunt_tip_gets_a_dome_and_a_thin_one_a_point() {
     let top = |radii: &[f64]| {
         let (rings, _, block) = tube(straight(radii), 1e-3);
-        (rings.pointed, block.vertices.iter().map(|v| v[2]).fold(0.0, f32::max))
+        (rings.pointed, block.vertices.iter().map(|v| v.position.z).fold(0.0, f32::max))
     };
     assert_eq!(top(&[0.1, 0.05, 0.0]), (true, 2.0));
     let (pointed, height) = top(&[0.1, 0.1, 0.1]);

@@ -8,11 +8,11 @@ mod cone;
 mod field;
 mod tetrahedra;
 
-use crate::block::{Block, vertex};
+use crate::block::{Block, Vertex};
 use crate::tube::Rings;
 use cone::Cone;
 use field::Field;
-use glam::Vec3;
+use glam::{Vec3, vec2};
 use pleach_tree::stats::Bounds;
 use pleach_tree::{Parts, StemKind, Tree};
 use tetrahedra::Surface;
@@ -55,9 +55,11 @@ pub fn surface(tree: &Tree, cell: f64) -> Result<Block, WeldError> {
         let normal = (b - a).cross(c - a);
         t.iter().for_each(|&i| normals[i as usize] += normal);
     }
-    let corner =
-        |(at, normal): (&Vec3, Vec3)| vertex(*at, normal.try_normalize().unwrap_or(Vec3::Z), 0.0, at.z);
-    let vertices = corners.iter().zip(normals).map(corner).collect();
+    let corner = |(position, normal): (Vec3, Vec3)| {
+        let uv = vec2(0.0, position.z);
+        Vertex { position, normal: normal.try_normalize().unwrap_or(Vec3::Z), uv }
+    };
+    let vertices = corners.into_iter().zip(normals).map(corner).collect();
     Ok(Block { vertices, triangles, ..Block::default() })
 }
 
@@ -72,7 +74,7 @@ fn cones(tree: &Tree, cell: f64) -> Result<Vec<Cone>, WeldError> {
         return Err(WeldError::TooFine { cell });
     }
     let mut rings = Rings::default();
-    for stem in &tree.stems {
+    for stem in tree.stems.iter().filter(|stem| Parts::BARE.has_stem(stem.kind)) {
         rings.sample(tree, stem, 0.25 * cell);
         let foot = stem.parent.is_none() && stem.kind != StemKind::Fork;
         for (i, pair) in rings.rings.windows(2).enumerate() {
@@ -100,7 +102,6 @@ fn cones(tree: &Tree, cell: f64) -> Result<Vec<Cone>, WeldError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::block::{normal, position};
     use proptest::prelude::*;
 
     /// Number of faces of every edge, by its two corners.
@@ -138,7 +139,7 @@ mod tests {
 
     /// Volume by the divergence theorem; positive where faces look outwards.
     fn volume(block: &Block) -> f64 {
-        let corner = |i: u32| position(&block.vertices[i as usize]).as_dvec3();
+        let corner = |i: u32| block.vertices[i as usize].position.as_dvec3();
         block.triangles.iter().map(|t| corner(t[0]).dot(corner(t[1]).cross(corner(t[2]))) / 6.0).sum()
     }
 
@@ -152,7 +153,7 @@ mod tests {
         // What floats is an air bubble between twigs that touch, if anything.
         assert!(pieces(&block) < 12, "{} pieces", pieces(&block));
         for v in &block.vertices {
-            assert!(position(v).is_finite() && (normal(v).length() - 1.0).abs() < 1e-4);
+            assert!(v.position.is_finite() && (v.normal.length() - 1.0).abs() < 1e-4);
         }
         assert_eq!(block, surface(&tree, 0.02).unwrap());
     }

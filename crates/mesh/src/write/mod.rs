@@ -15,7 +15,7 @@ pub mod ply;
 pub mod stl;
 pub mod usda;
 
-use crate::sink::{MeshError, Part};
+use crate::part::{MeshError, Part};
 
 /// Checks that `parts` are one plain mesh, which is all that `format` can hold.
 fn one_plain_mesh(parts: &[Part], format: &'static str) -> Result<(), MeshError> {

@@ -2,9 +2,9 @@
 
 use super::decimal::{self, digits};
 use super::{one_plain_mesh, total};
-use crate::block::Block;
+use crate::block::{Block, Vertex};
 use crate::palette::{Palette, linear};
-use crate::sink::{Material, MeshError, Part, Sink};
+use crate::part::{Material, MeshError, Part, Sink};
 use std::io::Write;
 
 /// Writes OBJ text.
@@ -81,10 +81,10 @@ impl<W: Write> Sink for Obj<W> {
             let name = self.parts[part].material.name();
             text.extend_from_slice(format!("g {name}\nusemtl {name}\n").as_bytes());
         }
-        for &[x, y, z, nx, ny, nz, u, v] in &block.vertices {
-            line(text, b"v", &[x, z, -y], 5);
-            line(text, b"vt", &[u, 1.0 - v], 4);
-            line(text, b"vn", &[nx, nz, -ny], 3);
+        for &Vertex { position, normal, uv } in &block.vertices {
+            line(text, b"v", &[position.x, position.z, -position.y], 5);
+            line(text, b"vt", &[uv.x, 1.0 - uv.y], 4);
+            line(text, b"vn", &[normal.x, normal.z, -normal.y], 3);
         }
         let first = self.firsts[part];
         for triangle in &block.triangles {

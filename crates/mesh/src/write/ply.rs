@@ -7,7 +7,7 @@
 use super::{one_plain_mesh, total};
 use crate::block::Block;
 use crate::palette::Palette;
-use crate::sink::{MeshError, Part, Sink};
+use crate::part::{MeshError, Part, Sink};
 use std::io::Write;
 
 /// Writes PLY.
@@ -65,10 +65,10 @@ impl<W: Write> Sink for Ply<W> {
         let color = self.palette.color(self.parts[part].material).0;
         self.bytes.clear();
         for (i, vertex) in block.vertices.iter().enumerate() {
-            self.bytes.extend_from_slice(bytemuck::cast_slice(vertex));
+            self.bytes.extend_from_slice(bytemuck::cast_slice(&vertex.to_array()));
             self.bytes.extend_from_slice(&color);
             if let Some(wind) = block.wind.get(i) {
-                self.bytes.extend_from_slice(bytemuck::cast_slice(wind));
+                self.bytes.extend_from_slice(bytemuck::cast_slice(&wind.to_array()));
             }
         }
         let first = self.firsts[part];

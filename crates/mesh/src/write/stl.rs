@@ -1,8 +1,8 @@
 //! Binary STL: triangles with their normals, z up, metres.
 
 use super::{one_plain_mesh, total};
-use crate::block::{Block, position};
-use crate::sink::{MeshError, Part, Sink};
+use crate::block::Block;
+use crate::part::{MeshError, Part, Sink};
 use std::io::Write;
 
 /// Writes binary STL.
@@ -36,7 +36,7 @@ impl<W: Write> Sink for Stl<W> {
         self.bytes.clear();
         let first = &mut self.firsts[part];
         for triangle in &block.triangles {
-            let [a, b, c] = triangle.map(|i| position(&block.vertices[(i - *first) as usize]));
+            let [a, b, c] = triangle.map(|i| block.vertices[(i - *first) as usize].position);
             let normal = (b - a).cross(c - a).normalize_or_zero();
             for v in [normal, a, b, c] {
                 self.bytes.extend_from_slice(bytemuck::cast_slice(&v.to_array()));

@@ -7,7 +7,8 @@
 use super::decimal::{self, digits};
 use crate::block::Block;
 use crate::palette::{Palette, linear};
-use crate::sink::{Material, MeshError, Part, Sink};
+use crate::part::{Material, MeshError, Part, Sink};
+use glam::Vec3;
 use std::io::Write;
 
 /// Decimals of metres, of unit vectors, and of texture coordinates.
@@ -80,22 +81,26 @@ impl<'a, W: Write> Usda<'a, W> {
             "\n{indent}def Mesh \"{name}\" (\n{inner}prepend apiSchemas = [\"MaterialBindingAPI\"]\n{indent})\n{indent}{{"
         )?;
         let corners = format!(" (\n{inner}    interpolation = \"vertex\"\n{inner})");
-        let corner = |i: usize| move |a: f32, v: &crate::Vertex| (a.min(v[i]), a.max(v[i]));
-        let least = |i| block.vertices.iter().fold(f32::INFINITY, |a, v| corner(i)(a, v).0);
-        let most = |i| block.vertices.iter().fold(f32::NEG_INFINITY, |a, v| corner(i)(a, v).1);
-        let extent = [[0, 1, 2].map(least), [0, 1, 2].map(most)];
+        let positions = || block.vertices.iter().map(|v| v.position);
+        let least = positions().fold(Vec3::INFINITY, Vec3::min);
+        let most = positions().fold(Vec3::NEG_INFINITY, Vec3::max);
+        let extent = [least.to_array(), most.to_array()];
         array(out, &inner, "float3[] extent", &extent, |text, p| tuple(text, p, METERS))?;
         array(out, &inner, "int[] faceVertexCounts", &block.triangles, |text, _| text.push(b'3'))?;
         array(out, &inner, "int[] faceVertexIndices", block.triangles.as_flattened(), |text, i| {
             digits(text, u64::from(*i), 1);
         })?;
         let vertices = &block.vertices;
-        array(out, &inner, "point3f[] points", vertices, |text, v| tuple(text, &v[..3], METERS))?;
-        array(out, &inner, "normal3f[] normals", vertices, |text, v| tuple(text, &v[3..6], UNIT))?;
+        array(out, &inner, "point3f[] points", vertices, |text, v| {
+            tuple(text, &v.position.to_array(), METERS);
+        })?;
+        array(out, &inner, "normal3f[] normals", vertices, |text, v| {
+            tuple(text, &v.normal.to_array(), UNIT);
+        })?;
         writeln!(out, "{corners}")?;
         // Pictures start at their foot here.
         array(out, &inner, "texCoord2f[] primvars:st", vertices, |text, v| {
-            tuple(text, &[v[6], 1.0 - v[7]], UNIT);
+            tuple(text, &[v.uv.x, 1.0 - v.uv.y], UNIT);
         })?;
         writeln!(out, "{corners}")?;
         let sides = u8::from(material != Material::Bark);

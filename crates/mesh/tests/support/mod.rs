@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, unreachable_pub, reason = "shared by tests and an example")]
 
-use pleach_mesh::{Mesh, block};
+use pleach_mesh::Mesh;
 use pleach_silhouette::{Bitmap, Camera, Frame, View};
 use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
 
@@ -21,7 +21,7 @@ pub fn silhouette(mesh: &Mesh, view: &View, frame: &Frame) -> Bitmap {
             .vertices
             .iter()
             .map(|v| {
-                let (x, y) = camera.project(block::position(v).as_dvec3(), 1.0);
+                let (x, y) = camera.project(v.position.as_dvec3(), 1.0);
                 ((x * f64::from(across)) as f32, (y * f64::from(down)) as f32)
             })
             .collect();

@@ -2,8 +2,7 @@
 
 use super::crown::Crown;
 use glam::Vec3;
-use pleach_mesh::block::{Vertex, position};
-use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, Mesher, Palette, send};
+use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, Mesher, Palette, Vertex, send};
 use pleach_tree::stats::Bounds;
 use pleach_tree::{Parts, Tree};
 
@@ -62,7 +61,7 @@ impl Scene {
             scene.triangles.extend(block.triangles.iter().map(|t| t.map(|i| i + first)));
             scene.vertices.append(&mut block.vertices);
         }
-        scene.points = scene.vertices.iter().map(position).collect();
+        scene.points = scene.vertices.iter().map(|v| v.position).collect();
         if !tree.leaves.is_empty() {
             let n = tree.leaves.len() as f32;
             scene.heart = tree.leaves.iter().map(|l| l.position).sum::<Vec3>() / n;

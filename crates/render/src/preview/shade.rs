@@ -9,7 +9,6 @@ use super::settings::{Background, Ground, PreviewSettings};
 use crate::picture::Picture;
 use glam::{Vec3, Vec4, vec3};
 use pleach_mesh::Material;
-use pleach_mesh::block::normal;
 use pleach_mesh::palette::{BarkPattern, linear};
 use rayon::prelude::*;
 
@@ -134,12 +133,12 @@ impl View<'_> {
         let weights = [1.0 - wb - wc, wb, wc].map(|w| w.clamp(0.0, 1.0));
         let mix = |pick: &dyn Fn(u32) -> f32| (0..3).map(|k| weights[k] * pick(corners[k])).sum::<f32>();
         let vertex = |i: u32| &self.scene.vertices[i as usize];
-        let normal = (0..3).map(|k| normal(vertex(corners[k])) * weights[k]).sum::<Vec3>();
+        let normal = (0..3).map(|k| vertex(corners[k]).normal * weights[k]).sum::<Vec3>();
         let normal = normal.try_normalize().unwrap_or(Vec3::Z);
         let (material, leaf) = self.scene.part_of(triangle);
         let light = match material {
             Material::Bark => {
-                let (u, v) = (mix(&|i| vertex(i)[6]), mix(&|i| vertex(i)[7]));
+                let (u, v) = (mix(&|i| vertex(i).uv.x), mix(&|i| vertex(i).uv.y));
                 self.bark(at, normal, ray, self.scene.stem_of(corners[0]), u, v)
             }
             _ => self.leaf(at, normal, ray, material, leaf),

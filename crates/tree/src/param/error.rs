@@ -65,8 +65,8 @@ pub enum Problem {
         nearest: Option<String>,
         /// The groups of parameters.
         groups: Vec<String>,
-        /// The patterns for levels; none where no parameter has levels.
-        levels: Vec<String>,
+        /// What lists are numbered by, and the length of the longest such list.
+        lists: Vec<(String, usize)>,
     },
     /// Something that has to be given is not.
     Missing {
@@ -107,13 +107,14 @@ impl fmt::Display for Problem {
                 suggest(f, nearest.as_deref())
             }
             Self::Misplaced { right } => write!(f, "is not a known name here: {right}"),
-            Self::UnknownPattern { nearest, groups, levels } => {
+            Self::UnknownPattern { nearest, groups, lists } => {
                 write!(f, "is not a known name")?;
                 suggest(f, nearest.as_deref())?;
                 let stop = if nearest.is_some() { "" } else { "." };
                 write!(f, "{stop} Groups are {}", groups.join(", "))?;
-                if !levels.is_empty() {
-                    write!(f, "; levels are {}", levels.join(", "))?;
+                for (word, len) in lists {
+                    let patterns: Vec<String> = (0..*len).map(|n| format!("{word}:{n}")).collect();
+                    write!(f, "; {word}s are {}", patterns.join(", "))?;
                 }
                 Ok(())
             }
@@ -151,7 +152,7 @@ pub struct SlotError {
     pub problem: Problem,
 }
 
-/// Names longer than this are no misspelling of anything, and comparing them takes time.
+/// Names longer than this are not misspellings, and comparing them takes time.
 const MAX_NAME_CHARS: usize = 100;
 
 /// The known name that `name` most likely stands for, if any is near enough: a few letters are wrong, or
@@ -169,7 +170,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, candidate)| candidate.to_owned())
 }
 
-/// How alike two names are, 0 to 1; `None` where nobody would take one for the other.
+/// How alike two names are, 0 to 1; `None` where they are too different to be confused.
 fn likeness(name: &str, candidate: &str) -> Option<f64> {
     const MIN: f64 = 0.75;
     /// Alike enough whatever the number of letters that differ.

@@ -1,15 +1,42 @@
 //! The parameters of one generator laid out as slots.
 
 use super::checked::CheckedParams;
-use super::declaration::{Kind, Layout, Param};
+use super::declaration::{Effect, Param, Scale, Shape};
 use super::error::{Problem, SlotError};
+use super::fault::{self, DeclarationError, Fault};
+use super::kind::Kind;
+use std::ops::Range;
+use std::sync::Arc;
 
-/// One number of a parameter.
+/// One number of a generator, by its place in lists of values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Slot(u32);
+
+impl Slot {
+    /// The slot whose number stands at `index` of lists of values. A space has slots from 0 up to and
+    /// without its [`ParamSpace::len`]; asking it about others panics.
+    ///
+    /// # Panics
+    /// If `index` does not fit in 32 bits.
+    #[must_use]
+    pub const fn new(index: usize) -> Self {
+        assert!(index <= u32::MAX as usize, "a slot's index fits in 32 bits");
+        Self(index as u32)
+    }
+
+    /// Where its number stands in lists of values, from 0.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// Which number of which parameter a slot is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Slot {
+pub struct SlotInfo {
     /// Index of the parameter in [`ParamSpace::params`].
     pub param: usize,
-    /// Which of its numbers: the level, or 0 to 2 for x to z.
+    /// Which of its numbers, from 0: the level of a list by level, x to z of a vector.
     pub index: usize,
 }
 
@@ -17,45 +44,26 @@ pub struct Slot {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParamSpace {
     params: Vec<Param>,
-    slots: Vec<Slot>,
+    slots: Vec<SlotInfo>,
     first_slot: Vec<usize>,
 }
 
 impl ParamSpace {
     /// Lays out `params`.
     ///
-    /// # Panics
-    /// If a declaration contradicts itself (default of the wrong length or out of range, twice the
-    /// same name): a mistake in a generator, never in a user's file.
-    #[must_use]
-    pub fn new(params: Vec<Param>) -> Self {
+    /// # Errors
+    /// The first declaration that contradicts itself or an earlier one.
+    pub fn new(params: Vec<Param>) -> Result<Self, DeclarationError> {
         let mut slots = Vec::new();
         let mut first_slot = Vec::new();
-        for (p, param) in params.iter().enumerate() {
-            assert!(
-                params[..p].iter().all(|other| other.name != param.name),
-                "`{}` declared twice",
-                param.name
-            );
-            assert_eq!(param.default.len(), param.layout.len(), "default of `{}`", param.name);
-            assert!(
-                matches!(param.search.len(), 1) || param.search.len() == param.layout.len(),
-                "search of `{}`",
-                param.name
-            );
+        for (number, param) in params.iter().enumerate() {
+            let is_known = params[..number].iter().any(|other| other.name == param.name);
+            let fault = if is_known { Err(Fault::Twice) } else { fault::of(param) };
+            fault.map_err(|fault| DeclarationError { param: param.name.to_string(), fault })?;
             first_slot.push(slots.len());
-            for index in 0..param.layout.len() {
-                let (value, (low, high)) = (param.default[index], param.search_range(index));
-                assert_eq!(param.kind.repair(value), value, "default of `{}`", param.name);
-                assert!(
-                    low <= high && param.kind.repair(low) == low && param.kind.repair(high) == high,
-                    "search of `{}`",
-                    param.name
-                );
-                slots.push(Slot { param: p, index });
-            }
+            slots.extend((0..param.shape.slot_count()).map(|index| SlotInfo { param: number, index }));
         }
-        Self { params, slots, first_slot }
+        Ok(Self { params, slots, first_slot })
     }
 
     /// The parameters in order of declaration.
@@ -65,9 +73,8 @@ impl ParamSpace {
     }
 
     /// All slots in order.
-    #[must_use]
-    pub fn slots(&self) -> &[Slot] {
-        &self.slots
+    pub fn slots(&self) -> impl ExactSizeIterator<Item = Slot> + DoubleEndedIterator + Clone + use<> {
+        (0..self.slots.len()).map(Slot::new)
     }
 
     /// Number of slots.
@@ -76,39 +83,80 @@ impl ParamSpace {
         self.slots.len()
     }
 
-    /// Whether there is no parameter at all.
+    /// Whether the space is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.slots.is_empty()
     }
 
-    /// The parameter that slot number `slot` belongs to.
+    /// Which number of which parameter `slot` is.
     #[must_use]
-    pub fn param_of(&self, slot: usize) -> &Param {
-        &self.params[self.slots[slot].param]
+    pub fn info(&self, slot: Slot) -> SlotInfo {
+        self.slots[slot.index()]
     }
 
-    /// What the number in slot number `slot` means.
+    /// The parameter that `slot` belongs to.
     #[must_use]
-    pub fn kind_of(&self, slot: usize) -> Kind {
-        self.param_of(slot).kind
+    pub fn param_of(&self, slot: Slot) -> &Param {
+        &self.params[self.info(slot).param]
     }
 
-    /// The range that searches draw slot number `slot` from.
+    /// What the number in `slot` means.
     #[must_use]
-    pub fn search_range(&self, slot: usize) -> (f64, f64) {
-        self.param_of(slot).search_range(self.slots[slot].index)
+    pub fn kind_of(&self, slot: Slot) -> &Kind {
+        &self.param_of(slot).kind
     }
 
-    /// The name of slot number `slot`: `ratio`, `length[1]`, `tropism.z`.
+    /// The range that searches draw the number in `slot` from.
     #[must_use]
-    pub fn slot_name(&self, slot: usize) -> String {
-        let Slot { index, .. } = self.slots[slot];
-        let param = self.param_of(slot);
-        match param.layout {
-            Layout::Scalar => param.name.to_string(),
-            Layout::PerLevel => format!("{}[{index}]", param.name),
-            Layout::Vector => format!("{}.{}", param.name, ["x", "y", "z"][index]),
+    pub fn search_range(&self, slot: Slot) -> (f64, f64) {
+        self.param_of(slot).search_range(self.info(slot).index)
+    }
+
+    /// The numbers in `slot` of trees that anyone would draw: see [`Param::plausible`].
+    #[must_use]
+    pub fn plausible_range(&self, slot: Slot) -> (f64, f64) {
+        self.param_of(slot).plausible_range(self.info(slot).index)
+    }
+
+    /// How numbers in `slot` are compared.
+    #[must_use]
+    pub fn scale_of(&self, slot: Slot) -> Scale {
+        self.param_of(slot).scale_of(self.info(slot).index)
+    }
+
+    /// What a small change of the number in `slot` does.
+    #[must_use]
+    pub fn effect_of(&self, slot: Slot) -> Effect {
+        self.param_of(slot).effect_of(self.info(slot).index)
+    }
+
+    /// The value of `slot` where a species file is silent.
+    #[must_use]
+    pub fn default_of(&self, slot: Slot) -> f64 {
+        self.param_of(slot).default[self.info(slot).index]
+    }
+
+    /// The slots that [`Generator::resize`](crate::Generator::resize) multiplies; none for a space
+    /// without sizes.
+    pub fn sizes(&self) -> impl Iterator<Item = Slot> + Clone {
+        self.slots().filter(|&slot| self.param_of(slot).is_size(self.info(slot).index))
+    }
+
+    /// The slots whose numbers make trees of other seeds larger or smaller
+    /// ([`Effect::SizeJitter`]).
+    pub fn size_jitters(&self) -> impl Iterator<Item = Slot> + Clone {
+        self.slots().filter(|&slot| self.effect_of(slot) == Effect::SizeJitter)
+    }
+
+    /// The name of `slot`: `ratio`, `length[1]`, `tropism.z`.
+    #[must_use]
+    pub fn slot_name(&self, slot: Slot) -> String {
+        let (SlotInfo { index, .. }, param) = (self.info(slot), self.param_of(slot));
+        match param.shape {
+            Shape::Scalar => param.name.to_string(),
+            Shape::List { .. } => format!("{}[{index}]", param.name),
+            Shape::Vector => format!("{}.{}", param.name, ["x", "y", "z"][index]),
         }
     }
 
@@ -118,11 +166,15 @@ impl ParamSpace {
         self.params.iter().enumerate().find(|(_, param)| param.name == name)
     }
 
-    /// The slot numbers of parameter number `param`.
-    #[must_use]
-    pub fn slots_of(&self, param: usize) -> std::ops::Range<usize> {
+    /// The slots of parameter number `param`.
+    pub fn slots_of(&self, param: usize) -> impl ExactSizeIterator<Item = Slot> + Clone + use<> {
+        self.range_of(param).map(Slot::new)
+    }
+
+    /// Where the numbers of parameter number `param` stand in lists of values.
+    pub(super) fn range_of(&self, param: usize) -> Range<usize> {
         let first = self.first_slot[param];
-        first..first + self.params[param].layout.len()
+        first..first + self.params[param].shape.slot_count()
     }
 
     /// The values of a species that says nothing.
@@ -133,16 +185,16 @@ impl ParamSpace {
 
     /// Makes every value allowed: clamped, whole where it must be.
     pub fn repair(&self, values: &mut [f64]) {
-        for (slot, value) in values.iter_mut().enumerate() {
+        for (slot, value) in self.slots().zip(values) {
             *value = self.kind_of(slot).repair(*value);
         }
     }
 
-    /// What is wrong with `value` in slot number `slot`, if anything.
+    /// What is wrong with `value` in `slot`, if anything.
     ///
     /// # Errors
     /// Not finite, not whole, or out of range.
-    pub fn check_slot(&self, slot: usize, value: f64) -> Result<(), Problem> {
+    pub fn check_slot(&self, slot: Slot, value: f64) -> Result<(), Problem> {
         let kind = self.kind_of(slot);
         let (min, max) = kind.range();
         if !value.is_finite() {
@@ -156,21 +208,25 @@ impl ParamSpace {
         }
     }
 
-    /// Checks a whole list of values, one a slot.
+    /// Checks a whole list of values, one for each slot.
     ///
     /// # Errors
     /// The first slot whose value is not allowed.
-    pub fn check(&self, values: Vec<f64>) -> Result<CheckedParams, SlotError> {
+    pub fn check(self: &Arc<Self>, values: Vec<f64>) -> Result<CheckedParams, SlotError> {
         self.check_all(&values)?;
-        Ok(CheckedParams::trust(values))
+        Ok(CheckedParams::trust(Arc::clone(self), values))
     }
 
-    pub(super) fn check_all(&self, values: &[f64]) -> Result<(), SlotError> {
+    /// What [`ParamSpace::check`] says of `values`, which stay the caller's.
+    ///
+    /// # Errors
+    /// As [`ParamSpace::check`].
+    pub fn check_all(&self, values: &[f64]) -> Result<(), SlotError> {
         if values.len() != self.len() {
             let problem = Problem::WrongLength { expected: self.len(), found: values.len() };
             return Err(SlotError { slot: "all parameters".to_owned(), problem });
         }
-        for (slot, &value) in values.iter().enumerate() {
+        for (slot, &value) in self.slots().zip(values) {
             self.check_slot(slot, value)
                 .map_err(|problem| SlotError { slot: self.slot_name(slot), problem })?;
         }

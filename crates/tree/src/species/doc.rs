@@ -1,19 +1,9 @@
 //! A parsed species file that remembers where everything stood.
 
 use super::error::{Issue, SpeciesError};
-use super::key::{Form, KEYS, Key, MAX_SEED};
-use super::name::check_name;
-use crate::param::{Kind, ParamSpace, Problem, escaped, is_hidden, nearest};
+use crate::param::{Problem, escaped};
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
-
-/// Names that are wrong at the top level, and what would be right.
-const MISPLACED: [(&str, &str); 4] = [
-    ("seed", "the seed of the tree is `tree_seed`"),
-    ("height", "the height of the tree is `g_scale`"),
-    ("leaves", "the number of leaves on a stem is `leaf_blos_num`"),
-    ("species", "the species is called by `name`"),
-];
 
 /// A value and the bytes of the file that it came from.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,6 +103,11 @@ impl SpeciesDoc {
         &self.origin
     }
 
+    /// All top-level keys with their values, in the order in which the parser gives them.
+    pub(super) fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
     /// The value of a top-level key.
     #[must_use]
     pub fn get(&self, key: &str) -> Option<&Node> {
@@ -136,38 +131,10 @@ impl SpeciesDoc {
         self.get(key).map(|node| self.text_of(key, node)).transpose()
     }
 
-    /// The name of the species, if the file says one.
-    ///
-    /// # Errors
-    /// If it is no string, or cannot be a name: see [`check_name`].
-    pub fn name(&self) -> Result<Option<&str>, Issue> {
-        let Some(node) = self.get("name") else { return Ok(None) };
-        let name = self.text_of("name", node)?;
-        check_name(name)
-            .map_err(|message| self.issue(node.span.clone(), "name", Problem::Conflict { message }))?;
-        Ok(Some(name))
-    }
-
-    /// The description of the species, if the file has one; it may have several lines.
-    ///
-    /// # Errors
-    /// If it is no string, or has control characters.
-    pub fn description(&self) -> Result<Option<&str>, Issue> {
-        let Some(node) = self.get("description") else { return Ok(None) };
-        let text = self.text_of("description", node)?;
-        match text.chars().find(|&c| is_hidden(c) && c != '\n') {
-            None => Ok(Some(text)),
-            Some(c) => {
-                let message = format!("contains the character {}, expected plain text", c.escape_unicode());
-                Err(self.issue(node.span.clone(), "description", Problem::Conflict { message }))
-            }
-        }
-    }
-
     /// The string in `node`.
     ///
     /// # Errors
-    /// If it is no string.
+    /// If it is not a string.
     pub fn text_of<'a>(&self, name: &str, node: &'a Node) -> Result<&'a str, Issue> {
         match &node.value {
             Value::Text(text) => Ok(text),
@@ -178,7 +145,7 @@ impl SpeciesDoc {
     /// The number in `node`.
     ///
     /// # Errors
-    /// If it is no number.
+    /// If it is not a number.
     pub fn number_of(&self, name: &str, node: &Node) -> Result<f64, Issue> {
         match &node.value {
             Value::Number(number) => Ok(*number),
@@ -189,7 +156,7 @@ impl SpeciesDoc {
     /// Three finite numbers in `node`, such as a position in metres.
     ///
     /// # Errors
-    /// If it is no array of three finite numbers.
+    /// If it is not an array of three finite numbers.
     pub fn vector_of(&self, name: &str, node: &Node) -> Result<[f64; 3], Issue> {
         let Value::List(list) = &node.value else {
             return Err(self.wrong_type(name, node, "an array of 3 numbers", &node.value));
@@ -208,110 +175,9 @@ impl SpeciesDoc {
         Ok(vector)
     }
 
-    fn wrong_type(&self, name: &str, node: &Node, expected: &'static str, found: &Value) -> Issue {
+    pub(super) fn wrong_type(&self, name: &str, node: &Node, expected: &'static str, found: &Value) -> Issue {
         self.issue(node.span.clone(), name, Problem::WrongType { expected, found: found.type_name() })
     }
-
-    /// The seed under `tree_seed`, if it is there.
-    ///
-    /// # Errors
-    /// If it is there and no whole number from 0 on.
-    pub fn tree_seed(&self) -> Result<Option<u64>, Issue> {
-        let Some(node) = self.get("tree_seed") else { return Ok(None) };
-        let seed = self.number_of("tree_seed", node)?;
-        let max = MAX_SEED as f64;
-        if (0.0..=max).contains(&seed) && seed.fract() == 0.0 {
-            Ok(Some(seed as u64))
-        } else {
-            Err(self.issue(
-                node.span.clone(),
-                "tree_seed",
-                Problem::OutOfRange { value: seed, min: 0.0, max },
-            ))
-        }
-    }
-
-    /// Reads every parameter of `space`; `own_keys` are the generator's own
-    /// ([`Family::keys`](crate::Family::keys)).
-    ///
-    /// Returns one value a slot (the default where the file is silent or wrong) and every issue, in
-    /// order of place: unknown names, wrong types and lengths, values that are not allowed.
-    #[must_use]
-    pub fn read(&self, space: &ParamSpace, own_keys: &[Key]) -> (Vec<f64>, Vec<Issue>) {
-        let mut values = space.defaults();
-        let mut issues = Vec::new();
-        for entry in &self.entries {
-            let key = entry.key.as_str();
-            let keys = || KEYS.iter().chain(own_keys);
-            if keys().any(|known| known.name == key) {
-                continue;
-            }
-            let Some((number, param)) = space.find(key) else {
-                let known = space.params().iter().map(|p| p.name.as_ref());
-                let problem = match MISPLACED.iter().find(|(name, _)| *name == key) {
-                    Some((_, right)) => Problem::Misplaced { right },
-                    None => Problem::UnknownName {
-                        nearest: inside_a_table(key, keys())
-                            .or_else(|| nearest(key, known.chain(keys().map(|known| known.name)))),
-                    },
-                };
-                issues.push(self.issue(entry.span.clone(), key, problem));
-                continue;
-            };
-            let nodes: &[Node] = match &entry.node.value {
-                Value::List(list) => list,
-                _ => std::slice::from_ref(&entry.node),
-            };
-            let slots = space.slots_of(number);
-            let is_list = matches!(entry.node.value, Value::List(_));
-            if nodes.len() != slots.len() || is_list != (param.layout.len() > 1) {
-                let problem = if is_list == (param.layout.len() > 1) || nodes.len() != slots.len() {
-                    Problem::WrongLength { expected: slots.len(), found: nodes.len() }
-                } else {
-                    Problem::WrongType { expected: "a single number", found: "an array".to_owned() }
-                };
-                issues.push(self.issue(entry.node.span.clone(), key, problem));
-                continue;
-            }
-            for (slot, node) in slots.zip(nodes) {
-                match self.slot_value(space, slot, node) {
-                    Ok(value) => values[slot] = value,
-                    Err(issue) => issues.push(issue),
-                }
-            }
-        }
-        issues.sort_by_key(|issue| (issue.line, issue.column));
-        (values, issues)
-    }
-
-    fn slot_value(&self, space: &ParamSpace, slot: usize, node: &Node) -> Result<f64, Issue> {
-        let name = space.slot_name(slot);
-        let value = match (&node.value, space.kind_of(slot)) {
-            (Value::Text(text), Kind::Choice { first, names }) => {
-                names.iter().position(|n| n == text).map(|i| (first + i as i64) as f64).ok_or_else(|| {
-                    let problem = Problem::UnknownChoice {
-                        value: text.clone(),
-                        known: names.iter().map(|&n| n.to_owned()).collect(),
-                        nearest: nearest(text, names.iter().copied()),
-                    };
-                    self.issue(node.span.clone(), &name, problem)
-                })?
-            }
-            _ => self.number_of(&name, node)?,
-        };
-        space.check_slot(slot, value).map_err(|problem| self.issue(node.span.clone(), &name, problem))?;
-        Ok(value)
-    }
-}
-
-/// `table.key`, where `key` stands outside the table that it belongs to.
-fn inside_a_table<'a>(key: &str, mut keys: impl Iterator<Item = &'a Key>) -> Option<String> {
-    keys.find_map(|table| match table.form {
-        Form::Table(inside) if inside.iter().any(|inner| inner.name == key) => {
-            Some(format!("{}.{key}", table.name))
-        }
-        _ => None,
-    })
 }
 
 fn entries(table: &DeTable<'_>) -> Vec<Entry> {

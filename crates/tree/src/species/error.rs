@@ -38,7 +38,7 @@ pub struct SpeciesError {
 
 impl fmt::Display for SpeciesError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        /// Lines beyond which nobody reads on.
+        /// Problems that are listed, at most.
         const MAX: usize = 20;
         for (i, issue) in self.issues.iter().take(MAX).enumerate() {
             if i > 0 {

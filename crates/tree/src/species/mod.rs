@@ -6,8 +6,8 @@
 //! branches = [1, 50, 30, 1]
 //! ```
 //!
-//! Parameters stand at the top level by their names; per-level values are arrays of four, vectors
-//! arrays of three; what is missing takes the generator's default. Beside them a file may say
+//! Parameters stand at the top level by their names; lists are arrays of as many numbers as they
+//! have, vectors arrays of three; what is missing takes the generator's default. Beside them a file may say
 //! `name`, `description`, `tree_seed` (the seed of one particular tree), a table `[appearance]` (see
 //! [`Appearance`]), and whatever tables its generator knows: [`KEYS`] and
 //! [`Family::keys`](crate::Family::keys) declare them.
@@ -17,6 +17,7 @@ mod doc;
 mod error;
 mod key;
 mod name;
+mod read;
 mod write;
 
 pub use appearance::{Appearance, BarkPattern, Color, Look, Season};
@@ -25,7 +26,9 @@ pub use error::{Issue, SpeciesError};
 pub use key::{Form, KEYS, Key, Shape};
 pub use name::{MAX_NAME_BYTES, MAX_NAME_CHARS, check_name, safe_name};
 
-use crate::generator::{Foliage, Generator, GrowError, Growth, Workspace};
+use crate::generator::{Family, Generator};
+use crate::grow_error::GrowError;
+use crate::growth::{Foliage, Growth, Workspace};
 use crate::param::CheckedParams;
 use crate::plant::Tree;
 use std::sync::Arc;
@@ -34,7 +37,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Species {
     /// Short name, such as `quaking_aspen`. Names that are read from files pass [`check_name`];
-    /// whoever makes a species of other text asks [`safe_name`], or [`Species::file_stem`] later.
+    /// code that makes a species from other text uses [`safe_name`], or [`Species::file_stem`] later.
     pub name: String,
     /// One line about it, possibly empty.
     pub description: String,
@@ -83,3 +86,17 @@ impl Species {
         write::species(self, comments)
     }
 }
+
+/// The species called `name` among those that come with `family`.
+///
+/// # Panics
+/// If its file cannot be read: a mistake in the family, which its conformance tests find.
+#[must_use]
+pub fn preset(family: &dyn Family, name: &str) -> Option<Species> {
+    let (_, text) = family.presets().iter().find(|(known, _)| *known == name)?;
+    let species = SpeciesDoc::parse(name, text).and_then(|doc| doc.species(family));
+    Some(species.unwrap_or_else(|error| panic!("a built-in species is broken:\n{error}")))
+}
+
+#[cfg(test)]
+mod tests;

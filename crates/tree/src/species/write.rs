@@ -2,7 +2,7 @@
 
 use super::Species;
 use super::name::safe_name;
-use crate::param::{Kind, is_hidden};
+use crate::param::{Kind, Shape, is_hidden};
 use std::fmt::Write as _;
 
 pub(super) fn species(species: &Species, comments: &[String]) -> String {
@@ -27,10 +27,10 @@ pub(super) fn species(species: &Species, comments: &[String]) -> String {
         text.push('\n');
         parameters(&mut text, species, group);
     }
-    let extra = species.generator.extra_toml();
-    if !extra.is_empty() {
+    let structure = species.generator.structure();
+    if !structure.is_empty() {
         text.push('\n');
-        text.push_str(&extra);
+        text.push_str(&structure);
     }
     // A table ends where the next begins, so it comes last.
     text.push_str(&species.appearance.to_toml());
@@ -41,14 +41,16 @@ pub(super) fn species(species: &Species, comments: &[String]) -> String {
 fn parameters(text: &mut String, species: &Species, group: &str) {
     let space = species.generator.space();
     for (i, param) in space.params().iter().enumerate().filter(|(_, param)| param.group == group) {
-        let numbers: Vec<String> = species.params.of(space, i).iter().map(|&v| number(v)).collect();
-        let value = if numbers.len() == 1 { numbers[0].clone() } else { format!("[{}]", numbers.join(", ")) };
+        let values = species.params.of(i);
+        let numbers: Vec<String> = values.iter().map(|&v| number(v)).collect();
+        let is_scalar = param.shape == Shape::Scalar;
+        let value = if is_scalar { numbers[0].clone() } else { format!("[{}]", numbers.join(", ")) };
         line(text, &param.name, &value);
-        if let Kind::Choice { first, names } = param.kind {
-            let chosen = (species.params.of(space, i)[0] as i64 - first) as usize;
+        if let (Kind::Choice { first, names }, true) = (&param.kind, is_scalar) {
+            let chosen = (values[0] as i64 - first) as usize;
             text.truncate(text.len() - 1);
             text.push_str("  # ");
-            text.push_str(names[chosen]);
+            text.push_str(&names[chosen]);
             text.push('\n');
         }
     }

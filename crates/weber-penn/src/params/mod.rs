@@ -1,48 +1,76 @@
 //! The parameters of Appendix C, declared once and read once.
 
-mod table;
+pub(crate) mod active;
+mod declare;
+mod read;
+pub(crate) mod table;
 
 use pleach_tree::ParamSpace;
-use std::sync::OnceLock;
+use pleach_tree::param::Slot;
+use std::sync::{Arc, OnceLock};
+use table::Id;
+
+/// Levels of stems that parameters may differ by.
+pub(crate) const LEVELS: usize = 4;
 
 /// The parameter space, the same for every Weber–Penn species.
-pub fn space() -> &'static ParamSpace {
-    static SPACE: OnceLock<ParamSpace> = OnceLock::new();
-    SPACE.get_or_init(|| ParamSpace::new(table::params()))
+///
+/// # Panics
+/// If a declaration contradicts itself, which a test would find.
+pub fn space() -> &'static Arc<ParamSpace> {
+    static SPACE: OnceLock<Arc<ParamSpace>> = OnceLock::new();
+    SPACE.get_or_init(|| {
+        Arc::new(ParamSpace::new(table::params()).expect("the declarations are free of contradictions"))
+    })
 }
 
-/// Reads checked values in the order of the declarations; a name out of order is a bug that the
-/// first debug build finds.
-pub(crate) struct Cursor<'a> {
-    values: &'a [f64],
-    param: usize,
-    slot: usize,
+impl Id {
+    /// The slot of the number at `index` of this parameter.
+    pub(crate) fn slot(self, index: usize) -> Slot {
+        let mut slots = space().slots_of(self as usize);
+        slots.nth(index).expect("parameters by level are asked for by level")
+    }
+
+    /// The name of the number at `index` of this parameter, as in files and messages.
+    pub(crate) fn slot_name(self, index: usize) -> String {
+        space().slot_name(self.slot(index))
+    }
 }
 
-impl<'a> Cursor<'a> {
-    pub(crate) const fn new(values: &'a [f64]) -> Self {
-        Self { values, param: 0, slot: 0 }
+#[cfg(test)]
+mod tests {
+    use super::table::Model;
+    use super::*;
+
+    /// Each field has the numbers of its own row: those before, between and after the levels.
+    #[test]
+    fn values_reach_their_fields() {
+        let mut values = space().defaults();
+        let mut set = |id: Id, index: usize, value: f64| values[id.slot(index).index()] = value;
+        set(Id::g_scale, 0, 7.5);
+        set(Id::level_count, 0, 2.0);
+        set(Id::base_splits, 0, -3.0);
+        set(Id::base_size, 0, 0.25);
+        set(Id::rotate, 3, 180.0);
+        set(Id::curve_res, 2, 0.0);
+        set(Id::radius_mod, 3, 1.5);
+        set(Id::tropism, 2, -2.0);
+        set(Id::leaf_shape, 0, 4.0);
+        set(Id::prune_power_high, 0, 0.125);
+        assert!(space().check_all(&values).is_ok());
+        let model = Model::new(&values);
+        assert_eq!((model.g_scale, model.level_count, model.base_splits), (7.5, 2, -3));
+        assert_eq!((model.levels[0].base_size, model.levels[3].rotate), (0.25, std::f64::consts::PI));
+        assert_eq!((model.levels[2].curve_res, model.levels[3].radius_mod), (1, 1.5));
+        assert_eq!((model.tropism.z, model.leaf_shape as i64, model.prune_power_high), (-2.0, 4, 0.125));
     }
 
-    fn take<const N: usize>(&mut self, name: &str) -> [f64; N] {
-        let param = &space().params()[self.param];
-        debug_assert_eq!((param.name.as_ref(), param.layout.len()), (name, N));
-        let mut taken = [0.0; N];
-        taken.copy_from_slice(&self.values[self.slot..self.slot + N]);
-        self.param += 1;
-        self.slot += N;
-        taken
-    }
-
-    pub(crate) fn scalar(&mut self, name: &str) -> f64 {
-        self.take::<1>(name)[0]
-    }
-
-    pub(crate) fn levels(&mut self, name: &str) -> [f64; 4] {
-        self.take(name)
-    }
-
-    pub(crate) fn vector(&mut self, name: &str) -> [f64; 3] {
-        self.take(name)
+    #[test]
+    fn every_row_is_called_as_its_field() {
+        assert_eq!(Id::ALL.len(), space().params().len());
+        for (id, param) in Id::ALL.iter().zip(space().params()) {
+            let renamed = *id == Id::level_count && param.name == "levels";
+            assert!(format!("{id:?}") == param.name || renamed, "{id:?} is {}", param.name);
+        }
     }
 }

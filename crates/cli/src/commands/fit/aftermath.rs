@@ -8,7 +8,7 @@ use pleach_fit::{
     FitError, FitProblem, FitSettings, FreshSeeds, GuessLibrary, Profile, References, Scored, Seen, Start,
     fresh_seeds, profile, put_back_unseen, settled,
 };
-use pleach_tree::{Limits, ParamSpace};
+use pleach_tree::{Limits, ParamSpace, Slot};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
@@ -24,13 +24,13 @@ pub(super) struct Aftermath {
     /// One for every free number.
     pub(super) profiles: Vec<Profile>,
     /// Slots that went back to the start's value.
-    pub(super) put_back: Vec<usize>,
+    pub(super) put_back: Vec<Slot>,
     /// What its likeness stands beside.
     pub(super) references: References,
     /// What all this took.
     pub(super) seconds: f64,
     /// Slots of variations of size, which are 0.
-    settled: Vec<usize>,
+    settled: Vec<Slot>,
 }
 
 impl Aftermath {
@@ -83,7 +83,7 @@ impl Aftermath {
             ("One picture shows one size, so no other is grown: 0 are", &self.settled),
             ("Not seen in the goal, so as where the search started:", &self.put_back),
         ];
-        let of = |(start, slots): (&str, &Vec<usize>)| {
+        let of = |(start, slots): (&str, &Vec<Slot>)| {
             let names: Vec<String> = slots.iter().map(|&slot| space.slot_name(slot)).collect();
             (!names.is_empty()).then(|| format!("{start} {}.", names.join(", ")))
         };
@@ -116,7 +116,7 @@ impl Aftermath {
             };
             let mut row = vec![
                 space.slot_name(profile.slot),
-                self.best.genome.values[profile.slot].to_string(),
+                self.best.genome.values[profile.slot.index()].to_string(),
                 seen.to_owned(),
             ];
             row.extend(profile.rises.iter().flatten().map(|rise| {
@@ -129,11 +129,11 @@ impl Aftermath {
 }
 
 /// Whether lists that differ in `slots` only, one after the other, grow the same trees from any seed.
-fn same_trees(problem: &FitProblem, before: &[f64], after: &[f64], slots: &[usize]) -> bool {
+fn same_trees(problem: &FitProblem, before: &[f64], after: &[f64], slots: &[Slot]) -> bool {
     let mut values = before.to_vec();
     slots.iter().all(|&slot| {
-        let is_read = problem.generator.reads(&values, slot);
-        values[slot] = after[slot];
-        !is_read
+        let is_active = problem.generator.is_active(&values, slot);
+        values[slot.index()] = after[slot.index()];
+        !is_active
     })
 }

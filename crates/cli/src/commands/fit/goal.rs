@@ -1,11 +1,11 @@
 //! The picture that is fitted to.
 
 use super::{GoalArgs, options};
-use crate::commands::mask;
+use crate::commands::describe::{self, cannot, places};
 use crate::{input, output};
 use anyhow::Context;
 use pleach_silhouette::Bitmap;
-use pleach_silhouette::goal::{Encoded, Goal, GoalOptions, GoalWarning, Origin, Polarity, Split};
+use pleach_silhouette::goal::{Encoded, Goal, GoalOptions, GoalWarning, Polarity, Split};
 use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -73,8 +73,8 @@ impl Goals {
         let source = input::picture(path)?;
         let (full, working, how, found) = if matches!(args.mask, Some(MaskSource::Auto)) {
             let found = Mask::of(&Photo::from_encoded(&source)?, &MaskOptions::default())
-                .with_context(|| mask::cannot(path))?;
-            let how = mask::means(&found);
+                .with_context(|| cannot(path))?;
+            let how = describe::means(&found);
             let full = Goal::from_ink(found.bitmap.clone(), &options)?;
             (full, Goal::from_ink(found.bitmap.clone(), &small)?, how, Some(found))
         } else {
@@ -108,22 +108,4 @@ fn means(goal: &Goal) -> String {
         Split::None => "the picture has one bit a pixel".to_owned(),
     };
     how + if goal.findings.masked { ", in the mask" } else { "" }
-}
-
-/// How much is tree, and where it stands.
-pub(in crate::commands) fn places(goal: &Goal) -> String {
-    let origin = |origin: Origin| match origin {
-        Origin::Detected => "detected",
-        Origin::Snapped => "detected and snapped to the picture's edge or middle",
-        Origin::Given => "given",
-    };
-    let ink = 100.0 * goal.bitmap.ink() as f64 / goal.bitmap.area() as f64;
-    format!(
-        "{ink:.1} % ink\nground at row {:.1} ({}), trunk at column {:.1} ({}), top at row {:.1}",
-        goal.ground_row,
-        origin(goal.findings.ground),
-        goal.axis_column,
-        origin(goal.findings.axis),
-        goal.top_row,
-    )
 }

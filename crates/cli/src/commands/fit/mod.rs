@@ -22,7 +22,6 @@ use crate::interrupted::Interrupted;
 use crate::{input, output};
 use anyhow::bail;
 use args::{BudgetArgs, GoalArgs, SearchArgs};
-pub(super) use goal::places;
 use options::Settings;
 use pleach_fit::{Budget, FitSettings, GuessLibrary, Objective, check_freedom};
 use run_folder::{Mode, RunFolder};

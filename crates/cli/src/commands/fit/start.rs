@@ -168,7 +168,7 @@ fn guess(
 pub(super) fn candidates(problem: &FitProblem) -> Vec<Candidate> {
     let species = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
     species
-        .filter(|s| s.generator.family() == problem.generator.family() && s.generator.extra_toml().is_empty())
+        .filter(|s| s.generator.family() == problem.generator.family() && s.generator.structure().is_empty())
         .map(|s| Candidate { name: s.name.clone(), values: s.params.values().to_vec() })
         .collect()
 }

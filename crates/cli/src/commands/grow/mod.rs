@@ -3,15 +3,13 @@
 pub(super) mod formats;
 mod statistics;
 
-use super::export::MeshArgs;
+use super::export::{Export, MeshArgs};
 use crate::input::LimitArgs;
 use crate::{files, input, output, skeleton};
 use anyhow::{Context, bail};
 use formats::{Format, Goes};
 use indicatif::{ProgressBar, ProgressStyle};
-use pleach_mesh::Palette;
 use pleach_silhouette::{Frame, View, picture};
-use pleach_tree::species::Season;
 use pleach_tree::{Foliage, Growth, Parts, Species, Tree, Workspace};
 use rayon::prelude::*;
 use statistics::Report;
@@ -220,7 +218,7 @@ impl Grow {
 
     /// Takes off what the tree does not wear in the season.
     fn dress(&self, species: &Species, tree: &mut Tree) {
-        Palette::of(species, self.mesh.season.map(Season::from)).dress(tree);
+        self.mesh.palette(species).dress(tree);
     }
 
     /// Writes the file or files that were asked for, and says which they are.
@@ -240,7 +238,10 @@ impl Grow {
                     files::write_out(&path, |mut out| skeleton::write(&mut out, species, seed, tree))?
                 }
                 Format::Png => self.picture(&path, tree)?,
-                mesh => self.mesh.write(&path, mesh, species, seed, tree)?,
+                mesh => {
+                    let palette = self.mesh.palette(species);
+                    self.mesh.write(mesh, &Export { path: &path, species, seed, tree, palette })?;
+                }
             }
             written.push(path);
         }

@@ -2,7 +2,8 @@
 
 mod many;
 
-use super::fit::places;
+use super::describe::{cannot, means, places};
+use crate::choice::{Choice, one_of};
 use crate::{files, input, output};
 use anyhow::{Context, bail, ensure};
 use pleach_silhouette::goal::{Goal, GoalWarning};
@@ -43,8 +44,8 @@ pub(crate) struct MaskCommand {
     #[arg(long, value_name = "FILE|DIR/")]
     overlay: Option<PathBuf>,
     /// What is behind the tree
-    #[arg(long, value_enum, default_value_t = Behind::Auto)]
-    background: Behind,
+    #[arg(long, value_parser = one_of(BACKGROUNDS), default_value = "auto")]
+    background: Background,
     /// A pixel on the tree: column from the left and row from the top, from 0. By default the largest
     /// thing is the tree
     #[arg(long, value_name = "X,Y", value_parser = point)]
@@ -57,15 +58,11 @@ pub(crate) struct MaskCommand {
     json: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Behind {
-    /// Sky and ground if colours step clearly at the sides, else plain
-    Auto,
-    /// A sky, probably with a ground below it: a faint step at the sides is enough
-    Sky,
-    /// One smooth background all around
-    Plain,
-}
+const BACKGROUNDS: &[Choice<Background>] = &[
+    ("auto", "Sky and ground if colours step clearly at the sides, else plain", Background::Auto),
+    ("sky", "A sky, probably with a ground below it: a faint step at the sides is enough", Background::Sky),
+    ("plain", "One smooth background all around", Background::Plain),
+];
 
 fn point(text: &str) -> Result<(u32, u32), String> {
     text.split_once(',')
@@ -159,11 +156,7 @@ impl MaskCommand {
     /// Reads a photograph and finds the tree in it.
     fn make(&self, photo: &Path) -> anyhow::Result<Made> {
         let options = MaskOptions {
-            background: match self.background {
-                Behind::Auto => Background::Auto,
-                Behind::Sky => Background::Sky,
-                Behind::Plain => Background::Plain,
-            },
+            background: self.background,
             seed_point: self.seed_point,
             fill_holes: self.fill_holes,
         };
@@ -214,32 +207,9 @@ fn is_folder(path: &Path) -> bool {
     path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/")
 }
 
-/// What could not be done.
-pub(super) fn cannot(photo: &Path) -> String {
-    format!("cannot make a mask of {}", photo.display())
-}
-
 /// Whether both paths lead to one file that is there.
 fn same_file(a: &Path, b: &Path) -> bool {
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-}
-
-/// How the tree was told from the background.
-pub(super) fn means(mask: &Mask) -> String {
-    match mask.means {
-        Means::Opacity => "the picture has an alpha channel: the tree is what is opaque".to_owned(),
-        Means::Color { threshold, horizon } => {
-            let behind = horizon.map_or_else(
-                || "one background".to_owned(),
-                |h| format!("sky down to row {:.0}, ground below", (h.left + h.right) / 2.0),
-            );
-            format!(
-                "{behind}; the tree is what is more than {threshold:.1} spreads away in colour\n\
-                 {} other pixels dropped, {} in small holes filled",
-                mask.dropped, mask.filled
-            )
-        }
-    }
 }
 
 fn edges(mask: &Mask) -> String {

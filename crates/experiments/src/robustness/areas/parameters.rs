@@ -42,7 +42,7 @@ impl Parameters {
         let spread = SPREADS[draws.below(SPREADS.len())];
         let share = if draws.chance(0.5) { 1.0 } else { 3.0 / space.len() as f64 };
         let mut values = species.params.values().to_vec();
-        for (slot, value) in values.iter_mut().enumerate() {
+        for (slot, value) in space.slots().zip(&mut values) {
             if draws.chance(share) {
                 let range = match spread {
                     Spread::Search => space.search_range(slot),

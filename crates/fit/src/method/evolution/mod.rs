@@ -10,7 +10,7 @@
 //!   move everything a little, draw a number anew from its whole range, or set one to zero. How often
 //!   each move is tried follows from what it has brought ([`moves`]);
 //! - reals, whole numbers, switches and choices are changed each in its own way, and numbers that the
-//!   tree does not read ([`pleach_tree::Generator::reads`]) are left alone;
+//!   tree does not depend on ([`pleach_tree::Generator::is_active`]) are left alone;
 //! - the population begins with the best of a batch of random lists, in which numbers that may be
 //!   zero often are: variations, bends and splits are absent from most trees;
 //! - a population that has not improved for a while ends its *lane*. Its best goes to the hall of

@@ -75,7 +75,7 @@ impl Breeder<'_> {
         let parent = &self.population[self.parent(draws)];
         let mut child = parent.genome.clone();
         let mut read = Vec::new();
-        self.space.read_genes(&child.values, &mut read);
+        self.space.active_genes(&child.values, &mut read);
         let mut birth = Birth { by: self.choose(draws), parent_cost: parent.score.cost, genes: Vec::new() };
         if read.is_empty() || (birth.by == Move::Seed && self.space.tree_seed() == TreeSeed::Any) {
             birth.by = Move::Seed;
@@ -132,11 +132,15 @@ impl Breeder<'_> {
             }
             Move::Nothing => {
                 for _ in 0..1 + draws.below(2) {
-                    let is_candidate = |gene: &&Gene| gene.may_be_zero() && gene.of(&child) != 0.0;
-                    let candidates: Vec<&Gene> =
-                        read.iter().map(|&g| self.gene(g)).filter(is_candidate).collect();
+                    let candidate = |&g: &usize| {
+                        let gene = self.gene(g);
+                        let neutral = gene.neutral().filter(|&neutral| gene.of(&child) != neutral)?;
+                        Some((gene, neutral))
+                    };
+                    let candidates: Vec<(&Gene, f64)> = read.iter().filter_map(candidate).collect();
                     if !candidates.is_empty() {
-                        candidates[draws.below(candidates.len())].set(&mut child, 0.0);
+                        let (gene, neutral) = candidates[draws.below(candidates.len())];
+                        gene.set(&mut child, neutral);
                     }
                 }
             }

@@ -3,7 +3,7 @@
 use super::layout::{Layout, PartLayout, SKIN_BYTES};
 use super::{Placed, Scene, animation, upright};
 use crate::palette::linear;
-use crate::sink::Material;
+use crate::part::Material;
 use glam::Vec3;
 use serde_json::{Map, Value, json};
 

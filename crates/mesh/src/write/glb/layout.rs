@@ -1,8 +1,8 @@
 //! Where everything lies in the binary chunk.
 
 use super::{Scene, animation};
-use crate::block::{Block, Placement, position};
-use crate::sink::Part;
+use crate::block::{Block, Placement};
+use crate::part::Part;
 use glam::Vec3;
 
 /// Bytes of a corner's joint numbers and weights.
@@ -42,7 +42,7 @@ impl PartLayout {
         self.next.translations += block.instances.len() as u64 * 12;
         self.next.rotations += block.instances.len() as u64 * 16;
         self.next.scales += block.instances.len() as u64 * 12;
-        for at in block.vertices.iter().map(position) {
+        for at in block.vertices.iter().map(|v| v.position) {
             let (min, max) = self.bounds.unwrap_or((at, at));
             self.bounds = Some((min.min(at), max.max(at)));
         }

@@ -16,12 +16,13 @@ mod animation;
 mod json;
 mod layout;
 
-use crate::block::Block;
+use crate::block::{Block, Vertex, Wind};
 use crate::mesher::Mesher;
 use crate::palette::Palette;
+use crate::part::{Material, MeshError, Part, Sink};
 use crate::rig::Rig;
 use crate::settings::MeshSettings;
-use crate::sink::{Material, MeshError, Part, Sink, send};
+use crate::stream::send;
 use glam::{Quat, Vec3, vec3};
 use layout::Layout;
 use pleach_tree::Tree;
@@ -136,9 +137,11 @@ impl<W: Write + Seek> Sink for Glb<'_, W> {
     fn block(&mut self, part: usize, block: &mut Block) -> Result<(), MeshError> {
         turn_upright(block);
         let place = self.layout.parts[part].advance(block);
-        self.write_at(place.vertices, bytemuck::cast_slice(&block.vertices))?;
+        let vertices: Vec<[f32; 8]> = block.vertices.iter().map(Vertex::to_array).collect();
+        self.write_at(place.vertices, bytemuck::cast_slice(&vertices))?;
         if !block.wind.is_empty() {
-            self.write_at(place.wind, bytemuck::cast_slice(&block.wind))?;
+            let wind: Vec<[f32; 8]> = block.wind.iter().map(Wind::to_array).collect();
+            self.write_at(place.wind, bytemuck::cast_slice(&wind))?;
         }
         if !block.joints.is_empty() {
             let bytes: Vec<u8> = block.joints.iter().flat_map(|&joint| layout::skin(joint)).collect();
@@ -169,11 +172,10 @@ impl<W: Write + Seek> Sink for Glb<'_, W> {
 /// From z up to y up, for everything in a block.
 fn turn_upright(block: &mut Block) {
     for vertex in &mut block.vertices {
-        let [_, y, z, _, ny, nz, ..] = *vertex;
-        (vertex[1], vertex[2], vertex[4], vertex[5]) = (z, -y, nz, -ny);
+        (vertex.position, vertex.normal) = (upright(vertex.position), upright(vertex.normal));
     }
     for wind in &mut block.wind {
-        (wind[1], wind[2]) = (wind[2], -wind[1]);
+        wind.pivot = upright(wind.pivot);
     }
     for placement in &mut block.instances {
         let [x, y, z, w] = placement.rotation.to_array();

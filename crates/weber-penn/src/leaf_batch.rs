@@ -16,7 +16,7 @@ type Lane3 = [Lane; 3];
 
 /// What is known of a leaf before it is placed.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bud {
+pub(crate) struct LeafSite {
     /// Index of the path's piece.
     pub(crate) piece: usize,
     /// Bézier parameter within the piece.
@@ -31,7 +31,7 @@ pub(crate) struct Bud {
 
 /// Up to eight leaves on one stem.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Sprig {
+pub(crate) struct LeafBatch {
     points: [Lane3; 4],
     /// Where a rotation of 0 leads, before it is made square to the tangent; zero on helices.
     down: Lane3,
@@ -47,7 +47,7 @@ pub(crate) struct Sprig {
     across: Lane3,
 }
 
-impl Sprig {
+impl LeafBatch {
     pub(crate) const fn len(&self) -> usize {
         self.len
     }
@@ -57,9 +57,9 @@ impl Sprig {
     }
 
     /// Adds a leaf of the stem with this `path`.
-    pub(crate) fn push(&mut self, path: &[PathPoint], helix: bool, bud: &Bud) {
+    pub(crate) fn push(&mut self, path: &[PathPoint], helix: bool, site: &LeafSite) {
         let lane = self.len;
-        let (from, to) = (&path[bud.piece], &path[bud.piece + 1]);
+        let (from, to) = (&path[site.piece], &path[site.piece + 1]);
         let set = |lanes: &mut Lane3, v: DVec3| {
             for (axis, value) in lanes.iter_mut().zip(v.to_array()) {
                 axis[lane] = value as f32;
@@ -72,15 +72,15 @@ impl Sprig {
         }
         set(&mut self.down, if helix { DVec3::ZERO } else { to.direction.cross(to.right) });
         set(&mut self.ahead, to.direction);
-        self.t[lane] = bud.t as f32;
-        self.rotation[lane] = bud.rotation as f32;
-        self.down_angle[lane] = bud.down_angle as f32;
-        self.radius[lane] = bud.radius as f32;
+        self.t[lane] = site.t as f32;
+        self.rotation[lane] = site.rotation as f32;
+        self.down_angle[lane] = site.down_angle as f32;
+        self.radius[lane] = site.radius as f32;
         self.len += 1;
     }
 
     /// Places every leaf; `bend` is `leaf_bend`.
-    pub(crate) fn place(&mut self, helix: bool, bend: f32) {
+    pub(crate) fn site(&mut self, helix: bool, bend: f32) {
         self.evaluate(if helix { 1.0 } else { 0.0 });
         self.turn();
         if bend > 0.0 {
@@ -256,10 +256,10 @@ const ATAN: [f32; 5] = [0.999_999_98, -0.333_327_86, 0.199_740_82, -0.138_484_9,
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::children::{Place, Spacing};
+    use crate::children::{ChildSite, Spacing};
     use crate::leaves::face_the_light;
     use crate::model::Level;
-    use crate::stem::Seedling;
+    use crate::stem::StemSpec;
     use pleach_tree::Key;
     use pleach_tree::turtle::Turtle;
     use std::f64::consts::TAU;
@@ -287,28 +287,28 @@ mod tests {
                 let key = Key::root(case);
                 let path = path(key);
                 let level = Level { curve_v: if helix { -0.5 } else { 0.0 }, ..Level::default() };
-                let stem = Seedling::test_stem();
-                let mut sprig = Sprig::default();
+                let stem = StemSpec::test_stem();
+                let mut batch = LeafBatch::default();
                 let mut expected = Vec::new();
                 for i in 0..LANES as u32 {
                     let (t, rotation) = (key.unit(40, i), TAU * key.unit(41, i));
                     let next = Level { down_angle: 3.0 * key.signed(42, i), ..Level::default() };
-                    let place = Place { number: i, piece: 0, t, offset: 0.0, rotation, fan: None };
+                    let site = ChildSite { number: i, piece: 0, t, offset: 0.0, rotation, fan: None };
                     let spacing =
                         Spacing { stem: &stem, level: &level, next: &next, count: 8.0, forks_cost: false };
-                    let sprout = spacing.sprout(&path, &place);
-                    let mut turtle: Turtle = sprout.turtle;
-                    turtle.position += sprout.outward * 0.25;
+                    let child_frame = spacing.child_frame(&path, &site);
+                    let mut turtle: Turtle = child_frame.turtle;
+                    turtle.position += child_frame.outward * 0.25;
                     if bend > 0.0 {
                         face_the_light(bend, &mut turtle);
                     }
                     expected.push(turtle);
-                    let bud = Bud { piece: 0, t, rotation, down_angle: next.down_angle, radius: 0.25 };
-                    sprig.push(&path, helix, &bud);
+                    let site = LeafSite { piece: 0, t, rotation, down_angle: next.down_angle, radius: 0.25 };
+                    batch.push(&path, helix, &site);
                 }
-                sprig.place(helix, bend as f32);
+                batch.site(helix, bend as f32);
                 for (i, turtle) in expected.iter().enumerate() {
-                    let (position, along, across) = sprig.leaf(i);
+                    let (position, along, across) = batch.leaf(i);
                     let off = (position - turtle.position.as_vec3()).length();
                     assert!(off < 2e-5, "case {case}, leaf {i}: position off by {off}");
                     // Near the vertical, outwards has no direction, and single precision picks another.

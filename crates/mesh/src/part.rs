@@ -1,9 +1,23 @@
-//! Where meshes go.
+//! Where triangles come from, in parts of one material, and where they go.
 
 use crate::block::Block;
-use crate::mesher::Mesher;
-use crate::tube::Count;
-use rayon::prelude::*;
+use std::ops::Range;
+
+/// How many corners and triangles something has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    /// Corners.
+    pub vertices: u64,
+    /// Triangles.
+    pub triangles: u64,
+}
+
+impl std::ops::AddAssign for Count {
+    fn add_assign(&mut self, other: Self) {
+        self.vertices += other.vertices;
+        self.triangles += other.triangles;
+    }
+}
 
 /// What a part is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -84,6 +98,33 @@ pub enum MeshError {
     Empty,
 }
 
+/// Has a mesh in parts, whose sizes it knows beforehand and whose triangles it makes a run at a time.
+pub trait Source: Sync {
+    /// Its parts that are not empty, one for each material at most, as mesh number `mesh`.
+    fn parts(&self, mesh: usize) -> Vec<Part>;
+
+    /// The runs that make up the part of this material, in order: each is a block of some hundred
+    /// kilobytes.
+    fn ranges(&self, material: Material) -> Vec<Range<usize>>;
+
+    /// Appends the run `range`, one of [`Source::ranges`], to `block`.
+    fn fill(&self, material: Material, range: Range<usize>, block: &mut Block);
+}
+
+impl<T: Source + ?Sized> Source for Box<T> {
+    fn parts(&self, mesh: usize) -> Vec<Part> {
+        (**self).parts(mesh)
+    }
+
+    fn ranges(&self, material: Material) -> Vec<Range<usize>> {
+        (**self).ranges(material)
+    }
+
+    fn fill(&self, material: Material, range: Range<usize>, block: &mut Block) {
+        (**self).fill(material, range, block);
+    }
+}
+
 /// Receives a mesh: all parts announced, then blocks of each part in order, then the end.
 ///
 /// A sink that is dropped before [`Sink::end`] has failed; what it wrote until then is no file.
@@ -105,67 +146,4 @@ pub trait Sink {
     /// # Errors
     /// If the system refuses.
     fn end(&mut self) -> Result<(), MeshError>;
-}
-
-/// Sends meshes through `sink`, block by block, so that only a few megabytes exist at a time.
-///
-/// Blocks are made on rayon's threads and arrive in order; what arrives does not depend on the number
-/// of threads.
-///
-/// # Errors
-/// The sink's, or [`MeshError::Empty`].
-pub fn send(meshes: &[Mesher<'_>], sink: &mut dyn Sink) -> Result<(), MeshError> {
-    let mut parts = Vec::new();
-    let mut sources = Vec::new();
-    for (mesh, mesher) in meshes.iter().enumerate() {
-        for part in mesher.parts(mesh) {
-            sources.push((mesher, part.material));
-            parts.push(part);
-        }
-    }
-    if parts.is_empty() {
-        return Err(MeshError::Empty);
-    }
-    sink.begin(&parts)?;
-    for (part, &(mesher, material)) in sources.iter().enumerate() {
-        stream(mesher, material, |block| sink.block(part, block))?;
-    }
-    sink.end()
-}
-
-/// Makes the blocks of one part, a batch ahead of the one that is taken.
-fn stream(
-    mesher: &Mesher<'_>,
-    material: Material,
-    mut take: impl FnMut(&mut Block) -> Result<(), MeshError>,
-) -> Result<(), MeshError> {
-    let ranges = mesher.ranges(material);
-    let fill = |batch: &[std::ops::Range<usize>], blocks: &mut Vec<Block>| {
-        blocks.resize_with(batch.len(), Block::default);
-        blocks.par_iter_mut().zip(batch).for_each(|(block, range)| {
-            block.clear();
-            mesher.fill(material, range.clone(), block);
-        });
-    };
-    let size = 2 * rayon::current_num_threads().clamp(1, 16);
-    let mut batches = ranges.chunks(size);
-    let (mut ready, mut coming) = (Vec::new(), Vec::new());
-    let Some(first) = batches.next() else { return Ok(()) };
-    fill(first, &mut ready);
-    loop {
-        let next = batches.next();
-        // Taking stays on this thread; the next batch is made by the others meanwhile.
-        let result = rayon::in_place_scope(|scope| {
-            if let Some(next) = next {
-                let coming = &mut coming;
-                scope.spawn(move |_| fill(next, coming));
-            }
-            ready.iter_mut().try_for_each(&mut take)
-        });
-        result?;
-        if next.is_none() {
-            return Ok(());
-        }
-        std::mem::swap(&mut ready, &mut coming);
-    }
 }

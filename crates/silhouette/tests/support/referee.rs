@@ -4,9 +4,10 @@
 //! corners, blossoms with all their faces), each as a path of its own, since overlapping shapes of
 //! one path would cancel. The fast path is judged by it in the tests.
 
-use crate::bitmap::Bitmap;
-use crate::view::{Camera, Frame, View};
+#![allow(dead_code, unreachable_pub, reason = "a test and a bench share it, and each uses half")]
+
 use glam::{DVec2, DVec3};
+use pleach_silhouette::{Bitmap, Camera, Frame, View};
 use pleach_tree::spline::Cubic;
 use pleach_tree::{Leaf, Parts, Tree};
 use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
@@ -82,20 +83,29 @@ pub fn draw(
     Ok(Verdict { bitmap, coverage })
 }
 
+/// A camera and its axes in the world.
+struct Eye {
+    camera: Camera,
+    right: DVec3,
+    down: DVec3,
+    away: DVec3,
+}
+
 /// Calls `fill` with the corners, in pixels, of every polygon of `parts` of `tree`.
 pub fn shapes(tree: &Tree, view: &View, frame: &Frame, parts: Parts, mut fill: impl FnMut(&[DVec2])) {
-    let camera = Camera::new(view, frame);
+    let [right, up, away] = view.axes();
+    let eye = &Eye { camera: Camera::new(view, frame), right, down: -up, away };
     for stem in tree.stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
         let knots = tree.knots_of(stem);
         let straight = knots[knots.len() - 1].point - knots[0].point;
         let pieces: Vec<_> = tree.pieces_of(stem).collect();
         for (i, (piece, r0, r1)) in pieces.iter().enumerate() {
-            strip(&camera, piece, *r0, *r1, straight, &mut fill);
+            strip(eye, piece, *r0, *r1, straight, &mut fill);
             if i == 0 {
-                disc(&camera, piece, 0.0, *r0, &mut fill);
+                disc(eye, piece, 0.0, *r0, &mut fill);
             }
             if i + 1 == pieces.len() {
-                disc(&camera, piece, 1.0, *r1, &mut fill);
+                disc(eye, piece, 1.0, *r1, &mut fill);
             }
         }
     }
@@ -103,7 +113,7 @@ pub fn shapes(tree: &Tree, view: &View, frame: &Frame, parts: Parts, mut fill: i
         for leaf in &tree.leaves {
             let corner = |p: &[f32; 2]| DVec3::new(f64::from(p[0]), f64::from(p[1]), 0.0);
             let outline: Vec<DVec3> = tree.outline_of(leaf).corners().iter().map(corner).collect();
-            blade(&camera, leaf, &outline, &mut fill);
+            blade(eye, leaf, &outline, &mut fill);
         }
     }
     if parts.contains(Parts::BLOSSOMS) {
@@ -112,7 +122,7 @@ pub fn shapes(tree: &Tree, view: &View, frame: &Frame, parts: Parts, mut fill: i
             let corner = |&i: &u8| glam::Vec3::from(faces.vertices[usize::from(i)]).as_dvec3();
             for face in faces.polygons {
                 let corners: Vec<DVec3> = face.iter().map(corner).collect();
-                blade(&camera, blossom, &corners, &mut fill);
+                blade(eye, blossom, &corners, &mut fill);
             }
         }
     }
@@ -120,7 +130,7 @@ pub fn shapes(tree: &Tree, view: &View, frame: &Frame, parts: Parts, mut fill: i
         for blob in &tree.blobs {
             let vertices = &tree.blob_vertices[blob.vertices()];
             for triangle in &tree.blob_triangles[blob.triangles()] {
-                let corners = triangle.map(|i| seen(&camera, vertices[i as usize].as_dvec3()));
+                let corners = triangle.map(|i| seen(eye, vertices[i as usize].as_dvec3()));
                 if let [Some(a), Some(b), Some(c)] = corners {
                     fill(&[a, b, c]);
                 }
@@ -129,34 +139,34 @@ pub fn shapes(tree: &Tree, view: &View, frame: &Frame, parts: Parts, mut fill: i
     }
 }
 
-fn blade(camera: &Camera, leaf: &Leaf, corners: &[DVec3], fill: &mut impl FnMut(&[DVec2])) {
+fn blade(eye: &Eye, leaf: &Leaf, corners: &[DVec3], fill: &mut impl FnMut(&[DVec2])) {
     let (at, across, along) = (leaf.position.as_dvec3(), leaf.across.as_dvec3(), leaf.along.as_dvec3());
     let normal = leaf.normal().as_dvec3();
-    let place = |c: &DVec3| seen(camera, at + across * c.x + along * c.y + normal * c.z);
+    let place = |c: &DVec3| seen(eye, at + across * c.x + along * c.y + normal * c.z);
     if let Some(corners) = corners.iter().map(place).collect::<Option<Vec<DVec2>>>() {
         fill(&corners);
     }
 }
 
-fn seen(camera: &Camera, point: DVec3) -> Option<DVec2> {
-    camera.magnification(point).map(|m| camera.project(point, m).into())
+fn seen(eye: &Eye, point: DVec3) -> Option<DVec2> {
+    eye.camera.magnification(point).map(|m| eye.camera.project(point, m).into())
 }
 
 /// Centre and left rim of the stem at `t`, in pixels.
-fn rib(camera: &Camera, piece: &Cubic, t: f64, radius: f64, straight: DVec3) -> Option<(DVec2, DVec2)> {
+fn rib(eye: &Eye, piece: &Cubic, t: f64, radius: f64, straight: DVec3) -> Option<(DVec2, DVec2)> {
     let point = piece.at(t);
-    let center = seen(camera, point)?;
-    let ahead = |v: DVec3| DVec2::new(v.dot(camera.right), v.dot(camera.down)).try_normalize();
+    let center = seen(eye, point)?;
+    let ahead = |v: DVec3| DVec2::new(v.dot(eye.right), v.dot(eye.down)).try_normalize();
     let along = ahead(piece.derivative(t)).or_else(|| ahead(straight)).unwrap_or(DVec2::Y);
-    let wide = radius * camera.pixels_per_meter() * camera.magnification(point)?;
+    let wide = radius * eye.camera.pixels_per_meter() * eye.camera.magnification(point)?;
     Some((center, along.perp() * wide))
 }
 
-fn strip(camera: &Camera, piece: &Cubic, r0: f64, r1: f64, straight: DVec3, fill: &mut impl FnMut(&[DVec2])) {
-    let chords = piece.chords(TOLERANCE / camera.pixels_per_meter());
+fn strip(eye: &Eye, piece: &Cubic, r0: f64, r1: f64, straight: DVec3, fill: &mut impl FnMut(&[DVec2])) {
+    let chords = piece.chords(TOLERANCE / eye.camera.pixels_per_meter());
     let at = |i: u32| {
         let t = f64::from(i) / f64::from(chords);
-        rib(camera, piece, t, r0 + (r1 - r0) * t, straight)
+        rib(eye, piece, t, r0 + (r1 - r0) * t, straight)
     };
     for i in 0..chords {
         let (Some((p, u)), Some((q, v))) = (at(i), at(i + 1)) else { continue };
@@ -167,10 +177,10 @@ fn strip(camera: &Camera, piece: &Cubic, r0: f64, r1: f64, straight: DVec3, fill
 }
 
 /// The round end of a stem, seen at an angle.
-fn disc(camera: &Camera, piece: &Cubic, t: f64, radius: f64, fill: &mut impl FnMut(&[DVec2])) {
+fn disc(eye: &Eye, piece: &Cubic, t: f64, radius: f64, fill: &mut impl FnMut(&[DVec2])) {
     let Some(tangent) = piece.derivative(t).try_normalize() else { return };
-    let Some((center, side)) = rib(camera, piece, t, radius, tangent) else { return };
-    let short = side.perp() * tangent.dot(camera.away).abs();
+    let Some((center, side)) = rib(eye, piece, t, radius, tangent) else { return };
+    let short = side.perp() * tangent.dot(eye.away).abs();
     let corners: [DVec2; 64] = std::array::from_fn(|i| {
         let (sin, cos) = (i as f64 * std::f64::consts::TAU / 64.0).sin_cos();
         center + side * cos + short * sin

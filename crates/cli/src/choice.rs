@@ -1,0 +1,20 @@
+//! Options that take one word of a few.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+/// A word, what the help says of it, and what it stands for.
+pub(crate) type Choice<T> = (&'static str, &'static str, T);
+
+/// Takes one of the words of `choices`, which the help and completions list.
+pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
+    choices: &'static [Choice<T>],
+) -> impl TypedValueParser<Value = T> {
+    let value = |&(word, help, _): &Choice<T>| {
+        let value = PossibleValue::new(word);
+        if help.is_empty() { value } else { value.help(help) }
+    };
+    PossibleValuesParser::new(choices.iter().map(value)).try_map(|given| {
+        let found = choices.iter().find(|(word, ..)| *word == given);
+        found.map(|(.., value)| *value).ok_or("not one of the words")
+    })
+}

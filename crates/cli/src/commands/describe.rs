@@ -1,0 +1,46 @@
+//! What is said of goals and masks: `fit` and `mask` use the same words.
+
+use pleach_silhouette::goal::{Goal, Origin};
+use pleach_silhouette::mask::{Mask, Means};
+use std::path::Path;
+
+/// How much is tree, and where it stands.
+pub(super) fn places(goal: &Goal) -> String {
+    let origin = |origin: Origin| match origin {
+        Origin::Detected => "detected",
+        Origin::Snapped => "detected and snapped to the picture's edge or middle",
+        Origin::Given => "given",
+    };
+    let ink = 100.0 * goal.bitmap.ink() as f64 / goal.bitmap.area() as f64;
+    format!(
+        "{ink:.1} % ink\nground at row {:.1} ({}), trunk at column {:.1} ({}), top at row {:.1}",
+        goal.ground_row,
+        origin(goal.findings.ground),
+        goal.axis_column,
+        origin(goal.findings.axis),
+        goal.top_row,
+    )
+}
+
+/// What could not be done.
+pub(super) fn cannot(photo: &Path) -> String {
+    format!("cannot make a mask of {}", photo.display())
+}
+
+/// How the tree was told from the background.
+pub(super) fn means(mask: &Mask) -> String {
+    match mask.means {
+        Means::Opacity => "the picture has an alpha channel: the tree is what is opaque".to_owned(),
+        Means::Color { threshold, horizon } => {
+            let behind = horizon.map_or_else(
+                || "one background".to_owned(),
+                |h| format!("sky down to row {:.0}, ground below", (h.left + h.right) / 2.0),
+            );
+            format!(
+                "{behind}; the tree is what is more than {threshold:.1} spreads away in colour\n\
+                 {} other pixels dropped, {} in small holes filled",
+                mask.dropped, mask.filled
+            )
+        }
+    }
+}
