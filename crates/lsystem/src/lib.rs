@@ -4,19 +4,25 @@
 
 mod derive;
 pub mod diagnostic;
+mod family;
+mod generator;
 mod header;
 mod parse;
 mod program;
 pub mod syntax;
 mod system;
+mod turtle;
 
 pub use derive::{DeriveError, Limits};
 pub use diagnostic::{Diagnostic, Fault, Report};
+pub use family::{LSystemFamily, PRESETS};
+pub use generator::GrammarGenerator;
 pub use header::Header;
 pub use parse::MAX_BYTES;
 pub use program::{Axis, Command};
 pub use syntax::Grammar;
 pub use system::{Derivation, Derived, LSystem};
+pub use turtle::GrowFault;
 
 impl Grammar {
     /// Reads the syntax of a grammar; names are looked up later.

@@ -91,6 +91,7 @@ pub(crate) fn derive(program: &Program, request: &Request<'_>) -> Result<Modules
     let axiom = writer.block(program.axiom, key).and_then(|()| writer.check());
     axiom.map_err(|trouble| Stop { rule: NO_RULE, trouble }.error(program, 0))?;
     let mut string = writer.out;
+    cut(program, &mut string);
     let mut spare = Modules::default();
     let mut work = 0;
     for number in 0..request.steps {

@@ -6,6 +6,8 @@ use pleach_lsystem::{Derivation, LSystem};
 /// A row of the table as a grammar.
 pub(crate) fn grammar(row: &[String]) -> String {
     let modules = if row[3].contains("Fl") || row[3].contains("Fr") { "module Fl = F, Fr = F\n" } else { "" };
+    // The flowering plant uses the letter G as a symbol of its own.
+    let modules = if row[0] == "plant_flowering" { "module G\n" } else { modules };
     let rules = row[4].replace(" ; ", "\n");
     format!("{modules}angle: {}\nsteps: {}\naxiom: {}\n{rules}\n", row[5], row[6], row[3])
 }

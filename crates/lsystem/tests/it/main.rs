@@ -1,8 +1,11 @@
 //! Tests of the whole crate, in one program so that it is linked once.
 
 mod classics;
+mod conformance;
 mod diagnostics;
+mod facts;
 mod language;
 mod normal_form;
 mod strings;
 mod table;
+mod turtle;
