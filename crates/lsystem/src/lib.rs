@@ -8,6 +8,7 @@ mod family;
 mod generator;
 mod header;
 mod parse;
+mod plane;
 mod program;
 pub mod syntax;
 mod system;

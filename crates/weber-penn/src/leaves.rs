@@ -8,9 +8,7 @@ use crate::grow::{Buffers, GrowContext};
 use crate::leaf_batch::{LANES, LeafBatch, LeafSite};
 use crate::purpose;
 use crate::stem::StemSpec;
-use glam::{DVec3, Vec3};
-use pleach_tree::trig::{atan2, sin_cos};
-use pleach_tree::turtle::Turtle;
+use glam::Vec3;
 use pleach_tree::{Leaf, Tree};
 
 /// Grows the leaves and blossoms of `stem`, whose index in the tree is `index`.

@@ -14,7 +14,7 @@ use crate::program::Command;
 use crate::system::Derived;
 use glam::DVec3;
 use leaves::Leaves;
-use pen::{Pen, Steps};
+pub(crate) use pen::{Pen, Steps};
 use pleach_tree::{Foliage, Key, Limits, Tree};
 use std::f64::consts::TAU;
 use stems::Stems;
@@ -41,7 +41,7 @@ pub enum GrowFault {
 }
 
 /// Metres beyond which single precision and sense end.
-const MAX_POSITION: f64 = 1e7;
+pub(crate) const MAX_POSITION: f64 = 1e7;
 
 impl Derived<'_> {
     /// Draws the string into `tree`, whose former content is dropped and whose memory is kept.

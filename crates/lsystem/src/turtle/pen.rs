@@ -9,38 +9,38 @@ use std::f64::consts::PI;
 
 /// What the header says about single steps. Angles in degrees.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Steps {
-    pub(super) scale: f64,
-    pub(super) step: f64,
-    pub(super) angle: f64,
-    pub(super) thickness: f64,
-    pub(super) thinning: f64,
-    pub(super) branch_thinning: f64,
-    pub(super) tropism: DVec3,
-    pub(super) elasticity: f64,
-    pub(super) bendiness: f64,
-    pub(super) tips: bool,
+pub(crate) struct Steps {
+    pub(crate) scale: f64,
+    pub(crate) step: f64,
+    pub(crate) angle: f64,
+    pub(crate) thickness: f64,
+    pub(crate) thinning: f64,
+    pub(crate) branch_thinning: f64,
+    pub(crate) tropism: DVec3,
+    pub(crate) elasticity: f64,
+    pub(crate) bendiness: f64,
+    pub(crate) tips: bool,
 }
 
 /// What `[` saves and `]` brings back.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pen {
-    pub(super) turtle: Turtle,
+pub(crate) struct Pen {
+    pub(crate) turtle: Turtle,
     /// Set by `!`, in the grammar's unit.
-    pub(super) width: f64,
+    pub(crate) width: f64,
     /// How far leaves have turned around the branch, degrees.
-    pub(super) rotation: f64,
-    pub(super) at: At,
+    pub(crate) rotation: f64,
+    pub(crate) at: At,
 }
 
 impl Pen {
     /// The radius of what is drawn, metres.
-    pub(super) fn radius(&self, steps: &Steps) -> f64 {
+    pub(crate) fn radius(&self, steps: &Steps) -> f64 {
         steps.thickness * self.width.max(0.0) * steps.scale
     }
 
     /// Obeys a command that draws nothing.
-    pub(super) fn obey(&mut self, command: Command, values: &[f64], steps: &Steps) {
+    pub(crate) fn obey(&mut self, command: Command, values: &[f64], steps: &Steps) {
         match command {
             Command::Rotate(axis, sign) => {
                 let angle = sign * values.first().unwrap_or(&steps.angle).to_radians();
@@ -72,13 +72,13 @@ impl Pen {
     }
 
     /// Metres that a step goes.
-    pub(super) fn length(&self, values: &[f64], steps: &Steps) -> f64 {
+    pub(crate) fn length(&self, values: &[f64], steps: &Steps) -> f64 {
         values.first().unwrap_or(&steps.step) * steps.scale
     }
 
     /// Bends towards the tropism: in Hewitt's dialect by degrees before a piece, in the book's by
     /// radians after it.
-    pub(super) fn bend(&mut self, dialect: Dialect, steps: &Steps) {
+    pub(crate) fn bend(&mut self, dialect: Dialect, steps: &Steps) {
         let axis = self.turtle.direction.cross(steps.tropism);
         let strength = axis.length();
         let angle = match dialect {

@@ -33,9 +33,9 @@ pub(super) fn leaves_of(values: &[f64]) -> u32 {
 
 /// Which branch is drawn, and whether a gap came before the next piece.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct At {
-    pub(super) branch: u32,
-    pub(super) gap: bool,
+pub(crate) struct At {
+    pub(crate) branch: u32,
+    pub(crate) gap: bool,
 }
 
 impl Survey {
@@ -97,7 +97,7 @@ impl Survey {
 
 impl Steps {
     /// What the header says about single steps.
-    pub(super) fn new(header: &Header) -> Self {
+    pub(crate) fn new(header: &Header) -> Self {
         use crate::syntax::SettingKey as Key;
         Self {
             scale: header.get(Key::Scale),
@@ -116,7 +116,7 @@ impl Steps {
 
 impl Pen {
     /// The pen before the first symbol.
-    pub(super) fn new(header: &Header) -> Self {
+    pub(crate) fn new(header: &Header) -> Self {
         use crate::syntax::SettingKey as Key;
         let turtle = pleach_tree::turtle::Turtle::UP;
         Self { turtle, width: header.get(Key::Width), rotation: 0.0, at: At::default() }

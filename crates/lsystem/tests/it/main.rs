@@ -3,9 +3,11 @@
 mod classics;
 mod conformance;
 mod diagnostics;
+mod docs;
 mod facts;
 mod language;
 mod normal_form;
+mod plane;
 mod strings;
 mod table;
 mod turtle;
