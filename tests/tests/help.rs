@@ -200,7 +200,7 @@ fn run_examples_of(names: &[&str]) {
 
 #[test]
 fn examples_that_grow_work() {
-    run_examples_of(&["grow", "species", "params", "silhouette", "score", "completions", "man"]);
+    run_examples_of(&["grow", "species", "params", "grammar", "silhouette", "score", "completions", "man"]);
 }
 
 #[test]

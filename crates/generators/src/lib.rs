@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Every family of generators, the default one first.
 #[must_use]
 pub fn families() -> &'static [&'static dyn Family] {
-    &[&pleach_weber_penn::WeberPennFamily]
+    &[&pleach_weber_penn::WeberPennFamily, &pleach_lsystem::LSystemFamily]
 }
 
 /// The names of all species that come with pleach, family by family.
@@ -81,14 +81,17 @@ pub fn preset(name: &str) -> Option<Species> {
 }
 
 /// The names of known species that `name` may stand for: a name stands for itself, and a whole word of a
-/// name, such as `aspen`, for every name that holds it.
+/// name, such as `aspen`, for every name that holds it in the first family where any does.
 #[must_use]
 pub fn names_like(name: &str) -> Vec<&'static str> {
-    let names = names();
-    names.iter().find(|known| **known == name).map_or_else(
-        || names.iter().copied().filter(|known| pleach_tree::param::is_word_of(name, known)).collect(),
-        |known| vec![*known],
-    )
+    if let Some(known) = names().into_iter().find(|known| *known == name) {
+        return vec![known];
+    }
+    let of_family = |family: &&dyn Family| -> Vec<&'static str> {
+        let names = family.presets().iter().map(|(name, _)| *name);
+        names.filter(|known| pleach_tree::param::is_word_of(name, known)).collect()
+    };
+    families().iter().map(of_family).find(|names| !names.is_empty()).unwrap_or_default()
 }
 
 /// A species by name or by file: a known name wins, then a file, then a word that only one known name

@@ -98,6 +98,16 @@ pub enum GrowError {
         /// What makes them so many.
         blame: Blame,
     },
+    /// A rule of a grammar that cannot be computed with these numbers, such as one that divides by 0.
+    #[error("line {line} of the grammar, {step}: {problem}", step = if *.step == 0 { "before the first step".to_owned() } else { format!("step {step}") })]
+    Rule {
+        /// Line of the grammar, from 1.
+        line: usize,
+        /// The derivation step, from 1; 0 for the header and the axiom.
+        step: usize,
+        /// What went wrong, with the rule's name.
+        problem: String,
+    },
     /// Values that are each allowed and cannot grow together.
     #[error(transparent)]
     Conflict(#[from] Conflict),

@@ -3,7 +3,7 @@
 //! Hewitt 2017, §3.1.2. The third axis, [`Turtle::down`], is the one that a child leaves its parent
 //! towards, so for a branch it points away from the parent's tip.
 
-use crate::trig::sin_cos;
+use crate::trig::{atan2, sin_cos};
 use glam::DVec3;
 
 /// Position and orientation while a stem is drawn.
@@ -56,6 +56,27 @@ impl Turtle {
     pub fn rotate_about(&mut self, axis: DVec3, angle: f64) {
         self.direction = rotate(self.direction, axis, angle).normalize();
         self.right = rotate(self.right, axis, angle).normalize();
+    }
+
+    /// Turns the axes of a leaf outwards from the z axis and then up, each by the part `leaf_bend` of
+    /// what is missing (Weber and Penn 1995, §4.9). Outwards goes the shorter way round.
+    pub fn face_the_light(&mut self, leaf_bend: f64) {
+        let (p, n) = (self.position, self.down());
+        let outwards = atan2(n.x * p.y - n.y * p.x, n.x * p.x + n.y * p.y);
+        let (sin, cos) = sin_cos(leaf_bend * outwards);
+        let about_z = |v: DVec3| DVec3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z);
+        let (direction, right, n) = (about_z(self.direction), about_z(self.right), about_z(n));
+
+        // Up is a turn from the normal towards +z, about the level axis at right angles to both.
+        let level = (n.x * n.x + n.y * n.y).sqrt();
+        if level < 1e-9 {
+            (self.direction, self.right) = (direction, right);
+            return;
+        }
+        let axis = DVec3::new(n.y / level, -n.x / level, 0.0);
+        let (sin, cos) = sin_cos(leaf_bend * atan2(level, n.z));
+        let lift = |v: DVec3| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos));
+        (self.direction, self.right) = (lift(direction), lift(right));
     }
 }
 

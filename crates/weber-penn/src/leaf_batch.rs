@@ -257,7 +257,6 @@ const ATAN: [f32; 5] = [0.999_999_98, -0.333_327_86, 0.199_740_82, -0.138_484_9,
 mod tests {
     use super::*;
     use crate::children::{ChildSite, Spacing};
-    use crate::leaves::face_the_light;
     use crate::model::Level;
     use crate::stem::StemSpec;
     use pleach_tree::Key;
@@ -300,7 +299,7 @@ mod tests {
                     let mut turtle: Turtle = child_frame.turtle;
                     turtle.position += child_frame.outward * 0.25;
                     if bend > 0.0 {
-                        face_the_light(bend, &mut turtle);
+                        turtle.face_the_light(bend);
                     }
                     expected.push(turtle);
                     let site = LeafSite { piece: 0, t, rotation, down_angle: next.down_angle, radius: 0.25 };

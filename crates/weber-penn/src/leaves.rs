@@ -8,9 +8,7 @@ use crate::grow::{Buffers, GrowContext};
 use crate::leaf_batch::{LANES, LeafBatch, LeafSite};
 use crate::purpose;
 use crate::stem::StemSpec;
-use glam::{DVec3, Vec3};
-use pleach_tree::trig::{atan2, sin_cos};
-use pleach_tree::turtle::Turtle;
+use glam::Vec3;
 use pleach_tree::{Leaf, Tree};
 
 /// Grows the leaves and blossoms of `stem`, whose index in the tree is `index`.
@@ -53,7 +51,7 @@ pub(crate) fn grow(
             let ChildFrame { mut turtle, outward } = spacing.child_frame(path, &site);
             turtle.position += outward * radius;
             if model.leaf_bend > 0.0 {
-                face_the_light(model.leaf_bend, &mut turtle);
+                turtle.face_the_light(model.leaf_bend);
             }
             let (position, along, across) = (turtle.position, turtle.direction, turtle.right);
             kinds.push(tree, site.number, (position.as_vec3(), along.as_vec3(), across.as_vec3()));
@@ -105,25 +103,4 @@ impl Kinds<'_> {
         };
         shapes.push(Leaf { position, along: along * length, across: across * width, stem: index, shape: 0 });
     }
-}
-
-/// Turns a leaf outwards and then up, each by the part `leaf_bend` of what is missing (Weber and
-/// Penn 1995, §4.9). Outwards goes the shorter way round.
-pub(crate) fn face_the_light(leaf_bend: f64, turtle: &mut Turtle) {
-    let (p, n) = (turtle.position, turtle.down());
-    let outwards = atan2(n.x * p.y - n.y * p.x, n.x * p.x + n.y * p.y);
-    let (sin, cos) = sin_cos(leaf_bend * outwards);
-    let about_z = |v: DVec3| DVec3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z);
-    let (direction, right, n) = (about_z(turtle.direction), about_z(turtle.right), about_z(n));
-
-    // Up is a turn from the normal towards +z, about the level axis at right angles to both.
-    let level = (n.x * n.x + n.y * n.y).sqrt();
-    if level < 1e-9 {
-        (turtle.direction, turtle.right) = (direction, right);
-        return;
-    }
-    let axis = DVec3::new(n.y / level, -n.x / level, 0.0);
-    let (sin, cos) = sin_cos(leaf_bend * atan2(level, n.z));
-    let lift = |v: DVec3| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos));
-    (turtle.direction, turtle.right) = (lift(direction), lift(right));
 }

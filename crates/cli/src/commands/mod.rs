@@ -7,6 +7,7 @@ mod experiment;
 mod export;
 mod fit;
 mod gallery;
+mod grammar;
 mod grow;
 mod landmarks;
 mod man;
@@ -48,6 +49,7 @@ enum Command {
     Blend(Box<blend::BlendCommand>),
     Species(species::SpeciesCommand),
     Params(params::Params),
+    Grammar(grammar::GrammarCommand),
     Experiment(experiment::Experiment),
     Completions(completions::Completions),
     Man(man::Man),
@@ -84,6 +86,7 @@ impl Arguments {
             Command::Blend(command) => command.run(),
             Command::Species(command) => command.run(),
             Command::Params(command) => command.run(),
+            Command::Grammar(command) => command.run(),
             Command::Completions(command) => command.run(),
             Command::Man(command) => command.run(),
         }

@@ -1,0 +1,107 @@
+//! `pleach grammar`: checks, prints, derives and draws grammars.
+
+use crate::{files, input, output};
+use anyhow::{Context, anyhow, bail};
+use pleach_lsystem::{Derivation, LSystem, LSystemFamily, MAX_BYTES};
+use pleach_tree::{Family, SpeciesDoc};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "Examples:
+  pleach grammar abop_plant_f                     its normal form
+  pleach grammar abop_plant_f --derive 2          the string after two steps
+  pleach grammar abop_plant_f --svg plant.svg     the turtle's drawing
+  pleach grammar hewitt_palm --check              whether anything is wrong
+
+docs/grammars.md teaches the language in ten minutes.";
+
+/// Check, print, derive or draw a grammar
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct GrammarCommand {
+    /// A file with a grammar, a species (by name or file) that has one, or `-` for a grammar from standard input
+    file: String,
+    /// Print the string after this many steps
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=100_000))]
+    derive: Option<u32>,
+    /// Write the turtle's drawing in the plane, after --derive steps or the grammar's own; `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Say what is wrong or odd, and print nothing else
+    #[arg(long, conflicts_with_all = ["derive", "svg"])]
+    check: bool,
+    /// Seed of all draws
+    #[arg(long, value_name = "N", default_value = "1", value_parser = input::seed)]
+    seed: u64,
+}
+
+impl GrammarCommand {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        let (system, params) = self.read()?;
+        if let Some(warnings) = system.warnings() {
+            output::warning(format!("the grammar is odd:\n{warnings}"));
+        }
+        if self.check {
+            let (rules, params) = (system.grammar().rules.len(), system.params().len());
+            output::note(format!("{}: no mistakes; {rules} rules, {params} parameters", self.file));
+            return Ok(());
+        }
+        if self.derive.is_none() && self.svg.is_none() {
+            return output::line(system.grammar().to_string().trim_end());
+        }
+        let derivation = Derivation {
+            params: params.as_deref(),
+            seed: self.seed,
+            steps: self.derive.map(|steps| steps as usize),
+            parallel: true,
+            ..Derivation::default()
+        };
+        let derived =
+            system.derive(&derivation).map_err(|error| anyhow!("{error}\n{}", system.report(&error)))?;
+        let Some(path) = &self.svg else {
+            return output::line(derived.to_text());
+        };
+        let drawing = derived.to_svg().with_context(|| format!("{} cannot be drawn", self.file))?;
+        files::write_out(path, |out| Ok(out.write_all(drawing.as_bytes())?))?;
+        output::wrote(path);
+        Ok(())
+    }
+
+    /// The grammar, and the values of its parameters where a species has its own.
+    fn read(&self) -> anyhow::Result<(LSystem, Option<Vec<f64>>)> {
+        let path = Path::new(&self.file);
+        let is_preset = LSystemFamily.presets().iter().any(|(name, _)| *name == self.file);
+        let is_species = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("toml"));
+        if is_preset || is_species {
+            let species = input::species(&self.file)?;
+            let doc = SpeciesDoc::parse(&self.file, &species.generator.structure())?;
+            let Ok(Some(text)) = doc.text("grammar") else {
+                bail!("{} is of `{}` and has no grammar", self.file, species.generator.family());
+            };
+            let system = LSystem::read(&self.file, text)?;
+            return Ok((system, Some(species.params.values().to_vec())));
+        }
+        let mut text = String::new();
+        // One byte more than allowed, so that what is too large is seen to be.
+        let limit = MAX_BYTES as u64 + 1;
+        if input::is_standard(path) {
+            std::io::stdin()
+                .lock()
+                .take(limit)
+                .read_to_string(&mut text)
+                .context("cannot read the grammar")?;
+        } else {
+            let file = std::fs::File::open(path)
+                .with_context(|| format!("cannot read the grammar {}", path.display()))?;
+            let read = file.take(limit).read_to_string(&mut text);
+            read.with_context(|| format!("cannot read the grammar {}", path.display()))?;
+        }
+        match LSystem::read(&self.file, &text) {
+            Ok(system) => Ok((system, None)),
+            Err(report) => {
+                let count = report.diagnostics.len();
+                bail!("the grammar has {count} mistake{}\n{report}", if count == 1 { "" } else { "s" })
+            }
+        }
+    }
+}

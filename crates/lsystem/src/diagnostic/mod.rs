@@ -1,0 +1,97 @@
+//! Problems of a grammar, each with its place, and how they are drawn.
+
+mod fault;
+
+pub use fault::Fault;
+
+use crate::syntax::Span;
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use std::fmt;
+
+/// One problem at one place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// Bytes of the grammar's text.
+    pub span: Span,
+    /// What is wrong.
+    pub fault: Fault,
+}
+
+impl Diagnostic {
+    /// A problem at `span`.
+    #[must_use]
+    pub const fn new(span: Span, fault: Fault) -> Self {
+        Self { span, fault }
+    }
+}
+
+/// Problems with the text that they are about.
+///
+/// Shown as drawings of the lines with carets under the places.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// File name, or what stands for it.
+    pub origin: String,
+    /// The grammar's text, empty where it was too large to read.
+    pub text: String,
+    /// The problems in order of place; at least one.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Problems beyond which nobody reads on.
+const MAX_SHOWN: usize = 20;
+
+impl Report {
+    pub(crate) fn new(origin: &str, text: &str, mut diagnostics: Vec<Diagnostic>) -> Self {
+        diagnostics.sort_by_key(|d| d.span.start);
+        Self { origin: origin.to_owned(), text: text.to_owned(), diagnostics }
+    }
+
+    /// Line and column of a byte, both from 1, the column in characters.
+    #[must_use]
+    pub fn place(&self, byte: usize) -> (usize, usize) {
+        let mut byte = byte.min(self.text.len());
+        while !self.text.is_char_boundary(byte) {
+            byte -= 1;
+        }
+        let before = &self.text[..byte];
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    }
+
+    /// The drawings, with colours or without.
+    #[must_use]
+    pub fn draw(&self, colored: bool) -> String {
+        let renderer = if colored { Renderer::styled() } else { Renderer::plain() };
+        let mut drawing = String::new();
+        for diagnostic in self.diagnostics.iter().take(MAX_SHOWN) {
+            let Diagnostic { span, fault } = diagnostic;
+            let title = fault.to_string();
+            let start = span.start.min(self.text.len());
+            let end = span.end.clamp(start, self.text.len());
+            let level = if fault.is_warning() { Level::WARNING } else { Level::ERROR };
+            let place = Snippet::source(self.text.as_str())
+                .path(self.origin.as_str())
+                .annotation(AnnotationKind::Primary.span(start..end));
+            let mut group = level.primary_title(title.as_str()).element(place);
+            let help = fault.help();
+            if let Some(help) = &help {
+                group = group.element(Level::HELP.message(help.as_str()));
+            }
+            drawing.push_str(&renderer.render(&[group]));
+            drawing.push('\n');
+        }
+        if let Some(more) = self.diagnostics.len().checked_sub(MAX_SHOWN + 1) {
+            drawing.push_str(&format!("and {} more\n", more + 1));
+        }
+        drawing
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.draw(false).trim_end())
+    }
+}
+
+impl std::error::Error for Report {}

@@ -1,0 +1,130 @@
+//! Species files with a grammar in them, and those that come with pleach.
+
+use crate::generator::{GrammarGenerator, NAME};
+use crate::system::LSystem;
+use pleach_tree::param::Problem;
+use pleach_tree::species::{Form, Issue, KEYS, Key, Value};
+use pleach_tree::{Family, Generator, SpeciesDoc};
+use std::sync::Arc;
+
+/// The key of the grammar.
+const GRAMMAR: &str = "grammar";
+
+/// Reads species files with a grammar in them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LSystemFamily;
+
+impl Family for LSystemFamily {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn summary(&self) -> &'static str {
+        "grammars of Lindenmayer systems (Prusinkiewicz and Lindenmayer 1990; Hewitt 2017)"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[Key {
+            name: GRAMMAR,
+            form: Form::Text,
+            default: "there is none: it has to be given",
+            doc: "the grammar, a text of several lines; its parameters are keys of the file",
+        }]
+    }
+
+    fn read(&self, doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Option<Arc<dyn Generator>> {
+        let Some(node) = doc.get(GRAMMAR) else {
+            let expected = "the grammar in a string of several lines".to_owned();
+            issues.push(doc.issue(0..0, GRAMMAR, Problem::Missing { expected }));
+            return None;
+        };
+        let Value::Text(text) = &node.value else {
+            let found = node.value.type_name();
+            issues.push(doc.issue(
+                node.span.clone(),
+                GRAMMAR,
+                Problem::WrongType { expected: "a string", found },
+            ));
+            return None;
+        };
+        let mut complain = |message: String| {
+            issues.push(doc.issue(node.span.clone(), GRAMMAR, Problem::Syntax { message }));
+        };
+        let system = match LSystem::read("grammar", text) {
+            Ok(system) => system,
+            Err(report) => {
+                for diagnostic in report.diagnostics.iter().take(MAX_TOLD) {
+                    let (line, column) = report.place(diagnostic.span.start);
+                    complain(format!("has a mistake at {line}:{column} of its text: {}", diagnostic.fault));
+                }
+                return None;
+            }
+        };
+        let taken = |name: &str| name == GRAMMAR || KEYS.iter().any(|key| key.name == name);
+        if let Some(param) = system.params().iter().find(|p| taken(&p.name.text)) {
+            complain(format!("declares a parameter `{}`, which is a key of species files", param.name.text));
+            return None;
+        }
+        match GrammarGenerator::new(system) {
+            Ok(generator) => Some(Arc::new(generator)),
+            Err(error) => {
+                complain(format!("declares a parameter wrongly: {error}"));
+                None
+            }
+        }
+    }
+
+    fn presets(&self) -> &'static [(&'static str, &'static str)] {
+        PRESETS
+    }
+}
+
+/// Mistakes of one grammar beyond which nobody reads on.
+const MAX_TOLD: usize = 20;
+
+/// Declares the species files.
+macro_rules! presets {
+    ($($name:literal,)*) => {
+        /// Name and text of each species file.
+        pub const PRESETS: &[(&str, &str)] =
+            &[$(($name, include_str!(concat!("../species/", $name, ".toml"))),)*];
+    };
+}
+
+presets! {
+    "hewitt_palm",
+    "hewitt_lombardy_poplar",
+    "hewitt_quaking_aspen",
+    "aspen_falling_profile",
+    "grammar_pine",
+    "grammar_acer",
+    "steen_tree",
+    "abop_monopodial_a",
+    "abop_monopodial_b",
+    "abop_monopodial_c",
+    "abop_monopodial_d",
+    "abop_sympodial_a",
+    "abop_sympodial_b",
+    "abop_sympodial_c",
+    "abop_sympodial_d",
+    "abop_ternary_a",
+    "abop_ternary_b",
+    "abop_ternary_c",
+    "abop_ternary_d",
+    "abop_plant_a",
+    "abop_plant_b",
+    "abop_plant_c",
+    "abop_plant_d",
+    "abop_plant_e",
+    "abop_plant_f",
+    "abop_plant_stochastic",
+    "abop_bush",
+    "abop_flowering_plant",
+    "abop_hilbert",
+    "abop_hilbert_space",
+    "abop_sierpinski",
+    "abop_gosper",
+    "abop_dragon",
+    "abop_koch_island",
+    "abop_row_of_trees",
+}

@@ -1,0 +1,149 @@
+//! Grammars as generators of trees.
+
+use crate::derive::{DeriveError, Limits};
+use crate::diagnostic::Fault;
+use crate::syntax::{ExprKind, Grammar, ParamDecl, ParamUnit, SettingKey};
+use crate::system::{Derivation, LSystem};
+use crate::turtle::GrowFault;
+use pleach_tree::param::{DeclarationError, Effect, Kind, Param, Scale};
+use pleach_tree::{Blame, CheckedParams, Generator, GrowError, Growth, ParamSpace, Tree, Unit, Workspace};
+use std::sync::Arc;
+
+/// The family's name in species files.
+pub(crate) const NAME: &str = "lsystem";
+
+/// A grammar whose declared parameters are the numbers of a species.
+#[derive(Clone, Debug)]
+pub struct GrammarGenerator {
+    system: Arc<LSystem>,
+    space: Arc<ParamSpace>,
+    structure: String,
+}
+
+impl GrammarGenerator {
+    /// The generator of `system`.
+    ///
+    /// # Errors
+    /// Declarations that contradict themselves, such as a count between two whole numbers.
+    pub fn new(system: LSystem) -> Result<Self, DeclarationError> {
+        let params = system.params().iter().map(|p| declaration(p, system.grammar())).collect();
+        let space = Arc::new(ParamSpace::new(params)?);
+        let structure = toml(&system.grammar().to_string());
+        Ok(Self { system: Arc::new(system), space, structure })
+    }
+
+    /// The grammar.
+    #[must_use]
+    pub fn system(&self) -> &LSystem {
+        &self.system
+    }
+
+    fn error(&self, error: &DeriveError, growth: &Growth) -> GrowError {
+        let blame = Blame::default();
+        let DeriveError { step, diagnostic } = error;
+        match &diagnostic.fault {
+            Fault::TooManySymbols { .. } | Fault::TooMuchWork { .. } => {
+                GrowError::TooMuchWork { limit: growth.limits.work, blame }
+            }
+            fault => {
+                let (line, _) = self.system.report(error).place(diagnostic.span.start);
+                GrowError::Rule { line, step: *step, problem: fault.to_string() }
+            }
+        }
+    }
+}
+
+/// A parameter of a grammar as species files, searches and blends know it.
+fn declaration(param: &ParamDecl, grammar: &Grammar) -> Param {
+    let (min, max) = param.range;
+    let (low, high) = param.search.unwrap_or(param.range);
+    let is_count = param.unit == ParamUnit::Count;
+    let kind =
+        if is_count { Kind::integer(min.ceil() as i64, max.floor() as i64) } else { Kind::real(min, max) };
+    // What the whole tree is multiplied by is its size; lengths of parts are not.
+    let is_scale = |s: &crate::syntax::Setting| {
+        s.key == SettingKey::Scale
+            && matches!(&s.values[0].kind, ExprKind::Name(name) if *name == param.name.text)
+    };
+    let is_size = grammar.settings.iter().any(is_scale);
+    let scale = match () {
+        () if is_count => Scale::Count,
+        () if is_size && low > 0.0 => Scale::Log,
+        () => Scale::Linear,
+    };
+    let effect = match () {
+        () if is_size => Effect::Size,
+        () if is_count => Effect::Layout,
+        () => Effect::Plain,
+    };
+    let unit = match param.unit {
+        ParamUnit::Meters => Unit::Meters,
+        ParamUnit::Degrees => Unit::Degrees,
+        ParamUnit::Count => Unit::Count,
+        ParamUnit::Ratio => Unit::Ratio,
+    };
+    Param::scalar(param.name.text.clone(), kind, param.default)
+        .search([(low, high)])
+        .unit(unit)
+        .scale([scale])
+        .effect([effect])
+        .group("grammar")
+        .doc(param.doc.clone())
+        .source("the species' grammar")
+}
+
+/// The grammar as lines of a species file.
+fn toml(grammar: &str) -> String {
+    if grammar.contains("'''") {
+        let escaped = grammar.replace('\\', "\\\\").replace('"', "\\\"");
+        format!("grammar = \"\"\"\n{escaped}\"\"\"\n")
+    } else {
+        format!("grammar = '''\n{grammar}'''\n")
+    }
+}
+
+impl Generator for GrammarGenerator {
+    fn family(&self) -> &'static str {
+        NAME
+    }
+
+    fn space(&self) -> &Arc<ParamSpace> {
+        &self.space
+    }
+
+    fn structure(&self) -> String {
+        self.structure.clone()
+    }
+
+    fn grow(
+        &self,
+        params: &CheckedParams,
+        growth: &Growth,
+        _: &mut Workspace,
+        tree: &mut Tree,
+    ) -> Result<(), GrowError> {
+        let values = params.values_in(&self.space)?;
+        let work = growth.limits.work;
+        let symbols = Limits::DEFAULT.symbols.min(usize::try_from(work).unwrap_or(usize::MAX));
+        let derivation = Derivation {
+            params: Some(values),
+            seed: growth.seed,
+            steps: None,
+            limits: Limits { symbols, work },
+            parallel: growth.parallel,
+        };
+        let derived = self.system.derive(&derivation).map_err(|error| self.error(&error, growth))?;
+        let limits = growth.limits;
+        derived.grow(&limits, growth.foliage, tree).map_err(|fault| match fault {
+            GrowFault::Stems => GrowError::TooManyStems { limit: limits.stems, blame: Blame::default() },
+            GrowFault::Knots => GrowError::TooManyKnots { limit: limits.knots, blame: Blame::default() },
+            GrowFault::Leaves => GrowError::TooManyLeaves { limit: limits.leaves, blame: Blame::default() },
+            GrowFault::NotFinite => GrowError::NotFinite { what: "a position" },
+            GrowFault::NothingDrawn => GrowError::Rule {
+                line: 1,
+                step: 0,
+                problem: "nothing is drawn: the string has no `F`".to_owned(),
+            },
+        })
+    }
+}

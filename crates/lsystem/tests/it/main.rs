@@ -1,0 +1,13 @@
+//! Tests of the whole crate, in one program so that it is linked once.
+
+mod classics;
+mod conformance;
+mod diagnostics;
+mod docs;
+mod facts;
+mod language;
+mod normal_form;
+mod plane;
+mod strings;
+mod table;
+mod turtle;
