@@ -15,6 +15,21 @@ pub fn families() -> &'static [&'static dyn Family] {
     &[&pleach_weber_penn::WeberPennFamily, &pleach_lsystem::LSystemFamily]
 }
 
+/// The family of species files that name none, and of fits that are not told another.
+#[must_use]
+pub fn default_family() -> &'static dyn Family {
+    families()[0]
+}
+
+/// The species that come with `family`.
+///
+/// # Panics
+/// If a file that comes with pleach cannot be read: a mistake in pleach.
+#[must_use]
+pub fn presets(family: &dyn Family) -> Vec<Species> {
+    family.presets().iter().filter_map(|(name, _)| pleach_tree::species::preset(family, name)).collect()
+}
+
 /// The names of all species that come with pleach, family by family.
 #[must_use]
 pub fn names() -> Vec<&'static str> {
@@ -135,7 +150,7 @@ pub fn read_text(origin: &str, text: &str) -> Result<Species, SpeciesError> {
     use pleach_tree::param::Problem;
     let doc = SpeciesDoc::parse(origin, text)?;
     let wrong = |issue| SpeciesError { issues: vec![issue] };
-    let name = doc.text("generator").map_err(wrong)?.unwrap_or_else(|| families()[0].name());
+    let name = doc.text("generator").map_err(wrong)?.unwrap_or_else(|| default_family().name());
     let Some(family) = families().iter().find(|family| family.name() == name) else {
         let span = doc.get("generator").map_or(0..0, |node| node.span.clone());
         let problem = Problem::UnknownChoice {

@@ -121,9 +121,10 @@ impl MapArgs {
         if let Some(names) = &self.only {
             return names.iter().map(|name| Ok(input::species(name)?)).collect();
         }
-        let all = pleach_generators::names();
-        let names = if self.all { &all } else { pleach_generators::HEWITT_2017 };
-        Ok(names.iter().filter_map(|name| pleach_generators::preset(name)).collect())
+        if self.all {
+            return Ok(pleach_generators::presets(pleach_generators::default_family()));
+        }
+        Ok(pleach_generators::HEWITT_2017.iter().filter_map(|name| pleach_generators::preset(name)).collect())
     }
 }
 

@@ -45,11 +45,11 @@ impl Guesses {
             Some(at) => at,
             None => {
                 let started = Instant::now();
-                let known = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
+                let known = pleach_generators::presets(pleach_generators::default_family());
                 let found = first_guess(
                     problem,
                     settings,
-                    &known.map(Candidate::from).collect::<Vec<_>>(),
+                    &known.into_iter().map(Candidate::from).collect::<Vec<_>>(),
                     &GuessSettings::default(),
                     stop::flag(),
                     |_, _| (),

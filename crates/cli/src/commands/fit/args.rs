@@ -65,10 +65,10 @@ pub(super) struct SearchArgs {
     /// lists, or from one species (name or file)
     #[arg(long, value_name = "auto|random|SPECIES", default_value = "auto")]
     pub(super) from: start::From,
-    /// The generator whose species take part in a first guess, and that `--from random` draws for; all of
-    /// them by default
-    #[arg(long, value_name = "auto|NAME", default_value = "auto")]
-    pub(super) generator: start::GeneratorChoice,
+    /// The generator whose species take part in a first guess, and that `--from random` draws for; `auto`
+    /// for all of them. By default weber-penn, or that of the species in --from
+    #[arg(long, value_name = "auto|NAME")]
+    pub(super) generator: Option<start::GeneratorChoice>,
     /// Parameters that may change: a name, a slot such as length[1], a group, or level:N; repeatable.
     /// All by default; see `pleach params`
     #[arg(long, value_name = "PATTERN")]

@@ -139,7 +139,7 @@ impl Fit {
             bail!("--free-frame is about further pictures, and there is none: --view auto=FILE");
         }
         // Before a folder is made.
-        let SearchArgs { from, generator, .. } = &self.search;
+        let (from, generator) = (&self.search.from, &self.search.generator()?);
         from.plan(generator, self.goal_options.leaves(), &from.species(generator)?, &settings)?;
         match &self.goals[..] {
             [goal] if !self.is_batch() => self.single(goal, &settings),

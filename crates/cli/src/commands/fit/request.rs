@@ -112,7 +112,7 @@ fn options(
         ("free-frame", goal.free_frame.to_string()),
         ("leaves", format!("{:?}", goal.leaves()).to_lowercase()),
         ("from", search.from.to_string()),
-        ("generator", search.generator.to_string()),
+        ("generator", search.generator()?.to_string()),
         ("free", list(&search.free)),
         ("fix", list(&search.fix)),
         ("optimizer", settings.optimizer.name().to_owned()),

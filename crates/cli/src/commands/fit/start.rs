@@ -112,7 +112,7 @@ impl GeneratorChoice {
 
     /// The known species of the families that take part, those of the default family first.
     fn known(&self) -> impl Iterator<Item = Species> {
-        let all = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
+        let all = pleach_generators::families().iter().flat_map(|family| pleach_generators::presets(*family));
         all.filter(|species| self.takes(species))
     }
 }
@@ -141,6 +141,20 @@ pub(super) fn said(guess: &FirstGuess, detected: bool) -> String {
         ""
     };
     format!("looks like {}{bare}", said.join(", "))
+}
+
+impl super::args::SearchArgs {
+    /// The generators that take part: those that `--generator` says, the one of the species in `--from`,
+    /// or the default one.
+    pub(super) fn generator(&self) -> anyhow::Result<GeneratorChoice> {
+        Ok(match (&self.generator, &self.from) {
+            (Some(choice), _) => choice.clone(),
+            (None, From::Species(name)) => GeneratorChoice::Family(input::species(name)?.generator.family()),
+            (None, From::Auto | From::Random) => {
+                GeneratorChoice::Family(pleach_generators::default_family().name())
+            }
+        })
+    }
 }
 
 impl From {
@@ -207,11 +221,11 @@ mod tests {
 
     #[test]
     fn generators_are_named_and_others_are_told_which_there_are() {
-        for name in ["auto", "weber-penn"] {
+        for name in ["auto", "weber-penn", "lsystem"] {
             assert_eq!(name.parse::<GeneratorChoice>().unwrap().to_string(), name);
         }
-        let error = "lsystem".parse::<GeneratorChoice>().unwrap_err();
-        assert!(error.starts_with("unknown generator `lsystem`, known are auto, weber-penn"), "{error}");
+        let error = "lsystems".parse::<GeneratorChoice>().unwrap_err();
+        assert!(error.starts_with("unknown generator `lsystems`, known are auto, weber-penn"), "{error}");
     }
 
     #[test]

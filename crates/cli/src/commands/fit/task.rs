@@ -1,6 +1,6 @@
 //! The fit of one goal, from the picture to the run folder.
 
-use super::args::{GoalArgs, SearchArgs};
+use super::args::GoalArgs;
 use super::drawing::Drawing;
 use super::goal::Goals;
 use super::request::Request;
@@ -60,7 +60,7 @@ impl Task {
         if mode == Mode::Continue {
             extend(&mut search, self.folder.finished().as_ref());
         }
-        let SearchArgs { from, generator, .. } = &fit.search;
+        let (from, generator) = (&fit.search.from, &fit.search.generator()?);
         let settings = from.plan(generator, self.args.leaves(), &problem.start, &search)?;
         let request = self.request(fit, &goals.source, &search)?;
         let mut claim = self.folder.clone().claim(mode, &request)?;
@@ -127,7 +127,7 @@ impl Task {
     }
 
     fn problem(&self, fit: &Fit, goal: &Goal) -> anyhow::Result<FitProblem> {
-        let start = fit.search.from.species(&fit.search.generator)?;
+        let start = fit.search.from.species(&fit.search.generator()?)?;
         let GoalArgs { height, size, free_frame, .. } = self.args;
         let (view, further) = views::sort(&self.args.view)?;
         let mut goals = vec![GoalView::new(goal.bitmap.clone(), view, goal.frame(height))];

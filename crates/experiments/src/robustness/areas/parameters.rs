@@ -8,7 +8,7 @@ use std::path::Path;
 
 const LANE: u32 = 2;
 
-/// Lists around all species that come with pleach.
+/// Lists around all species of the default family.
 pub(in super::super) struct Parameters {
     presets: Vec<Species>,
 }
@@ -30,8 +30,7 @@ const SPREADS: [Spread; 4] = [Spread::Search, Spread::Allowed, Spread::Orders, S
 
 impl Parameters {
     pub(in super::super) fn new() -> Self {
-        let presets = pleach_generators::names().into_iter().filter_map(pleach_generators::preset);
-        Self { presets: presets.collect() }
+        Self { presets: pleach_generators::presets(pleach_generators::default_family()) }
     }
 
     /// A list within the ranges: all numbers are drawn, or a few of a species'.
