@@ -3,7 +3,7 @@
 use crate::program::Command;
 use crate::syntax::Dialect;
 use crate::system::Derived;
-use crate::turtle::{GrowFault, MAX_POSITION, Pen, Steps};
+use crate::turtle::{GrowFault, Pen, Steps, is_beyond};
 use glam::{DVec2, DVec3};
 use std::fmt::Write as _;
 
@@ -36,7 +36,8 @@ impl Derived<'_> {
         let (low, high) =
             points().fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| (low.min(p), high.max(p)));
         let extent = (high - low).max_element();
-        if !(extent > 0.0) {
+        // Also where there are no points, whose extent is negative.
+        if extent <= 0.0 {
             return Err(GrowFault::NothingDrawn);
         }
         let (factor, margin) = (SIDE / extent, SIDE * MARGIN);
@@ -113,7 +114,7 @@ impl Derived<'_> {
                 }
                 command => pen.obey(command, values, &steps),
             }
-            if !(pen.turtle.position.abs().max_element() < MAX_POSITION) {
+            if is_beyond(pen.turtle.position) {
                 return Err(GrowFault::NotFinite);
             }
             if corners > MAX_CORNERS {

@@ -15,7 +15,6 @@ pub(crate) use string::Modules;
 
 use crate::diagnostic::{Diagnostic, Fault};
 use crate::program::{CLOSE, Command, OPEN, Program};
-use crate::syntax::Span;
 use context::Surroundings;
 use machine::Trouble;
 use pleach_tree::Key;
@@ -67,7 +66,7 @@ impl Stop {
     pub(crate) fn error(self, program: &Program, step: usize) -> DeriveError {
         let rule = program.rules.get(self.rule);
         let name = rule.map_or_else(|| "the axiom".to_owned(), |r| format!("the rule for `{}`", r.name));
-        let span = self.trouble.span().or(rule.map(|r| r.span)).unwrap_or(Span::default());
+        let span = self.trouble.span().or(rule.map(|r| r.span)).unwrap_or_default();
         DeriveError { step, diagnostic: Diagnostic::new(span, self.trouble.fault(&name)) }
     }
 }

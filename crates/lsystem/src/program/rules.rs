@@ -135,10 +135,10 @@ impl Program {
         }
         self.waits = self.rules.iter().any(|rule| rule.condition.is_some_and(|c| self.draws(c)));
         self.random = keyed.iter().any(|&k| k);
-        for number in 0..self.kinds.len() {
+        for (number, keyed) in keyed.into_iter().enumerate() {
             let (run, min_len) = self.fixed(number);
             let kind = &mut self.kinds[number];
-            (kind.keyed, kind.run, kind.min_len) = (keyed[number], run, min_len);
+            (kind.keyed, kind.run, kind.min_len) = (keyed, run, min_len);
         }
     }
 

@@ -41,7 +41,12 @@ pub enum GrowFault {
 }
 
 /// Metres beyond which single precision and sense end.
-pub(crate) const MAX_POSITION: f64 = 1e7;
+const MAX_POSITION: f64 = 1e7;
+
+/// Whether a position is beyond all bounds.
+pub(crate) fn is_beyond(position: DVec3) -> bool {
+    !position.is_finite() || position.abs().max_element() >= MAX_POSITION
+}
 
 impl Derived<'_> {
     /// Draws the string into `tree`, whose former content is dropped and whose memory is kept.
@@ -131,7 +136,7 @@ impl Walk<'_> {
                 Command::Vertex => self.corner(),
                 command => self.pen.obey(command, values, &self.steps),
             }
-            if !(self.pen.turtle.position.abs().max_element() < MAX_POSITION) {
+            if is_beyond(self.pen.turtle.position) {
                 return Err(GrowFault::NotFinite);
             }
         }
