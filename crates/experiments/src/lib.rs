@@ -7,6 +7,7 @@ mod blend;
 mod fits;
 mod growth;
 mod journal;
+mod kinds;
 mod likeness;
 mod list;
 mod needle;
@@ -22,9 +23,10 @@ mod within;
 
 use anyhow::bail;
 use journal::Journal;
+use kinds::Spec;
 use outputs::Outputs;
 use pleach_console::progress::bar as progress;
-use spec::{Source, Spec};
+use spec::Source;
 use std::path::{Path, PathBuf};
 use table::Table;
 
@@ -99,7 +101,7 @@ impl Spec {
 /// After [`stop`](fn@stop) it is [`Interrupted`](pleach_console::interrupted::Interrupted).
 pub fn run(folder: &Path, part: &Part) -> anyhow::Result<String> {
     let source = Source::read(folder)?;
-    let spec = source.spec()?;
+    let spec = Spec::read(&source)?;
     let kind = spec.kind();
     let columns = kind.columns()?;
     let (written, read) = kind.files(folder);
@@ -125,7 +127,7 @@ pub fn run(folder: &Path, part: &Part) -> anyhow::Result<String> {
 /// # Errors
 /// If a row is not in the results, or as [`run`].
 pub fn check(folder: &Path, slice: Slice) -> anyhow::Result<usize> {
-    let spec = Source::read(folder)?.spec()?;
+    let spec = Spec::read(&Source::read(folder)?)?;
     let kind = spec.kind();
     let mut journal = Journal::unkept(&kind.columns()?);
     kind.rows(folder, slice, &mut journal)?;

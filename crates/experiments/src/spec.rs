@@ -1,11 +1,8 @@
-//! `experiment.toml`: read and checked before anything runs.
+//! `experiment.toml`: read and checked before anything runs; the kinds with folders have their own.
 //!
 //! Every option's type carries its range (`within.rs`); what options say together is checked here. A
 //! message says where in the file the wrong option stands and what would be right.
 
-use super::needle::NeedleSpec;
-use super::robustness::RobustnessSpec;
-use super::treefit::TreefitSpec;
 use super::within::{FileName, List, Meters, Real, SpeciesName, Whole, Word};
 use anyhow::Context;
 use pleach_fit::{Objective, Optimizer};
@@ -14,18 +11,6 @@ use serde::de::{DeserializeOwned, IgnoredAny};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
-
-/// What an experiment runs.
-#[derive(Clone, Debug)]
-pub(super) enum Spec {
-    Fits(FitsSpec),
-    Growth(GrowthSpec),
-    Blend(BlendSpec),
-    Likeness(LikenessSpec),
-    Treefit(TreefitSpec),
-    Needle(NeedleSpec),
-    Robustness(RobustnessSpec),
-}
 
 /// Kinds of experiments.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -155,36 +140,6 @@ pub(super) struct BlendSpec {
     pub(super) points: Whole<1, 10_000_000>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct LikenessSpec {
-    #[serde(rename = "kind")]
-    _kind: IgnoredAny,
-    #[serde(rename = "question")]
-    _question: Option<String>,
-    /// Species by name.
-    pub(super) species: List<Spanned<SpeciesName>, 2>,
-    /// Species that had no part in the choice of weights.
-    pub(super) unseen_species: List<Spanned<SpeciesName>, 0>,
-    /// Seeds 1 to this of each species.
-    pub(super) seeds: Whole<2, 100>,
-    /// Seeds 1 to this had a part in the choice of weights.
-    pub(super) tuned_seeds: Spanned<Whole<0, 100>>,
-    /// Seeds 1 to this of each species are drawn in each other's frames.
-    pub(super) shared_scale_seeds: Whole<1, 100>,
-    /// Folders of pictures by another program, from the experiment's: the first of seed 1, and so on.
-    pub(super) reference: List<PathBuf, 0, 100>,
-    /// Parameters that walk away from the truth, as slots.
-    pub(super) walks: List<Spanned<String>, 1, 100>,
-    /// Steps of each walk; shorter ones say too little about order.
-    pub(super) walk_steps: Whole<{ super::likeness::MIN_STEPS as u64 }, 100>,
-    /// Species whose first tree that the weights have not seen is the goal of a row of the sheet.
-    pub(super) sheet: List<Spanned<String>, 1, 100>,
-    /// The walks, once they are made: curves need more of them than their rows say.
-    #[serde(skip)]
-    pub(super) walked: std::sync::OnceLock<Vec<super::likeness::Line>>,
-}
-
 /// The text of an `experiment.toml`, for messages that say where.
 #[derive(Debug)]
 pub(super) struct Source {
@@ -220,25 +175,12 @@ impl Source {
         anyhow::anyhow!("{}:{line}:{column}: {}", self.path.display(), message.join("\n"))
     }
 
-    fn parse<T: DeserializeOwned>(&self) -> anyhow::Result<T> {
+    pub(super) fn parse<T: DeserializeOwned>(&self) -> anyhow::Result<T> {
         toml::from_str(&self.text).map_err(|e| self.wrong(e.span().unwrap_or(0..0), e.message().trim()))
     }
 
     pub(super) fn head(&self) -> anyhow::Result<Head> {
         self.parse()
-    }
-
-    /// Everything, checked.
-    pub(super) fn spec(&self) -> anyhow::Result<Spec> {
-        Ok(match self.head()?.kind {
-            Kind::Fits => Spec::Fits(self.parse::<FitsSpec>()?.checked(self)?),
-            Kind::Growth => Spec::Growth(self.parse::<GrowthSpec>()?.checked(self)?),
-            Kind::Blend => Spec::Blend(self.parse::<BlendSpec>()?.checked(self)?),
-            Kind::Likeness => Spec::Likeness(self.parse::<LikenessSpec>()?.checked(self)?),
-            Kind::Treefit => Spec::Treefit(self.parse::<TreefitSpec>()?.checked(self)?),
-            Kind::Needle => Spec::Needle(self.parse::<NeedleSpec>()?.checked(self)?),
-            Kind::Robustness => Spec::Robustness(self.parse::<RobustnessSpec>()?.checked(self)?),
-        })
     }
 
     /// Fails where an entry has the name of an earlier one.
@@ -264,7 +206,7 @@ impl Source {
 pub(super) const OTHER_NAME: &str = ": give one of the two another `name`";
 
 impl FitsSpec {
-    fn checked(self, source: &Source) -> anyhow::Result<Self> {
+    pub(super) fn checked(self, source: &Source) -> anyhow::Result<Self> {
         for goal in &self.goals {
             if let Err(message) = goal.get_ref().name().parse::<FileName>() {
                 return Err(source.wrong(goal.span(), format!("{message}; `name` can be another")));
@@ -277,7 +219,7 @@ impl FitsSpec {
 }
 
 impl GrowthSpec {
-    fn checked(self, source: &Source) -> anyhow::Result<Self> {
+    pub(super) fn checked(self, source: &Source) -> anyhow::Result<Self> {
         source.all_differ(&self.species, |name| name.to_string(), "")?;
         if self.timed && **self.seeds.get_ref() < 2 {
             let message = "1 seed, expected at least 2 where trees are timed: one says nothing of growth";
@@ -288,7 +230,7 @@ impl GrowthSpec {
 }
 
 impl BlendSpec {
-    fn checked(self, source: &Source) -> anyhow::Result<Self> {
+    pub(super) fn checked(self, source: &Source) -> anyhow::Result<Self> {
         let species = self.species.get_ref();
         source.all_differ(species, |name| name.to_string(), "")?;
         for needed in ["palm", "quaking_aspen", "silver_birch"] {
@@ -297,32 +239,6 @@ impl BlendSpec {
                 return Err(source.wrong(self.species.span(), message));
             }
         }
-        Ok(self)
-    }
-}
-
-impl LikenessSpec {
-    fn checked(self, source: &Source) -> anyhow::Result<Self> {
-        source.all_differ(self.species.iter().chain(&self.unseen_species), |name| name.to_string(), "")?;
-        let (seeds, tuned) = (*self.seeds, **self.tuned_seeds.get_ref());
-        if tuned >= seeds {
-            let message = format!("{tuned} of {seeds} seeds, expected at most {}", seeds - 1);
-            return Err(source.wrong(self.tuned_seeds.span(), message));
-        }
-        let space = pleach_generators::preset("quaking_aspen").context("the default species is built in")?;
-        for walk in &self.walks {
-            if let Err(problem) = space.generator.space().select(walk.get_ref()) {
-                return Err(source.wrong(walk.span(), format!("`{}` {problem}", walk.get_ref())));
-            }
-        }
-        for name in &self.sheet {
-            if !self.species.iter().any(|species| **species.get_ref() == *name.get_ref()) {
-                let message = format!("`{}` is not among the species", name.get_ref());
-                return Err(source.wrong(name.span(), message));
-            }
-        }
-        source.all_differ(&self.walks, String::clone, "")?;
-        source.all_differ(&self.sheet, String::clone, "")?;
         Ok(self)
     }
 }

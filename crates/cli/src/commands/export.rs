@@ -1,10 +1,10 @@
 //! Meshes for `pleach grow`: what was asked for, and the files.
 
 use super::grow::formats::Format;
+use super::leaf_form::Leaves;
 use crate::choice::{Choice, one_of};
 use crate::files::{self, Out};
 use anyhow::{Context, bail};
-use clap::ValueEnum;
 use pleach_mesh::forest;
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
@@ -22,21 +22,6 @@ use std::path::Path;
 
 /// How far bark may stray where nothing is said of it, in millimetres.
 const TOLERANCE: f64 = 2.0;
-
-/// How leaves are put into a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Leaves {
-    /// Their outlines
-    Outline,
-    /// Two triangles each
-    Simple,
-    /// Two crossed cards each, which show a picture of the leaf
-    Cards,
-    /// One leaf, placed many times (EXT_mesh_gpu_instancing in .glb); always so in .usda
-    Instances,
-    /// No leaves and no blossom
-    None,
-}
 
 pub(super) const SEASONS: &[Choice<Season>] = &[
     (Season::Spring.name(), "", Season::Spring),

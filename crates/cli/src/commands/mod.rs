@@ -10,6 +10,7 @@ mod gallery;
 mod grammar;
 mod grow;
 mod landmarks;
+mod leaf_form;
 mod man;
 mod map;
 mod mask;

@@ -6,10 +6,11 @@ mod measures;
 mod pictures;
 mod rates;
 mod report;
+mod spec;
 mod walk;
 
 use super::record::{self, Exact};
-use super::spec::{LikenessSpec, species_files};
+use super::spec::species_files;
 use super::within::SpeciesName;
 use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use measures::{MEASURES, Seen, Values};
@@ -18,9 +19,9 @@ use pleach_silhouette::Bitmap;
 use pleach_tree::Species;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+pub(super) use spec::LikenessSpec;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
-pub(super) use walk::{Line, MIN_STEPS};
 
 /// One number of one question about one set of pictures.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]

@@ -5,6 +5,7 @@
 
 mod areas;
 mod mutate;
+mod verdict;
 mod worker;
 
 use super::record::{self, Fixed};
@@ -19,7 +20,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
-use worker::{Judged, Verdict};
+use verdict::Verdict;
+use worker::Judged;
 
 /// What came of a block of cases. Those from `unclear` to `over_time` should be 0 throughout.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]

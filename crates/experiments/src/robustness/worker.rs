@@ -7,6 +7,7 @@
 //! here: it ends the experiment, at a block that `--resume` finds again.
 
 use super::areas::Area;
+use super::verdict::Verdict;
 use crate::stop;
 use anyhow::{Context, bail};
 use std::cell::RefCell;
@@ -18,23 +19,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
-
-/// What came of a case.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Verdict {
-    /// Taken, and what came of it is sound.
-    Accepted,
-    /// Refused with a clear message.
-    Refused,
-    /// Refused with a message that does not help.
-    Unclear(String),
-    /// Taken, and what came of it is not sound.
-    Wrong(String),
-    /// Panicked.
-    Panicked(String),
-    /// Took too long.
-    OverTime,
-}
 
 /// What came of a case, and how long its thread computed.
 #[derive(Clone, Debug)]

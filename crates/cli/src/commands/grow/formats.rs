@@ -2,7 +2,7 @@
 //! check and by the help.
 
 use super::Grow;
-use crate::commands::export::Leaves;
+use crate::commands::leaf_form::Leaves;
 use anyhow::bail;
 use clap::ValueEnum;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use super::{Area, draws, refused};
 use crate::robustness::mutate;
-use crate::robustness::worker::Verdict;
+use crate::robustness::verdict::Verdict;
 use anyhow::Context;
 use pleach_fit::{
     Budget, CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, Optimizer, Outcome,

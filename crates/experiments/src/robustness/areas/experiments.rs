@@ -1,9 +1,10 @@
 //! Spoilt `experiment.toml`.
 
 use super::{Area, draws, refused};
+use crate::kinds::Spec;
 use crate::outputs::Outputs;
 use crate::robustness::mutate;
-use crate::robustness::worker::Verdict;
+use crate::robustness::verdict::Verdict;
 use crate::spec::Source;
 use std::path::{Component, Path};
 
@@ -43,7 +44,7 @@ impl Area for Experiments {
             let message = pleach_console::output::causes(&error, "\n");
             refused(message.replace(&*folder.to_string_lossy(), "folder"), has_place)
         };
-        let spec = match Source::read(folder).and_then(|source| source.spec()) {
+        let spec = match Source::read(folder).and_then(|source| Spec::read(&source)) {
             Ok(spec) => spec,
             Err(error) => return named(error, true),
         };
@@ -69,7 +70,8 @@ mod tests {
         for text in TEXTS {
             let folder = tempfile::tempdir().unwrap();
             std::fs::write(folder.path().join("experiment.toml"), text).unwrap();
-            let spec = Source::read(folder.path()).unwrap().spec().unwrap_or_else(|e| panic!("{e}\n{text}"));
+            let spec =
+                Spec::read(&Source::read(folder.path()).unwrap()).unwrap_or_else(|e| panic!("{e}\n{text}"));
             let (written, read) = spec.kind().files(folder.path());
             let _ = Outputs::declare(folder.path(), written, read).unwrap();
         }

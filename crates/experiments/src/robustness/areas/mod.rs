@@ -12,7 +12,7 @@ pub(super) use parameters::Parameters;
 pub(super) use pictures::Pictures;
 pub(super) use species::SpeciesFiles;
 
-use super::worker::Verdict;
+use super::verdict::Verdict;
 use pleach_fit::Stream;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Growth, Limits, Parts, Species};

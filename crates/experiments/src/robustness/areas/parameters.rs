@@ -1,7 +1,7 @@
 //! Random lists of parameters within their declared ranges.
 
 use super::{Area, draws, grown};
-use crate::robustness::worker::Verdict;
+use crate::robustness::verdict::Verdict;
 use pleach_fit::Stream;
 use pleach_tree::Species;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use super::{Area, draws, refused};
 use crate::robustness::mutate;
-use crate::robustness::worker::Verdict;
+use crate::robustness::verdict::Verdict;
 use anyhow::Context;
 use image::{DynamicImage, GrayImage, ImageFormat, RgbImage, RgbaImage};
 use pleach_silhouette::goal::{Goal, GoalOptions};

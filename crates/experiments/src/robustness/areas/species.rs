@@ -2,7 +2,7 @@
 
 use super::{Area, draws, grown, refused};
 use crate::robustness::mutate;
-use crate::robustness::worker::Verdict;
+use crate::robustness::verdict::Verdict;
 use pleach_generators::{default_family, read_file, read_text};
 use std::path::Path;
 

@@ -1,0 +1,34 @@
+//! The kinds of experiments, each with what its file says.
+
+use super::likeness::LikenessSpec;
+use super::needle::NeedleSpec;
+use super::robustness::RobustnessSpec;
+use super::spec::{BlendSpec, FitsSpec, GrowthSpec, Kind, Source};
+use super::treefit::TreefitSpec;
+
+/// What an experiment runs.
+#[derive(Clone, Debug)]
+pub(super) enum Spec {
+    Fits(FitsSpec),
+    Growth(GrowthSpec),
+    Blend(BlendSpec),
+    Likeness(LikenessSpec),
+    Treefit(TreefitSpec),
+    Needle(NeedleSpec),
+    Robustness(RobustnessSpec),
+}
+
+impl Spec {
+    /// Everything that `source` says, checked.
+    pub(super) fn read(source: &Source) -> anyhow::Result<Self> {
+        Ok(match source.head()?.kind {
+            Kind::Fits => Self::Fits(source.parse::<FitsSpec>()?.checked(source)?),
+            Kind::Growth => Self::Growth(source.parse::<GrowthSpec>()?.checked(source)?),
+            Kind::Blend => Self::Blend(source.parse::<BlendSpec>()?.checked(source)?),
+            Kind::Likeness => Self::Likeness(source.parse::<LikenessSpec>()?.checked(source)?),
+            Kind::Treefit => Self::Treefit(source.parse::<TreefitSpec>()?.checked(source)?),
+            Kind::Needle => Self::Needle(source.parse::<NeedleSpec>()?.checked(source)?),
+            Kind::Robustness => Self::Robustness(source.parse::<RobustnessSpec>()?.checked(source)?),
+        })
+    }
+}
