@@ -15,8 +15,10 @@ mod encode;
 pub mod goal;
 pub mod mask;
 pub mod picture;
+mod pieces;
 pub mod raster;
 pub mod score;
+mod touches;
 pub mod view;
 
 pub use bitmap::Bitmap;

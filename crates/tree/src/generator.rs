@@ -1,6 +1,6 @@
 //! What a generator promises.
 //!
-//! Each sentence of [`Generator`]'s and [`Family`]'s documentation is a check of the
+//! Each sentence of [`Generator`]'s documentation, and of [`Family`](crate::Family)'s, is a check of the
 //! `conformance` suite, which every family passes.
 
 use crate::grow_error::{Conflict, GrowError};
@@ -8,7 +8,6 @@ use crate::growth::{Growth, Workspace};
 use crate::model::ModelId;
 use crate::param::{CheckedParams, ParamSpace, Slot};
 use crate::plant::Tree;
-use crate::species::{Issue, Key, SpeciesDoc};
 use std::fmt;
 use std::sync::Arc;
 
@@ -96,35 +95,4 @@ pub trait Generator: Send + Sync + fmt::Debug {
         let _ = values;
         false
     }
-}
-
-/// A family of generators: reads species files that name it.
-pub trait Family: Send + Sync + fmt::Debug {
-    /// The name in `generator = "…"`.
-    fn name(&self) -> &'static str;
-
-    /// One line of what it grows.
-    fn summary(&self) -> &'static str;
-
-    /// The keys of its species files beside parameters and [what all files may
-    /// say](crate::species::KEYS); none unless a family has some.
-    fn keys(&self) -> &'static [Key] {
-        &[]
-    }
-
-    /// Names that people try in its files, each with what would be right, as a clause: `the height of
-    /// the tree is …`. None of them is a key or a parameter.
-    fn misplaced(&self) -> &'static [(&'static str, &'static str)] {
-        &[]
-    }
-
-    /// Builds the generator that a species file describes: everything but its numbers, and but what
-    /// [`SpeciesDoc::species`] reads for all families.
-    ///
-    /// What is wrong joins `issues`, with line and column. Where the numbers can be checked all the
-    /// same, there is a generator nevertheless, so that all mistakes of a file are told at once.
-    fn read(&self, doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Option<Arc<dyn Generator>>;
-
-    /// The species that come with pleach: name and text of the file.
-    fn presets(&self) -> &'static [(&'static str, &'static str)];
 }

@@ -41,12 +41,12 @@ pub mod stats;
 pub mod trig;
 pub mod turtle;
 
-pub use generator::{Family, Generator};
+pub use generator::Generator;
 pub use grow_error::{Blame, Conflict, GrowError};
 pub use growth::{Foliage, Growth, Limits, Workspace};
 pub use model::ModelId;
 pub use param::{CheckedParams, Kind, Param, ParamSpace, Slot, Unit};
 pub use plant::{Blob, Knot, Leaf, MalformedTree, Parts, Stem, StemKind, Tree};
 pub use random::Key;
-pub use species::{Species, SpeciesDoc, SpeciesError};
+pub use species::{Family, Species, SpeciesDoc, SpeciesError};
 pub use stats::TreeStats;

@@ -5,7 +5,8 @@
 
 use super::warning::GoalWarning;
 use crate::bitmap::Bitmap;
-use crate::mask::{Touches, pieces};
+use crate::pieces;
+use crate::touches::Touches;
 
 /// Longer side, in cells, of the picture in which pieces are looked for.
 const CELLS: u32 = 256;

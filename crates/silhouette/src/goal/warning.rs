@@ -1,6 +1,6 @@
 //! What about a goal is not as a fit expects, so that its user may look again.
 
-use crate::mask::Touches;
+use crate::touches::Touches;
 use serde::Serialize;
 use serde::ser::{SerializeStruct, Serializer};
 use std::fmt;

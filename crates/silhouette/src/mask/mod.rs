@@ -19,7 +19,6 @@ mod error;
 mod horizon;
 mod oklab;
 mod photo;
-pub(crate) mod pieces;
 mod score;
 #[cfg(test)]
 mod tests;
@@ -32,6 +31,8 @@ use crate::bitmap::Bitmap;
 use crate::goal::ink::MIN_ALPHA_RANGE;
 use crate::goal::{GoalWarning, shape};
 use crate::picture::{MISSED, Picture};
+use crate::pieces;
+pub use crate::touches::Touches;
 
 /// What is behind the tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -69,26 +70,6 @@ pub enum Segmentation {
         /// Where the ground begins, if it was seen.
         horizon: Option<Horizon>,
     },
-}
-
-/// The picture's sides that a tree's crown touches.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Touches {
-    /// The left edge.
-    pub left: bool,
-    /// The top edge.
-    pub top: bool,
-    /// The right edge.
-    pub right: bool,
-}
-
-impl Touches {
-    /// The names of the sides that are touched.
-    #[must_use]
-    pub fn sides(&self) -> Vec<&'static str> {
-        let sides = [(self.left, "left"), (self.top, "top"), (self.right, "right")];
-        sides.into_iter().filter_map(|(touches, name)| touches.then_some(name)).collect()
-    }
 }
 
 /// A tree in a photograph.

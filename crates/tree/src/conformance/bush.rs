@@ -1,12 +1,13 @@
 //! A family that is small enough to be read at a glance: a trunk with a few straight twigs.
 
-use crate::generator::{Family, Generator};
+use crate::generator::Generator;
 use crate::grow_error::{Blame, Conflict, GrowError};
 use crate::growth::{Foliage, Growth, Workspace};
 use crate::leaf_shape::LeafShape;
 use crate::param::{CheckedParams, Effect, Kind, Param, ParamSpace, Scale, Slot, Unit};
 use crate::plant::{Knot, Leaf, Stem, StemKind, Tree};
 use crate::random::Key as Draws;
+use crate::species::Family;
 use crate::species::{Form, Issue, Key, SpeciesDoc};
 use glam::{DVec3, Vec3, dvec3};
 use std::sync::{Arc, OnceLock};

@@ -1,7 +1,7 @@
 //! Promises about species files.
 
 use super::{SEED, all, read};
-use crate::generator::Family;
+use crate::species::Family;
 use crate::species::{SpeciesDoc, check_name};
 
 /// The species that come with a family can be read, and name it; they have different names.

@@ -1,11 +1,11 @@
 //! Promises about growing.
 
 use super::{SEED, all};
-use crate::generator::Family;
 use crate::grow_error::GrowError;
 use crate::growth::{Growth, Limits, Workspace};
 use crate::param::{ForeignParams, Kind, Param, ParamSpace};
 use crate::plant::Tree;
+use crate::species::Family;
 use crate::species::Species;
 use std::sync::Arc;
 

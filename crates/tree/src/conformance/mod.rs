@@ -27,7 +27,7 @@ pub use numbers::{
     resizing_is_similar_or_refused,
 };
 
-use crate::generator::Family;
+use crate::species::Family;
 use crate::species::{Species, SpeciesDoc, preset};
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! Promises about numbers.
 
 use super::{SEED, all};
-use crate::generator::Family;
 use crate::grow_error::GrowError;
 use crate::growth::{Growth, Limits};
 use crate::param::{CheckedParams, ParamSpace, Slot};
 use crate::plant::Tree;
 use crate::random::Key;
+use crate::species::Family;
 use crate::species::Species;
 use std::sync::Arc;
 

@@ -1,12 +1,13 @@
 //! The suite passes a family that keeps its promises, and fails one that does not.
 
 use super::bush::{Bush, Bushes, FILES, space};
-use crate::generator::{Family, Generator};
+use crate::generator::Generator;
 use crate::grow_error::{Blame, Conflict, GrowError};
 use crate::growth::{Growth, Limits, Workspace};
 use crate::model::ModelId;
 use crate::param::{CheckedParams, ParamSpace, Slot};
 use crate::plant::Tree;
+use crate::species::Family;
 use crate::species::{Issue, Key, SpeciesDoc};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;

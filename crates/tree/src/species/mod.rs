@@ -15,6 +15,7 @@
 mod appearance;
 mod doc;
 mod error;
+mod family;
 mod key;
 mod name;
 mod read;
@@ -23,10 +24,11 @@ mod write;
 pub use appearance::{Appearance, BarkPattern, Color, Look, Season};
 pub use doc::{Entry, Node, SpeciesDoc, Value};
 pub use error::{Issue, SpeciesError};
+pub use family::Family;
 pub use key::{Form, KEYS, Key, Shape};
 pub use name::{MAX_NAME_BYTES, MAX_NAME_CHARS, check_name, safe_name};
 
-use crate::generator::{Family, Generator};
+use crate::generator::Generator;
 use crate::grow_error::GrowError;
 use crate::growth::{Foliage, Growth, Workspace};
 use crate::param::CheckedParams;

@@ -4,9 +4,9 @@ use super::Species;
 use super::appearance::Appearance;
 use super::doc::{Node, SpeciesDoc, Value};
 use super::error::{Issue, SpeciesError};
+use super::family::Family;
 use super::key::{Form, KEYS, Key, MAX_SEED};
 use super::name::check_name;
-use crate::generator::Family;
 use crate::param::{Kind, ParamSpace, Problem, Shape, Slot, is_hidden, nearest};
 
 /// Names that are wrong at the top level of every file, and what would be right.

@@ -114,3 +114,19 @@ pub(super) struct BudgetArgs {
     #[arg(long, value_name = "0..1", value_parser = options::share)]
     pub(super) target_iou: Option<f64>,
 }
+
+impl SearchArgs {
+    /// The generators that take part: those that `--generator` says, the one of the species in `--from`,
+    /// or the default one.
+    pub(super) fn generator(&self) -> anyhow::Result<start::GeneratorChoice> {
+        Ok(match (&self.generator, &self.from) {
+            (Some(choice), _) => choice.clone(),
+            (None, start::From::Species(name)) => {
+                start::GeneratorChoice::Family(crate::input::species(name)?.generator.family())
+            }
+            (None, start::From::Auto | start::From::Random) => {
+                start::GeneratorChoice::Family(pleach_generators::default_family().name())
+            }
+        })
+    }
+}

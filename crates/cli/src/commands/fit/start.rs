@@ -143,20 +143,6 @@ pub(super) fn said(guess: &FirstGuess, detected: bool) -> String {
     format!("looks like {}{bare}", said.join(", "))
 }
 
-impl super::args::SearchArgs {
-    /// The generators that take part: those that `--generator` says, the one of the species in `--from`,
-    /// or the default one.
-    pub(super) fn generator(&self) -> anyhow::Result<GeneratorChoice> {
-        Ok(match (&self.generator, &self.from) {
-            (Some(choice), _) => choice.clone(),
-            (None, From::Species(name)) => GeneratorChoice::Family(input::species(name)?.generator.family()),
-            (None, From::Auto | From::Random) => {
-                GeneratorChoice::Family(pleach_generators::default_family().name())
-            }
-        })
-    }
-}
-
 impl From {
     /// The species whose generator is fitted, and whose values fixed parameters keep unless a guess
     /// has better ones.
