@@ -127,7 +127,7 @@ fn furnished(names: &[&str]) -> Dir {
         std::fs::copy(&acer, dir.path(name)).unwrap();
     }
     // Photographs as large as the pixel that an example points at wants; they take a while to draw.
-    let photographed = names.iter().any(|name| ["fit", "mask"].contains(name));
+    let photographed = names.iter().any(|name| ["fit", "mask", "score"].contains(name));
     let photos = [("oak.jpg", "#a9c8ee"), ("photo.jpg", "#a9c8ee"), ("shed.jpg", "#c8b8a0")];
     for (photo, background) in photos.into_iter().filter(|_| photographed) {
         let args = ["render", "palm", "--size", "1600", "--ground", "none", "--background", background];
