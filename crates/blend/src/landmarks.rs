@@ -218,7 +218,7 @@ impl Landmarks {
     /// Real numbers change gradually with the weights. Choices and signs take the side with more
     /// weight among those landmarks to which they matter. Counts, and other numbers that arrange the
     /// layout of a tree ([`Effect::Layout`]), change together, by the nearest weights
-    /// in [thirds](Weights::in_thirds): of 250 branches each one more would shuffle all the others, so
+    /// in [thirds](Weights::quantized): of 250 branches each one more would shuffle all the others, so
     /// they come in three larger steps with peace in between. A slot on which all landmarks with weight
     /// agree keeps their number bit for bit, so all weight on one landmark gives that landmark exactly.
     #[must_use]

@@ -26,7 +26,7 @@
 //! | [`map`] | all of it together: point → parameters, parameters → point |
 //! | [`looks`] | the other layout: dots by how alike silhouettes are |
 //! | [`draw`] | species as silhouettes, on all threads |
-//! | [`traits`] | what people see of a tree, as numbers |
+//! | [`measures`] | what people see of a tree, as numbers |
 //! | [`picture`] | the map as a picture |
 //!
 //! # Invariants

@@ -117,7 +117,7 @@ impl BlendMap {
 
     /// The tree at `point`.
     ///
-    /// Inside the hull it is made of the landmarks around, by [natural-neighbour weights](Natural);
+    /// Inside the hull it is made of the landmarks around, by [natural-neighbour weights](NaturalNeighbor);
     /// on a landmark's dot it is that landmark, bit for bit. Outside, the blend of the nearest place
     /// of the hull is moved along the principal axes, and says that it is extrapolated. With
     /// [`Encoding::Raw`] it is the axes' back-projection and nothing else.

@@ -68,7 +68,7 @@ macro_rules! optimizers {
                 }
             }
 
-            /// Whether it searches what is [plausible](pleach_tree::Generator::plausible) only, and not all
+            /// Whether it searches what is [plausible](pleach_tree::Param::plausible) only, and not all
             /// of the search ranges. The dissertation's algorithm and the random floor do not.
             pub(crate) fn keeps_to_plausible(&self) -> bool {
                 match self {

@@ -50,7 +50,7 @@ pub enum Conflict {
 /// Why a tree did not grow.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GrowError {
-    /// More stems than [`Limits::stems`].
+    /// More stems than [`Limits::stems`](crate::Limits::stems).
     #[error(
         "the tree would have more than {limit} stems{blame}; fewer branches or splits, or a higher limit"
     )]
@@ -60,7 +60,7 @@ pub enum GrowError {
         /// What makes them so many.
         blame: Blame,
     },
-    /// More leaves and blossoms than [`Limits::leaves`].
+    /// More leaves and blossoms than [`Limits::leaves`](crate::Limits::leaves).
     #[error("the tree would have more than {limit} leaves{blame}; a smaller leaf number, or a higher limit")]
     TooManyLeaves {
         /// The limit.
@@ -68,7 +68,7 @@ pub enum GrowError {
         /// What makes them so many.
         blame: Blame,
     },
-    /// More knots than [`Limits::knots`].
+    /// More knots than [`Limits::knots`](crate::Limits::knots).
     #[error(
         "the tree's stems would have more than {limit} knots{blame}; fewer or simpler stems, or a higher limit"
     )]
@@ -78,7 +78,7 @@ pub enum GrowError {
         /// What makes them so many.
         blame: Blame,
     },
-    /// More work than [`Limits::work`].
+    /// More work than [`Limits::work`](crate::Limits::work).
     #[error("growing the tree takes more than {limit} steps{blame}; smaller numbers, or a higher limit")]
     TooMuchWork {
         /// The limit.

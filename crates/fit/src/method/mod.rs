@@ -69,7 +69,7 @@ pub trait MethodSettings: Clone + Default + PartialEq {
         true
     }
 
-    /// Whether only what is [plausible](pleach_tree::Generator::plausible) is searched, and not all of the
+    /// Whether only what is [plausible](pleach_tree::Param::plausible) is searched, and not all of the
     /// search ranges.
     fn keeps_to_plausible(&self) -> bool {
         true

@@ -16,10 +16,10 @@ pub enum StemKind {
     Root,
 }
 
-/// A stem: a run of [`Tree::knots`] and where it stands in the plant.
+/// A stem: a run of [`Tree::knots`](super::Tree::knots) and where it stands in the plant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stem {
-    /// Index in [`Tree::stems`] of the stem that this one grows from; always smaller than its own.
+    /// Index in [`Tree::stems`](super::Tree::stems) of the stem that this one grows from; always smaller than its own.
     pub parent: Option<u32>,
     /// 0 for trunks and roots from the ground, one more for each branching; a fork has its parent's
     /// level.
@@ -28,14 +28,14 @@ pub struct Stem {
     pub kind: StemKind,
     /// Metres along the parent, from its base, at which this stem starts. 0 for trunks.
     pub offset: f64,
-    /// First of its knots in [`Tree::knots`].
+    /// First of its knots in [`Tree::knots`](super::Tree::knots).
     pub first_knot: u32,
     /// Number of its knots, at least 2.
     pub knot_count: u32,
 }
 
 impl Stem {
-    /// The stem's knots as a range of [`Tree::knots`].
+    /// The stem's knots as a range of [`Tree::knots`](super::Tree::knots).
     #[must_use]
     pub fn knots(&self) -> Range<usize> {
         let first = self.first_knot as usize;

@@ -10,7 +10,7 @@
 //! have, vectors arrays of three; what is missing takes the generator's default. Beside them a file may say
 //! `name`, `description`, `tree_seed` (the seed of one particular tree), a table `[appearance]` (see
 //! [`Appearance`]), and whatever tables its generator knows: [`KEYS`] and
-//! [`Family::keys`](crate::Family::keys) declare them.
+//! [`Family::keys`] declare them.
 
 mod appearance;
 mod doc;
