@@ -164,8 +164,8 @@ fn wrong_usage_is_two() {
     dir.run(["fit", "x.png", "--timeout", "soon"]).fails(2, &["90s, 10m or 2h"]);
     dir.run(["fit", "x.png", "--target-iou", "2"]).fails(2, &["from 0 to 1"]);
     dir.run(["fit", "x.png", "--height=-3"]).fails(2, &["metres"]);
-    dir.run(["fit", "x.png", "--generator", "lsystem"])
-        .fails(2, &["unknown generator `lsystem`, known are auto, weber-penn"]);
+    dir.run(["fit", "x.png", "--generator", "arbaro"])
+        .fails(2, &["unknown generator `arbaro`, known are auto, weber-penn, lsystem"]);
 }
 
 #[test]
