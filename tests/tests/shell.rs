@@ -144,11 +144,11 @@ fn completions_know_every_command_in_every_shell() {
     }
     // Bash itself reads what is for bash.
     let _ = dir.file("pleach.bash", dir.run(["completions", "bash"]).ok());
-    let script = "source ./pleach.bash && COMP_WORDS=(pleach gro) COMP_CWORD=1 && _pleach pleach gro pleach && \
+    let script = "source ./pleach.bash && COMP_WORDS=(pleach gr) COMP_CWORD=1 && _pleach pleach gr pleach && \
                   echo \"${COMPREPLY[@]}\"";
     let bash = std::process::Command::new("bash").current_dir(dir.path("")).args(["-c", script]).output();
     match bash {
-        Ok(out) => assert_eq!(String::from_utf8_lossy(&out.stdout).trim(), "grow", "{out:?}"),
+        Ok(out) => assert_eq!(String::from_utf8_lossy(&out.stdout).trim(), "grow grammar", "{out:?}"),
         Err(error) => assert_eq!(error.kind(), std::io::ErrorKind::NotFound),
     }
     dir.run(["completions", "tcsh"]).fails(2, &["bash", "fish", "zsh"]);

@@ -8,7 +8,7 @@ use std::path::Path;
 
 const LANE: u32 = 2;
 
-/// Lists around all species of the default family.
+/// Lists around all species that come with pleach.
 pub(in super::super) struct Parameters {
     presets: Vec<Species>,
 }
@@ -30,7 +30,9 @@ const SPREADS: [Spread; 4] = [Spread::Search, Spread::Allowed, Spread::Orders, S
 
 impl Parameters {
     pub(in super::super) fn new() -> Self {
-        Self { presets: pleach_generators::presets(pleach_generators::default_family()) }
+        let presets =
+            pleach_generators::families().iter().flat_map(|family| pleach_generators::presets(*family));
+        Self { presets: presets.collect() }
     }
 
     /// A list within the ranges: all numbers are drawn, or a few of a species'.

@@ -3,19 +3,19 @@
 use super::{Area, draws, grown, refused};
 use crate::robustness::mutate;
 use crate::robustness::verdict::Verdict;
-use pleach_generators::{default_family, read_file, read_text};
+use pleach_generators::{families, read_file, read_text};
 use std::path::Path;
 
 const LANE: u32 = 1;
 
-/// The files of all species of the default family.
+/// The files of all species that come with pleach.
 pub(in super::super) struct SpeciesFiles {
     texts: Vec<&'static str>,
 }
 
 impl SpeciesFiles {
     pub(in super::super) fn new() -> Self {
-        Self { texts: default_family().presets().iter().map(|(_, text)| *text).collect() }
+        Self { texts: families().iter().flat_map(|f| f.presets()).map(|(_, text)| *text).collect() }
     }
 }
 
