@@ -8,8 +8,8 @@ mod pole;
 
 use common::goal_of;
 use pleach_fit::{
-    Budget, Candidate, Control, FirstGuess, FitProblem, FitSettings, Fitted, GoalSettings, GoalView,
-    GuessSettings, Start, first_guess, fit_goal,
+    Budget, Candidate, Control, FirstGuess, FitError, FitProblem, FitSettings, Fitted, GoalSettings,
+    GoalView, GuessSettings, RaceSettings, Start, first_guess, fit_goal,
 };
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::{Parts, Species};
@@ -34,7 +34,8 @@ fn goal_of_pole(species: &Species) -> FitProblem {
 }
 
 fn guess(problem: &FitProblem) -> FirstGuess {
-    let few = GuessSettings { variants: 3, ..GuessSettings::default() };
+    let race = Some(RaceSettings { runners: 6, evaluations: 60 });
+    let few = GuessSettings { variants: 3, race, ..GuessSettings::default() };
     let go = AtomicBool::new(false);
     first_guess(problem, &FitSettings::default(), &candidates(), &few, &go, |_, _| ()).unwrap()
 }
@@ -61,7 +62,60 @@ fn a_goal_chooses_its_family_and_starts_from_lists_of_it_alone() {
     assert_eq!((found.names[0].0.as_str(), found.species.generator.family()), ("palm", "weber-penn"));
     let slots = found.species.generator.space().len();
     assert!(found.nearest.iter().all(|guess| guess.values.len() == slots));
-    assert_eq!(found.start(), Start::Lists(found.nearest.iter().map(|one| one.values.clone()).collect()));
+    let lists = found.raced.iter().chain(&found.nearest);
+    assert_eq!(found.start(), Start::Lists(lists.map(|one| one.values.clone()).collect()));
+}
+
+/// Poles and trees are each searched for a while; what that has found starts the search.
+#[test]
+fn families_race() {
+    let found = guess(&goal_of_pole(&pole("goal", 25.0, 0.2)));
+    let families: Vec<&str> = found.runners.iter().map(|one| one.family).collect();
+    assert_eq!(families, ["pole", "weber-penn"], "{:?}", found.runners);
+    let [first, second] = &found.runners[..] else { unreachable!() };
+    assert!(first.reached < first.guessed && first.reached < second.reached, "{:?}", found.runners);
+    assert!(["post", "drum"].contains(&first.species.as_str()) && second.reached <= second.guessed);
+    let raced = found.raced.as_ref().unwrap();
+    assert_eq!(raced.score.cost, first.reached);
+    assert!((raced.values[1] - 0.2).abs() < 0.05, "{raced:?}");
+    assert!(
+        found
+            .names
+            .iter()
+            .filter(|(_, share)| *share > 0.0)
+            .all(|(name, _)| ["rod", "post", "drum"].contains(&name.as_str()))
+    );
+}
+
+/// Without a race, and with one generator, the nearest list decides as it stands.
+#[test]
+fn there_need_not_be_a_race() {
+    let problem = goal_of_pole(&pole("goal", 25.0, 0.2));
+    let go = AtomicBool::new(false);
+    let of = |candidates: &[Candidate], race| {
+        let how = GuessSettings { variants: 1, race, ..GuessSettings::default() };
+        first_guess(&problem, &FitSettings::default(), candidates, &how, &go, |_, _| ()).unwrap()
+    };
+    let without = of(&candidates(), None);
+    assert!(without.raced.is_none() && without.runners.iter().all(|one| one.guessed == one.reached));
+    let poles = &candidates()[2..];
+    let alone = of(poles, GuessSettings::default().race);
+    assert!(alone.raced.is_none() && alone.runners.len() == 1);
+}
+
+#[test]
+fn a_race_can_be_interrupted() {
+    let problem = goal_of_pole(&pole("goal", 25.0, 0.2));
+    let stop = AtomicBool::new(false);
+    let how = GuessSettings { variants: 0, seeds: 1, ..GuessSettings::default() };
+    // The last tree of the guess is grown, and the first generator has run.
+    let raise = |done: usize, all: usize| {
+        if (done, all) == (1, 2) {
+            stop.store(true, std::sync::atomic::Ordering::Relaxed);
+        }
+    };
+    let stopped = first_guess(&problem, &FitSettings::default(), &candidates(), &how, &stop, raise);
+    assert!(matches!(stopped, Err(FitError::Interrupted)));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The gallery: one sheet with every species of the dissertation, leafy beside winter.
+//! The gallery: one sheet with many species, each leafy beside winter.
 
 use anyhow::Context;
 use pleach_blend::picture::{Anchor, Color, Scene, Shape};
@@ -8,22 +8,26 @@ use pleach_render::{Picture, Preview, PreviewSettings};
 use pleach_tree::species::{self, Season};
 use pleach_tree::{Species, Tree, TreeStats};
 
-/// Species per row, each with two pictures.
-const ACROSS: u32 = 3;
 const INK: Color = Color::opaque([40, 44, 40]);
 const GRAY: Color = Color::opaque([120, 124, 120]);
 
+/// Species per row, each with two pictures, so that the sheet is about square.
+fn across(count: usize) -> u32 {
+    (1..).find(|n| 2 * n * n >= count as u32).unwrap_or(1)
+}
+
 /// Draws the sheet, `size` pixels per tree.
 pub(super) fn sheet(
+    names: &[&str],
     size: u32,
     grow: impl Fn(&Species) -> anyhow::Result<Tree>,
     settings: &PreviewSettings,
 ) -> anyhow::Result<Picture> {
-    let names = pleach_generators::HEWITT_2017;
-    let rows = names.len().div_ceil(ACROSS as usize) as u32;
+    let columns = across(names.len());
+    let rows = (names.len() as u32).div_ceil(columns);
     let (gap, label) = (size / 6, size / 5);
     let (across, down) = (2 * size + gap, size + label + gap / 2);
-    let mut page = Scene::new(ACROSS * across + gap, rows * down + gap);
+    let mut page = Scene::new(columns * across + gap, rows * down + gap);
     let settings = PreviewSettings {
         width: size,
         height: size,
@@ -31,10 +35,10 @@ pub(super) fn sheet(
         ..*settings
     };
     let mut pictures = Vec::new();
-    for (i, name) in (0..).zip(names) {
+    for (i, name) in (0..).zip(names.iter().copied()) {
         let species = pleach_generators::species(name)?;
         let mut tree = grow(&species)?;
-        let (x, y) = (gap + i % ACROSS * across, gap / 2 + i / ACROSS * down);
+        let (x, y) = (gap + i % columns * across, gap / 2 + i / columns * down);
         let height = TreeStats::new(&tree).height_m;
         caption(&mut page, name, height, (f64::from(x + size), f64::from(y + size)), f64::from(size));
         for (k, season) in [(0, None), (1, Some(Season::Winter))] {
@@ -64,4 +68,16 @@ fn caption(page: &mut Scene, name: &str, height: f64, at: (f64, f64), size: f64)
     title[..1].make_ascii_uppercase();
     line(title, 0.075, em, INK);
     line(height, 0.145, em * 0.8, GRAY);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sheet_is_about_square() {
+        for (count, columns) in [(1, 1), (2, 1), (3, 2), (15, 3), (18, 3), (19, 4), (90, 7)] {
+            assert_eq!(across(count), columns, "{count} species");
+        }
+    }
 }

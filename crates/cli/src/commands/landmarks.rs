@@ -4,7 +4,7 @@ use crate::choice::{Choice, one_of};
 use crate::{input, output};
 use anyhow::{Context, bail};
 use pleach_blend::{BlendError, BlendMap, Encoding, Point, Settings, looks};
-use pleach_tree::Species;
+use pleach_tree::{Family, Species};
 use std::path::{Path, PathBuf};
 
 /// Where dots stand.
@@ -32,6 +32,9 @@ pub(super) struct MapArgs {
     /// All built-in species instead of the fifteen of the dissertation
     #[arg(long)]
     all: bool,
+    /// The built-in species of this generator, so far as they have the same parameters
+    #[arg(long, value_name = "NAME", value_parser = family, conflicts_with_all = ["all", "only"])]
+    generator: Option<&'static dyn Family>,
     /// Only these built-in species
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', conflicts_with = "all")]
     only: Option<Vec<String>>,
@@ -104,6 +107,7 @@ impl MapArgs {
         let given = [
             ("--layout", self.layout != Layout::default()),
             ("--only", self.only.is_some()),
+            ("--generator", self.generator.is_some()),
             ("--all", self.all && !has_shares),
             ("--species", !self.species.is_empty() && !has_shares),
             ("--keep-going", self.keep_going && self.species.is_empty()),
@@ -121,11 +125,47 @@ impl MapArgs {
         if let Some(names) = &self.only {
             return names.iter().map(|name| Ok(input::species(name)?)).collect();
         }
+        if let Some(family) = self.generator {
+            return of_one_model(family);
+        }
         if self.all {
             return Ok(pleach_generators::presets(pleach_generators::default_family()));
         }
         Ok(pleach_generators::HEWITT_2017.iter().filter_map(|name| pleach_generators::preset(name)).collect())
     }
+}
+
+fn family(name: &str) -> Result<&'static dyn Family, String> {
+    let families = pleach_generators::families();
+    families.iter().copied().find(|family| family.name() == name).ok_or_else(|| {
+        let names: Vec<&str> = families.iter().map(|family| family.name()).collect();
+        format!("unknown generator `{name}`, known are {}", names.join(", "))
+    })
+}
+
+/// The species of `family` that have the same parameters. Where not all have, as those of different
+/// grammars, the largest group, and a note about the others.
+fn of_one_model(family: &dyn Family) -> anyhow::Result<Vec<Species>> {
+    let mut groups: Vec<Vec<Species>> = Vec::new();
+    for species in pleach_generators::presets(family) {
+        let model = species.generator.model();
+        match groups.iter_mut().find(|group| group[0].generator.model() == model) {
+            Some(group) => group.push(species),
+            None => groups.push(vec![species]),
+        }
+    }
+    groups.retain(|group| group.len() >= 2);
+    // The first of the largest.
+    groups.sort_by_key(|group| std::cmp::Reverse(group.len()));
+    let mut groups = groups.into_iter();
+    let largest = groups.next().with_context(|| {
+        format!("no two species of {} have the same parameters: there is nothing between them", family.name())
+    })?;
+    for other in groups {
+        let names: Vec<&str> = other.iter().map(|species| species.name.as_str()).collect();
+        output::note(format!("other parameters, so not on this map: --only {}", names.join(",")));
+    }
+    Ok(largest)
 }
 
 fn by_looks(species: &[Species]) -> anyhow::Result<Vec<Point>> {

@@ -17,6 +17,7 @@ const EXAMPLES: &str = "Examples:
   pleach map --grid 9x9 -o map            and grid.png: trees across the plane
   pleach map --traits droop,ink -o map    with lines of equal traits
   pleach map --species my-trees --layout looks -o map
+  pleach map --generator lsystem -o map   species of another generator
 
 Every point inside the dashed line is a tree; `pleach blend --point X,Y` writes its species file.";
 

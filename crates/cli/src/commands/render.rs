@@ -2,6 +2,7 @@
 
 use super::export::SEASONS;
 use super::gallery;
+use super::generator_choice::GeneratorChoice;
 use crate::choice::{Choice, one_of};
 use crate::input::LimitArgs;
 use crate::{files, input, output};
@@ -25,6 +26,7 @@ const EXAMPLES: &str = "Examples:
   pleach render all -o gallery/                       every species, leafy
   pleach render all --no-leaves -o winter/            and bare
   pleach render --gallery -o gallery.png              fifteen species on one sheet
+  pleach render --gallery --generator all             every species of every generator
   pleach render acer -o - > acer.png                  to standard output
 
 This is the picture to look at: bark, light and shadow, 768 pixels high, enough for a page. \
@@ -42,6 +44,9 @@ pub(crate) struct Render {
     /// One sheet of the dissertation's fifteen species, leafy and in winter
     #[arg(long, conflicts_with_all = ["species", "season", "no_leaves", "turntable", "background", "ground"])]
     gallery: bool,
+    /// In a gallery: the species of this generator instead, or of `all`
+    #[arg(long, value_name = "NAME", requires = "gallery")]
+    generator: Option<GeneratorChoice>,
     /// Seed of the tree; the species file's own, or 1, by default
     #[arg(long, value_name = "N", value_parser = input::seed)]
     seed: Option<u64>,
@@ -139,7 +144,11 @@ impl Render {
             (None, None) => PathBuf::from("gallery.png"),
         };
         let grow = |species: &Species| self.grow(species, self.seed.or(species.tree_seed).unwrap_or(1));
-        let sheet = gallery::sheet(self.size, grow, &self.settings(0.0))?;
+        let names = match &self.generator {
+            Some(generator) => generator.names(),
+            None => pleach_generators::HEWITT_2017.to_vec(),
+        };
+        let sheet = gallery::sheet(&names, self.size, grow, &self.settings(0.0))?;
         files::write_out(&path, |mut out| Ok(png_file::write_indexed(&mut out, &sheet)?))?;
         output::wrote(&path);
         Ok(())

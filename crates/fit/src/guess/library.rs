@@ -11,7 +11,7 @@ use crate::evaluator::{Evaluator, height_of};
 use crate::problem::FitProblem;
 use crate::space::TreeSeed;
 use pleach_silhouette::{Bitmap, Frame, View};
-use pleach_tree::{Foliage, Limits, ModelId};
+use pleach_tree::{Foliage, Limits, ModelId, Tree};
 
 /// Trees between two calls of the observer: enough to keep the threads busy.
 const BATCH: usize = 32;
@@ -52,6 +52,8 @@ pub(super) struct Entry {
 struct Looks {
     /// Height of the first in metres.
     height: f64,
+    /// Whether any of them has leaves or blobs of foliage.
+    has_foliage: bool,
     /// Seed by seed, and of each view by view.
     plates: Vec<Plate>,
 }
@@ -64,6 +66,8 @@ fn place(foliage: Foliage) -> usize {
 /// How an entry compares with a goal.
 #[derive(Clone, Debug)]
 pub(super) struct Resemblance {
+    /// Whether what was compared has leaves or blobs of foliage.
+    pub(super) has_foliage: bool,
     /// Likeness to the goal, in 0..=1; the mean over seeds and views.
     pub(super) likeness: f64,
     /// Intersection over union.
@@ -129,7 +133,7 @@ impl Key {
         let views = |first: &Try| views(shown.models.evaluator(first.candidate), first);
         Self {
             candidates: shown.candidates.iter().map(of).collect(),
-            guess: GuessSettings { detect_leaves: false, keep: 0, ..*guess },
+            guess: GuessSettings { detect_leaves: false, keep: 0, race: None, ..*guess },
             seed: settings.seed,
             tree_seed: settings.tree_seed,
             robust: settings.robust.get(),
@@ -155,7 +159,8 @@ fn views(evaluator: &Evaluator, attempt: &Try) -> Vec<View> {
 fn grow(shown: &Shown<'_>, attempt: &Try, wanted: [bool; 2], side: u32) -> Option<[Option<Looks>; 2]> {
     let evaluator = shown.models.evaluator(attempt.candidate);
     let views = views(evaluator, attempt);
-    let mut looks = wanted.map(|wanted| wanted.then(|| Looks { height: 0.0, plates: Vec::new() }));
+    let mut looks =
+        wanted.map(|wanted| wanted.then(|| Looks { height: 0.0, has_foliage: false, plates: Vec::new() }));
     let grown = if wanted[place(Foliage::All)] { Foliage::All } else { Foliage::None };
     evaluator.show(&attempt.genome, grown, |tree, rasterizer| {
         for (foliage, looks) in [Foliage::All, Foliage::None].into_iter().zip(&mut looks) {
@@ -163,12 +168,17 @@ fn grow(shown: &Shown<'_>, attempt: &Try, wanted: [bool; 2], side: u32) -> Optio
             if looks.plates.is_empty() {
                 looks.height = height_of(tree, foliage);
             }
+            looks.has_foliage |= foliage != Foliage::None && has_foliage(tree);
             for view in &views {
                 looks.plates.push(Plate::draw(tree, view, foliage, side, rasterizer));
             }
         }
     })?;
     Some(looks)
+}
+
+fn has_foliage(tree: &Tree) -> bool {
+    !(tree.leaves.is_empty() && tree.blossoms.is_empty() && tree.blobs.is_empty())
 }
 
 /// Compares every entry, with leaves or without, with the goals that are `shown`; none for those that do
@@ -187,7 +197,8 @@ pub(super) fn compare(
         let factor = factor.unwrap_or(1.0);
         let frames: Vec<Frame> =
             evaluator.placed(&entry.attempt.genome).into_iter().map(|(_, frame)| frame).collect();
-        let mut sum = Resemblance { likeness: 0.0, iou: 0.0, factor, pictures: Vec::new() };
+        let has_foliage = looks.has_foliage;
+        let mut sum = Resemblance { has_foliage, likeness: 0.0, iou: 0.0, factor, pictures: Vec::new() };
         let mut picture = Bitmap::default();
         for (number, plate) in looks.plates.iter().enumerate() {
             let view = number % frames.len();

@@ -1,7 +1,8 @@
 //! A first guess: which known species a goal looks like, and the lists that a search may start from.
 //!
-//! Candidates may be of any family of generators; each grows its own trees. The likeliest by what the search
-//! makes small says which generator is searched, and the search starts from lists of that generator alone.
+//! Candidates may be of any family of generators; each grows its own trees. Where they are of several
+//! generators, the likeliest are each searched for a short while ([`RaceSettings`]); the one that has then
+//! reached the least cost is searched on, from lists of that generator alone.
 //!
 //! Trees of all candidates are grown as they are and with their numbers varied, drawn finely, laid into
 //! the goal's frame at the goal's height, and compared by likeness, which knows a species by other trees
@@ -13,6 +14,7 @@
 mod candidate;
 mod library;
 mod plate;
+mod race;
 mod references;
 mod settings;
 mod shown;
@@ -20,8 +22,9 @@ mod tries;
 
 pub use candidate::Candidate;
 pub use library::GuessLibrary;
+pub use race::Runner;
 pub use references::{Reference, References};
-pub use settings::GuessSettings;
+pub use settings::{GuessSettings, RaceSettings};
 
 use crate::cancellable;
 use crate::error::FitError;
@@ -49,8 +52,12 @@ pub struct FirstGuess {
     pub species: Species,
     /// The nearest lists of the species' generator, best first; at least one.
     pub nearest: Vec<Guess>,
-    /// The candidates with the confidence that the goal is theirs, in 0..=1, the likeliest first; sums
-    /// to 1.
+    /// What a race has found that is better than all of these, if there was one.
+    pub raced: Option<Guess>,
+    /// How the generators did that the goal may be of, the one that is searched first.
+    pub runners: Vec<Runner>,
+    /// The candidates of the species' family with the confidence that the goal is theirs, in 0..=1, the
+    /// likeliest first; sums to 1.
     pub names: Vec<(String, f64)>,
     /// Whether the goal is taken for a tree with leaves: what `FitProblem::foliage` should be. All of
     /// the above is of trees like that.
@@ -63,7 +70,8 @@ impl FirstGuess {
     /// The lists that a search starts from.
     #[must_use]
     pub fn start(&self) -> Start {
-        Start::Lists(self.nearest.iter().map(|guess| guess.values.clone()).collect())
+        let lists = self.raced.iter().chain(&self.nearest);
+        Start::Lists(lists.map(|guess| guess.values.clone()).collect())
     }
 
     /// `problem` with the species that it looks like to start from, with leaves or without.
@@ -85,7 +93,7 @@ pub struct Guess {
 }
 
 /// Of the trees that look most like the goal, this many times those that are kept are scored by what
-/// the search makes small.
+/// the search makes small, and of each family as many as are kept.
 const ALIKE: usize = 3;
 /// By how much worse a candidate's likeness is when it is e times less probable.
 const DOUBT: f64 = 0.02;
@@ -127,24 +135,33 @@ impl GuessLibrary {
         candidates: &[Candidate],
         guess: &GuessSettings,
         stop: &AtomicBool,
-        progress: impl FnMut(usize, usize),
+        mut progress: impl FnMut(usize, usize),
     ) -> Result<FirstGuess, FitError> {
         let known = known_views(problem);
         let looks = looks(&known, settings)?;
         let shown = Shown::new(&known, candidates, &looks, settings, stop);
         let both = guess.detect_leaves;
         let wanted = [Foliage::All, Foliage::None].map(|foliage| both || foliage == known.foliage);
-        let entries = self.entries(&shown, guess, wanted, progress)?;
+        let entries = self.entries(&shown, guess, wanted, &mut progress)?;
         let (foliage, found) = leaves(&shown, entries, guess.detect_leaves)?;
-        let (costs, alike) = ranked(&shown, (entries, &found), guess.keep.max(1) * ALIKE);
+        let keep = guess.keep.max(1);
+        let (mut costs, alike) = ranked(&shown, (entries, &found), keep);
         // What looks alike may still stand beside the goal: the objective of the search decides.
         let known = FitProblem { foliage, ..known.clone() };
-        let mut nearest = scored(&known, &shown, alike)?;
-        let Some((winner, first)) = nearest.first() else { return Err(FitError::NoStart) };
-        let (winner, values) = (*winner, first.values.clone());
-        let mut species = with_values(&candidates[winner].species, values).map_err(SpaceError::Start)?;
-        nearest.retain(|(candidate, _)| shown.models.number(*candidate) == shown.models.number(winner));
-        nearest.truncate(guess.keep.max(1));
+        let mut all = race::contenders(&shown, scored(&known, &shown, alike)?, keep);
+        if let (Some(how), 2..) = (guess.race, all.len()) {
+            all = race::race(&known, &shown, how, all, &mut progress)?;
+        }
+        let Some(winner) = all.first() else { return Err(FitError::NoStart) };
+        let values = winner.lists[0].values.clone();
+        let mut species =
+            with_values(&candidates[winner.candidate].species, values).map_err(SpaceError::Start)?;
+        let family = shown.family(winner.candidate);
+        for (candidate, cost) in costs.iter_mut().enumerate() {
+            if shown.family(candidate) != family {
+                *cost = f64::INFINITY;
+            }
+        }
         let named = first_of(&costs);
         if let Some(named) = named {
             species.appearance = candidates[named].species.appearance;
@@ -153,7 +170,9 @@ impl GuessLibrary {
         let references = References::new(&known, candidates, (entries, &found), named, &pictures);
         Ok(FirstGuess {
             species,
-            nearest: nearest.into_iter().map(|(_, guess)| guess).collect(),
+            nearest: winner.lists.clone(),
+            raced: winner.found.clone(),
+            runners: all.iter().map(|one| one.runner(&shown)).collect(),
             names: confidence(candidates, &costs),
             foliage,
             references,
@@ -200,19 +219,21 @@ fn leaves(
     let other = if given == Foliage::None { Foliage::All } else { Foliage::None };
     let found_other = compare(shown, entries, other)?;
     let [leafy, bare] = if given == Foliage::None { [&found_other, &found] } else { [&found, &found_other] };
-    let foliage = if has_leaves(most_alike(leafy), most_alike(bare)) { Foliage::All } else { Foliage::None };
+    // Species that never have leaves say nothing for leaves.
+    let (leafy, bare) = (most_alike(leafy, |one| one.has_foliage), most_alike(bare, |_| true));
+    let foliage = if has_leaves(leafy, bare) { Foliage::All } else { Foliage::None };
     Ok(if foliage == given { (given, found) } else { (other, found_other) })
 }
 
 /// An individual of a candidate, and what it lacks of a likeness of 1.
 type Alike = (f64, usize, Genome);
 
-/// The least cost of each candidate, and the `most` individuals that look most like the goal, at its
-/// height.
+/// The least cost of each candidate, and the individuals that look most like the goal, at its height:
+/// some of all, and `keep` of each family.
 fn ranked(
     shown: &Shown<'_>,
     (entries, found): (&[Entry], &[Option<Resemblance>]),
-    most: usize,
+    keep: usize,
 ) -> (Vec<f64>, Vec<Alike>) {
     let mut costs = vec![f64::INFINITY; shown.candidates.len()];
     let mut alike = Vec::new();
@@ -227,8 +248,14 @@ fn ranked(
         }
     }
     alike.sort_by(|a, b| a.0.total_cmp(&b.0));
-    alike.truncate(most);
-    (costs, alike)
+    let mut kept = Vec::<Alike>::new();
+    let of_family = |kept: &[Alike], family| kept.iter().filter(|one| shown.family(one.1) == family).count();
+    for one in alike {
+        if kept.len() < keep * ALIKE || of_family(&kept, shown.family(one.1)) < keep {
+            kept.push(one);
+        }
+    }
+    (costs, kept)
 }
 
 /// Individuals with their candidates, scored by what the search makes small, best first; without those
@@ -292,9 +319,9 @@ fn first_of(costs: &[f64]) -> Option<usize> {
     cost.is_finite().then_some(first)
 }
 
-/// Likeness of the tree that is most like the goal.
-fn most_alike(found: &[Option<Resemblance>]) -> f64 {
-    found.iter().flatten().map(|found| found.likeness).fold(0.0, f64::max)
+/// Likeness of the tree that is most like the goal, among those that count.
+fn most_alike(found: &[Option<Resemblance>], counts: impl Fn(&Resemblance) -> bool) -> f64 {
+    found.iter().flatten().filter(|one| counts(one)).map(|one| one.likeness).fold(0.0, f64::max)
 }
 
 /// Whether a goal has leaves, from the largest likeness that trees with leaves have to it, and those

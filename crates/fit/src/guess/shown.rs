@@ -31,4 +31,9 @@ impl<'a> Shown<'a> {
     pub(super) fn resize(&self, candidate: usize, values: &mut [f64], factor: f64) -> bool {
         self.candidates[candidate].species.generator.resize(values, factor)
     }
+
+    /// The family of candidate number `candidate`.
+    pub(super) fn family(&self, candidate: usize) -> &'static str {
+        self.candidates[candidate].species.generator.family()
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::goal::MaskSource;
 use super::{options, start, views};
+use crate::commands::generator_choice::GeneratorChoice;
 use crate::input;
 use pleach_fit::Objective;
 use std::num::NonZeroU32;
@@ -68,7 +69,7 @@ pub(super) struct SearchArgs {
     /// The generator whose species take part in a first guess, and that `--from random` draws for; `auto`
     /// for all of them. By default weber-penn, or that of the species in --from
     #[arg(long, value_name = "auto|NAME")]
-    pub(super) generator: Option<start::GeneratorChoice>,
+    pub(super) generator: Option<GeneratorChoice>,
     /// Parameters that may change: a name, a slot such as length[1], a group, or level:N; repeatable.
     /// All by default; see `pleach params`
     #[arg(long, value_name = "PATTERN")]
@@ -118,14 +119,14 @@ pub(super) struct BudgetArgs {
 impl SearchArgs {
     /// The generators that take part: those that `--generator` says, the one of the species in `--from`,
     /// or the default one.
-    pub(super) fn generator(&self) -> anyhow::Result<start::GeneratorChoice> {
+    pub(super) fn generator(&self) -> anyhow::Result<GeneratorChoice> {
         Ok(match (&self.generator, &self.from) {
             (Some(choice), _) => choice.clone(),
             (None, start::From::Species(name)) => {
-                start::GeneratorChoice::Family(crate::input::species(name)?.generator.family())
+                GeneratorChoice::Family(crate::input::species(name)?.generator.family())
             }
             (None, start::From::Auto | start::From::Random) => {
-                start::GeneratorChoice::Family(pleach_generators::default_family().name())
+                GeneratorChoice::Family(pleach_generators::default_family().name())
             }
         })
     }

@@ -1,9 +1,11 @@
 //! Where a fit starts: random lists, a species, or whatever the goal looks like.
 
+use crate::commands::generator_choice::GeneratorChoice;
 use crate::input;
 use anyhow::{Context, ensure};
 use pleach_fit::{
-    Candidate, FirstGuess, FitSettings, GoalSettings, GuessSettings, Guessing, Judging, Start, check_freedom,
+    Candidate, FirstGuess, FitSettings, GoalSettings, GuessSettings, Guessing, Judging, Runner, Start,
+    check_freedom,
 };
 use pleach_tree::species::Appearance;
 use pleach_tree::{Foliage, Species};
@@ -68,55 +70,6 @@ impl Leaves {
     }
 }
 
-/// Which families of generators take part: what `--generator` says.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum GeneratorChoice {
-    /// All of them.
-    Auto,
-    /// The one of this name.
-    Family(&'static str),
-}
-
-impl FromStr for GeneratorChoice {
-    type Err = String;
-
-    fn from_str(given: &str) -> Result<Self, Self::Err> {
-        let names = || pleach_generators::families().iter().map(|family| family.name());
-        if given == "auto" {
-            return Ok(Self::Auto);
-        }
-        let known = || std::iter::once("auto").chain(names()).collect::<Vec<_>>().join(", ");
-        names()
-            .find(|name| *name == given)
-            .map(Self::Family)
-            .ok_or_else(|| format!("unknown generator `{given}`, known are {}", known()))
-    }
-}
-
-impl std::fmt::Display for GeneratorChoice {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Auto => "auto",
-            Self::Family(name) => name,
-        })
-    }
-}
-
-impl GeneratorChoice {
-    fn takes(&self, species: &Species) -> bool {
-        match self {
-            Self::Auto => true,
-            Self::Family(name) => species.generator.family() == *name,
-        }
-    }
-
-    /// The known species of the families that take part, those of the default family first.
-    fn known(&self) -> impl Iterator<Item = Species> {
-        let all = pleach_generators::families().iter().flat_map(|family| pleach_generators::presets(*family));
-        all.filter(|species| self.takes(species))
-    }
-}
-
 /// Species with less confidence than this are not spoken of.
 const MIN_CONFIDENCE: f64 = 0.01;
 
@@ -127,6 +80,31 @@ pub(super) fn looks_like(guess: Option<&FirstGuess>) -> Vec<LooksLike> {
         .filter(|(_, confidence)| *confidence >= MIN_CONFIDENCE)
         .map(|(species, confidence)| LooksLike { species: species.clone(), confidence: *confidence })
         .collect()
+}
+
+/// The families that a goal was compared with, the best of each, best first; none if there is only one.
+pub(super) fn families(guess: Option<&FirstGuess>) -> Vec<Runner> {
+    let mut best: Vec<Runner> = Vec::new();
+    for runner in guess.into_iter().flat_map(|guess| &guess.runners) {
+        if best.iter().all(|known| known.family != runner.family) {
+            best.push(runner.clone());
+        }
+    }
+    if best.len() < 2 { Vec::new() } else { best }
+}
+
+/// What is said of the race of families, if there was one.
+pub(super) fn raced(guess: &FirstGuess) -> Option<String> {
+    let families = families(Some(guess));
+    let (first, others) = families.split_first()?;
+    let others: Vec<String> =
+        others.iter().map(|one| format!("{} {:.3} ({})", one.family, one.reached, one.species)).collect();
+    Some(format!(
+        "family {}: after a short race its cost is {:.3}, that of {} (0 is best)",
+        first.family,
+        first.reached,
+        others.join(", ")
+    ))
 }
 
 /// What is said of a first guess; `detected` says whether leaves were looked for.
@@ -204,15 +182,6 @@ impl From {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn generators_are_named_and_others_are_told_which_there_are() {
-        for name in ["auto", "weber-penn", "lsystem"] {
-            assert_eq!(name.parse::<GeneratorChoice>().unwrap().to_string(), name);
-        }
-        let error = "lsystems".parse::<GeneratorChoice>().unwrap_err();
-        assert!(error.starts_with("unknown generator `lsystems`, known are auto, weber-penn"), "{error}");
-    }
 
     #[test]
     fn a_species_of_another_generator_is_refused() {

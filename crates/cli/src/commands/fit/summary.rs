@@ -4,10 +4,10 @@ use super::drawing::{Drawing, Drawn};
 use super::judged;
 use super::request::Request;
 use super::run_folder::{Claim, SUMMARY};
-use super::start::{LooksLike, looks_like};
+use super::start::{self, LooksLike, looks_like};
 use super::views::ViewScore;
 use crate::files;
-use pleach_fit::{COLUMNS, Fitted, FreshSeeds, References, Row, StopReason, Verdict};
+use pleach_fit::{COLUMNS, Fitted, FreshSeeds, References, Row, Runner, StopReason, Verdict};
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::picture::Picture;
 use pleach_silhouette::score::ScoreCard;
@@ -67,6 +67,8 @@ pub(super) struct Summary {
     pub(super) seed: u64,
     pub(super) from: String,
     pub(super) looks_like: Vec<LooksLike>,
+    /// How the families did in the race for the goal, best first; empty if only one was asked.
+    pub(super) families: Vec<Runner>,
     /// Whether the trees have leaves.
     pub(super) leaves: bool,
     /// Whether that was seen in the goal, and not said.
@@ -184,6 +186,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         seed: settings.seed,
         from: results.from,
         looks_like: looks_like(fitted.guess.as_ref()),
+        families: start::families(fitted.guess.as_ref()),
         leaves: fitted.problem.foliage != Foliage::None,
         leaves_detected: results.leaves_detected,
         views,

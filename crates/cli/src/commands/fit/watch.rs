@@ -43,6 +43,7 @@ impl<'a, 'g> Watch<'a, 'g> {
         end(&mut self.guessing);
         if let (Some(guess), Some(detected)) = (&begun.guess, self.says) {
             output::note(start::said(guess, detected));
+            start::raced(guess).into_iter().for_each(output::note);
         }
         self.claim.begin()?;
         let drawing = (self.draws)(&begun.problem, begun.settings.limits);
