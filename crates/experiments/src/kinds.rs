@@ -1,5 +1,6 @@
 //! The kinds of experiments, each with what its file says.
 
+use super::families::FamiliesSpec;
 use super::likeness::LikenessSpec;
 use super::needle::NeedleSpec;
 use super::robustness::RobustnessSpec;
@@ -16,6 +17,7 @@ pub(super) enum Spec {
     Treefit(TreefitSpec),
     Needle(NeedleSpec),
     Robustness(RobustnessSpec),
+    Families(FamiliesSpec),
 }
 
 impl Spec {
@@ -28,6 +30,7 @@ impl Spec {
             Kind::Likeness => Self::Likeness(source.parse::<LikenessSpec>()?.checked(source)?),
             Kind::Treefit => Self::Treefit(source.parse::<TreefitSpec>()?.checked(source)?),
             Kind::Needle => Self::Needle(source.parse::<NeedleSpec>()?.checked(source)?),
+            Kind::Families => Self::Families(source.parse::<FamiliesSpec>()?.checked(source)?),
             Kind::Robustness => Self::Robustness(source.parse::<RobustnessSpec>()?.checked(source)?),
         })
     }

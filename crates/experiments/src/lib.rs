@@ -4,6 +4,7 @@
 //! names begin with `wall_` depend on the clock and are never compared.
 
 mod blend;
+mod families;
 mod fits;
 mod growth;
 mod journal;
@@ -89,6 +90,7 @@ impl Spec {
             Self::Treefit(spec) => spec,
             Self::Needle(spec) => spec,
             Self::Robustness(spec) => spec,
+            Self::Families(spec) => spec,
         }
     }
 }

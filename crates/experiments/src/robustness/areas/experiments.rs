@@ -11,13 +11,14 @@ use std::path::{Component, Path};
 const LANE: u32 = 5;
 
 /// One of each kind.
-const TEXTS: [&str; 7] = [
+const TEXTS: [&str; 8] = [
     include_str!("../templates/fits.toml"),
     include_str!("../templates/growth.toml"),
     include_str!("../templates/blend.toml"),
     include_str!("../templates/likeness.toml"),
     include_str!("../templates/treefit.toml"),
     include_str!("../templates/needle.toml"),
+    include_str!("../templates/families.toml"),
     include_str!("../templates/robustness.toml"),
 ];
 
