@@ -12,6 +12,10 @@ fn goal(name: &str) -> String {
     pleach_tests::root().join("targets").join(name).to_str().unwrap().to_owned()
 }
 
+/// Within this time a program that is asked to stop has stopped. On an idle machine it takes a fraction of a
+/// second; that the work was cut short is seen in what it leaves.
+const SOON: Duration = Duration::from_secs(60);
+
 /// A small fit: acer grows in a millisecond.
 fn small<'a>(goal: &'a str, out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&["fit", goal, "--out", out, "--size", "64", "--from", "acer"], more].concat()
@@ -446,7 +450,7 @@ fn the_first_guess_can_be_interrupted() {
     let asked = Instant::now();
     let _ = lines.read_to_string(&mut message).unwrap();
     let status = stopped.wait().unwrap();
-    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+    assert!(asked.elapsed() < SOON, "{:?}", asked.elapsed());
     assert_eq!(status.code(), Some(130), "{message}");
     assert!(message.contains("interrupted") && message.contains("--resume"), "{message}");
     assert!(!dir.path("parts/checkpoint").exists(), "the guess takes longer than these moments");
@@ -469,7 +473,7 @@ fn judging_can_be_interrupted() {
     signal(&stopped, "-TERM");
     let asked = Instant::now();
     let status = stopped.wait().unwrap();
-    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+    assert!(asked.elapsed() < SOON, "{:?}", asked.elapsed());
     assert_eq!(status.code(), Some(130));
     let summary: serde_json::Value = serde_json::from_slice(&read(&dir.path("parts/summary.json"))).unwrap();
     assert_eq!((&summary["finished"], &summary["stopped_by"]), (&false.into(), &"interrupted".into()));
