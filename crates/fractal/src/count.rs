@@ -121,13 +121,17 @@ mod tests {
     #[test]
     fn a_tree_of_sixty_generations_is_refused_with_the_blame() {
         for apical in [0.0, 1.0] {
-            let model = Model::new(&values(&[(Id::generations, 60.0), (Id::apical_ratio, apical), (Id::scale, 1.0)]));
+            let model =
+                Model::new(&values(&[(Id::generations, 60.0), (Id::apical_ratio, apical), (Id::scale, 1.0)]));
             let told = refusal(&model, &Growth::seed(1)).unwrap().to_string();
             assert!(told.contains("more than 40000000 steps, because of `generations`"), "{told}");
         }
         let model = Model::new(&values(&[(Id::generations, 13.0), (Id::apical_ratio, 1.0)]));
         let told = refusal(&model, &Growth::seed(1)).unwrap().to_string();
-        assert!(told.contains("500000 stems, because of `generations`, `side_branches` and `apical_ratio`"), "{told}");
+        assert!(
+            told.contains("500000 stems, because of `generations`, `side_branches` and `apical_ratio`"),
+            "{told}"
+        );
         assert_eq!(refusal(&Model::new(&space().defaults()), &Growth::seed(1)), None);
     }
 }

@@ -139,7 +139,13 @@ impl Grower<'_> {
                     true => (level + 1, StemKind::Branch),
                     false => (level, StemKind::Fork),
                 };
-                self.scratch.waiting.push(Shoot { first: next, parent: Some(index), level, kind, offset: length });
+                self.scratch.waiting.push(Shoot {
+                    first: next,
+                    parent: Some(index),
+                    level,
+                    kind,
+                    offset: length,
+                });
             }
             match central {
                 Some(next) => branch = next,
@@ -172,7 +178,12 @@ impl Grower<'_> {
             let apical = &model.apical_ratio;
             let ratio = model.noise.vary(apical.nominal, apical.deviation, key, APICAL);
             let scale = Model::central_scale(scale(model, key), ratio);
-            daughters.push(Daughter { frame: leader(model, &branch.frame, key), scale, key, is_central: true });
+            daughters.push(Daughter {
+                frame: leader(model, &branch.frame, key),
+                scale,
+                key,
+                is_central: true,
+            });
         }
         let sides = &model.side_branches;
         let count = Model::sides(model.noise.vary(sides.nominal, sides.deviation, key, COUNT));

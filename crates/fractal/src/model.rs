@@ -75,8 +75,7 @@ impl Model {
     pub(crate) fn new(values: &[f64]) -> Self {
         let get = |id: Id| id.get(values);
         let varied = |id, v| Varied { nominal: get(id), deviation: get(v) };
-        let radians =
-            |id, v| Varied { nominal: get(id).to_radians(), deviation: f64::to_radians(get(v)) };
+        let radians = |id, v| Varied { nominal: get(id).to_radians(), deviation: f64::to_radians(get(v)) };
         Self {
             dimensions: Dimensions::from_number(get(Id::dimensions)),
             generations: get(Id::generations) as u16,

@@ -101,9 +101,8 @@ mod tests {
 
     #[test]
     fn views_are_from_where_they_are_said_to_be_and_at_one_scale() {
-        let [south, south_east, east, above] = extents(&four_views(&gallows(dvec3(3.0, 0.0, 0.0)), Parts::LEAFY, 200))
-            .try_into()
-            .unwrap();
+        let [south, south_east, east, above] =
+            extents(&four_views(&gallows(dvec3(3.0, 0.0, 0.0)), Parts::LEAFY, 200)).try_into().unwrap();
         assert!(south.0 > 4 * east.0, "a branch to the east is seen end on from there: {south:?} {east:?}");
         let ratio = f64::from(south_east.0) / f64::from(south.0);
         assert!((0.65..0.8).contains(&ratio), "{ratio}");

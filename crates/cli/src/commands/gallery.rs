@@ -1,4 +1,4 @@
-//! The gallery: one sheet with every species of the dissertation, leafy beside winter.
+//! The gallery: one sheet with the species of the dissertation, or of another family, leafy beside winter.
 
 use anyhow::Context;
 use pleach_blend::picture::{Anchor, Color, Scene, Shape};
@@ -13,13 +13,13 @@ const ACROSS: u32 = 3;
 const INK: Color = Color::opaque([40, 44, 40]);
 const GRAY: Color = Color::opaque([120, 124, 120]);
 
-/// Draws the sheet, `size` pixels per tree.
+/// Draws the sheet of the species with these names, `size` pixels per tree.
 pub(super) fn sheet(
+    names: &[&str],
     size: u32,
     grow: impl Fn(&Species) -> anyhow::Result<Tree>,
     settings: &PreviewSettings,
 ) -> anyhow::Result<Picture> {
-    let names = pleach_generators::HEWITT_2017;
     let rows = names.len().div_ceil(ACROSS as usize) as u32;
     let (gap, label) = (size / 6, size / 5);
     let (across, down) = (2 * size + gap, size + label + gap / 2);

@@ -11,7 +11,7 @@ use pleach_render::preview::{Background, Ground};
 use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_silhouette::View;
 use pleach_tree::species::{Color, Season};
-use pleach_tree::{Foliage, Growth, Species, Tree};
+use pleach_tree::{Family, Foliage, Growth, Species, Tree};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -25,6 +25,7 @@ const EXAMPLES: &str = "Examples:
   pleach render all -o gallery/                       every species, leafy
   pleach render all --no-leaves -o winter/            and bare
   pleach render --gallery -o gallery.png              fifteen species on one sheet
+  pleach render --gallery --generator fractal         those of another generator
   pleach render acer -o - > acer.png                  to standard output
 
 This is the picture to look at: bark, light and shadow, 768 pixels high, enough for a page. \
@@ -42,6 +43,9 @@ pub(crate) struct Render {
     /// One sheet of the dissertation's fifteen species, leafy and in winter
     #[arg(long, conflicts_with_all = ["species", "season", "no_leaves", "turntable", "background", "ground"])]
     gallery: bool,
+    /// On the sheet: all species of this generator instead
+    #[arg(long, value_name = "NAME", requires = "gallery", value_parser = family)]
+    generator: Option<&'static dyn Family>,
     /// Seed of the tree; the species file's own, or 1, by default
     #[arg(long, value_name = "N", value_parser = input::seed)]
     seed: Option<u64>,
@@ -87,6 +91,15 @@ fn background(text: &str) -> Result<Background, String> {
             .map(Background::Plain)
             .ok_or_else(|| "expected studio, transparent, or a colour such as #dde6ee".to_owned()),
     }
+}
+
+/// A family by its name.
+fn family(name: &str) -> Result<&'static dyn Family, String> {
+    let families = pleach_generators::families();
+    families.iter().copied().find(|family| family.name() == name).ok_or_else(|| {
+        let known: Vec<&str> = families.iter().map(|family| family.name()).collect();
+        format!("unknown generator `{name}`, known are {}", known.join(", "))
+    })
 }
 
 impl Render {
@@ -139,7 +152,11 @@ impl Render {
             (None, None) => PathBuf::from("gallery.png"),
         };
         let grow = |species: &Species| self.grow(species, self.seed.or(species.tree_seed).unwrap_or(1));
-        let sheet = gallery::sheet(self.size, grow, &self.settings(0.0))?;
+        let names: Vec<&str> = match self.generator {
+            Some(family) => family.presets().iter().map(|(name, _)| *name).collect(),
+            None => pleach_generators::HEWITT_2017.to_vec(),
+        };
+        let sheet = gallery::sheet(&names, self.size, grow, &self.settings(0.0))?;
         files::write_out(&path, |mut out| Ok(png_file::write_indexed(&mut out, &sheet)?))?;
         output::wrote(&path);
         Ok(())

@@ -18,7 +18,11 @@ fn bounds(tree: &Tree) -> (DVec3, DVec3) {
 }
 
 fn total_length(tree: &Tree) -> f64 {
-    tree.stems.iter().flat_map(|stem| tree.knots_of(stem).windows(2)).map(|w| w[0].point.distance(w[1].point)).sum()
+    tree.stems
+        .iter()
+        .flat_map(|stem| tree.knots_of(stem).windows(2))
+        .map(|w| w[0].point.distance(w[1].point))
+        .sum()
 }
 
 #[track_caller]
@@ -95,8 +99,11 @@ fn figure_23() {
         dvec3(113.746, 153.1988, 360.6515),
     ];
     assert_nodes(&tree, SPACE_UNIT, &nodes);
-    let halved: Vec<DVec3> =
-        tree.knots.iter().map(|knot| dvec3(-knot.point.x, -knot.point.y, knot.point.z) / SPACE_UNIT).collect();
+    let halved: Vec<DVec3> = tree
+        .knots
+        .iter()
+        .map(|knot| dvec3(-knot.point.x, -knot.point.y, knot.point.z) / SPACE_UNIT)
+        .collect();
     assert_nodes(&tree, SPACE_UNIT, &halved);
 }
 
@@ -134,9 +141,11 @@ fn da_vincis_rule_keeps_the_cross_section() {
         let tree = grown("coffey_turned_fork", &set);
         let trunk = tree.knots_of(&tree.stems[0]);
         assert_near(trunk[1].radius / trunk[0].radius, ratio);
-        assert!(tree.stems[1..].iter().any(|stem| {
-            (tree.knots_of(stem)[0].radius / trunk[0].radius - ratio).abs() < 1e-6
-        }));
+        assert!(
+            tree.stems[1..]
+                .iter()
+                .any(|stem| { (tree.knots_of(stem)[0].radius / trunk[0].radius - ratio).abs() < 1e-6 })
+        );
     }
     // Unequal daughters: 0.8 of the parent ahead, 0.4 to the sides.
     let tree = grown("coffey_whorls", &[area, ("generations", 1.0)]);
