@@ -41,6 +41,14 @@ impl Frame {
     /// A trunk: upwards, azimuth 0 to the east (+x).
     pub const TRUNK: Self = Self { along: DVec3::Z, across: DVec3::X };
 
+    /// The frame of two axes that are of length 1 but for rounding.
+    fn new(along: DVec3, across: DVec3) -> Self {
+        // Newton's step towards length 1. Without it errors double with each generation, since the third
+        // axis is a product of the two.
+        let unit = |axis: DVec3| axis * (1.5 - 0.5 * axis.dot(axis));
+        Self { along: unit(along), across: unit(across) }
+    }
+
     /// The third axis. Seen from the branch's foot to its tip, azimuths run clockwise from
     /// [`Frame::across`] to it.
     #[must_use]
@@ -57,17 +65,14 @@ impl Frame {
     #[must_use]
     pub fn branch(&self, polar: Angle, azimuth: Angle) -> Self {
         let out = self.at(azimuth);
-        Self {
-            along: self.along * polar.cos + out * polar.sin,
-            across: self.along * polar.sin - out * polar.cos,
-        }
+        Self::new(self.along * polar.cos + out * polar.sin, self.along * polar.sin - out * polar.cos)
     }
 
     /// The same direction with azimuths counted from `azimuth` on: the leader's frame at a node, so
     /// that whorls advance.
     #[must_use]
     pub fn turned(&self, azimuth: Angle) -> Self {
-        Self { along: self.along, across: self.at(azimuth) }
+        Self::new(self.along, self.at(azimuth))
     }
 
     /// The frame leaning by `lean` towards `azimuth`, carried along with the rotation that takes the old
@@ -77,20 +82,17 @@ impl Frame {
         let towards = self.at(azimuth);
         let still = self.along.cross(towards);
         let level = towards * lean.cos - self.along * lean.sin;
-        Self {
-            along: self.along * lean.cos + towards * lean.sin,
-            across: level * azimuth.cos - still * azimuth.sin,
-        }
+        Self::new(self.along * lean.cos + towards * lean.sin, level * azimuth.cos - still * azimuth.sin)
     }
 
     /// The frame turned by `angle` towards [`Frame::across`], within the plane of the two axes: a branch
     /// of a tree in the plane, where the right stays the right.
     #[must_use]
     pub fn in_plane(&self, angle: Angle) -> Self {
-        Self {
-            along: self.along * angle.cos + self.across * angle.sin,
-            across: self.across * angle.cos - self.along * angle.sin,
-        }
+        Self::new(
+            self.along * angle.cos + self.across * angle.sin,
+            self.across * angle.cos - self.along * angle.sin,
+        )
     }
 }
 
