@@ -127,7 +127,7 @@ fn figure_25() {
 fn radii_fall_by_the_factor() {
     let tree = grown("coffey_turned_crown", &[]);
     let radius = |stem: usize| tree.knots_of(&tree.stems[stem])[0].radius;
-    assert!((radius(0) - 0.069 * 2.5).abs() < 1e-12);
+    assert!((radius(0) - 0.1 * 2.5).abs() < 1e-12);
     for (index, stem) in tree.stems.iter().enumerate().skip(1) {
         assert!((radius(index) * 1.5 - radius(stem.parent.unwrap() as usize)).abs() < 1e-12);
     }

@@ -7,8 +7,8 @@ use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Family, Parts};
 use std::path::Path;
 
-/// Pixels; letters are twice as high as wide.
-const SIZE: u32 = 48;
+/// Pixels across and down: enough for the main branches.
+const SIZE: u32 = 96;
 
 fn drawn(name: &str) -> String {
     let tree = preset(name).unwrap().grow(1).unwrap();
