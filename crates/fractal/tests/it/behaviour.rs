@@ -137,6 +137,8 @@ fn leaves_lie_along_the_last_twigs() {
         assert!((leaf.across.length() - 0.5 * leaf.along.length()).abs() < 1e-5);
         assert!(leaf.along.dot(leaf.across).abs() < 1e-5);
     }
+    let stump = grown("coffey_old_tree", &[("drop", 0.9), ("drop_from", 1.0)]);
+    assert_eq!(stump.leaves.len(), 0, "a limb that lost its branches has no leaf");
     let half = grown("coffey_old_tree", &[("leaf_rate", 0.5)]).leaves.len() as f64;
     let share = half / tree.leaves.len() as f64;
     assert!((0.4..0.6).contains(&share), "{share}");
