@@ -3,7 +3,8 @@
 use crate::bitmap::Bitmap;
 use crate::raster::Rasterizer;
 use crate::view::{Frame, Projection, View};
-use pleach_tree::{Parts, Tree};
+use glam::DVec3;
+use pleach_tree::{Leaf, Parts, Tree};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// From the south, the south-east and the east, with +x east and +y north, and from above, north at the
@@ -26,18 +27,13 @@ const fn level(azimuth: f64) -> View {
 #[must_use]
 pub fn four_views(tree: &Tree, parts: Parts, size: u32) -> Bitmap {
     let quarter = size / 2;
-    let mut frames = FOUR_VIEWS.map(|view| Frame::automatic(tree, &view, parts, quarter, quarter));
-    let scale = frames.iter().map(|frame| frame.meters_per_pixel).fold(0.0, f64::max);
-    for (frame, view) in frames.iter_mut().zip(FOUR_VIEWS) {
-        *frame = if view.elevation == 0.0 {
-            Frame { meters_per_pixel: scale, ..*frame }
-        } else {
-            centered(tree, parts, quarter, scale)
-        };
-    }
+    let extents = FOUR_VIEWS.map(|view| Extent::new(tree, parts, &view));
+    let needed = extents.iter().zip(FOUR_VIEWS).map(|(extent, view)| extent.size(&view));
+    let scale = needed.fold(1e-9, f64::max) / (f64::from(quarter.max(1)) * Frame::FILL);
     let mut sheet = Bitmap::new(size, size);
     let (mut rasterizer, mut bitmap) = (Rasterizer::new(), Bitmap::default());
-    for ((number, view), frame) in (0..).zip(FOUR_VIEWS).zip(frames) {
+    for ((number, view), extent) in (0..).zip(FOUR_VIEWS).zip(extents) {
+        let frame = extent.frame(&view, quarter, scale);
         rasterizer.draw(tree, &view, &frame, parts, &mut bitmap);
         let (left, top) = (number % 2 * quarter, number / 2 * quarter);
         for y in 0..bitmap.height() {
@@ -47,24 +43,75 @@ pub fn four_views(tree: &Tree, parts: Parts, size: u32) -> Bitmap {
     sheet
 }
 
-/// The frame of the view from above with the middle of the tree in the middle.
-fn centered(tree: &Tree, parts: Parts, quarter: u32, scale: f64) -> Frame {
-    let middle = f64::from(quarter) / 2.0;
-    let bounds = pleach_tree::stats::Bounds::new(tree, parts);
-    let [x, y] = bounds.map_or([0.0; 2], |b| [(b.min.x + b.max.x) / 2.0, (b.min.y + b.max.y) / 2.0]);
-    Frame {
-        width: quarter,
-        height: quarter,
-        meters_per_pixel: scale,
-        axis_column: middle - x / scale,
-        ground_row: middle + y / scale,
+/// From where to where a tree reaches in a view, in metres to the right of the trunk's foot and above it.
+///
+/// Closer than the corners of its bounding box, which are far from the tree in a view across.
+#[derive(Clone, Copy, Debug)]
+struct Extent {
+    right: (f64, f64),
+    up: (f64, f64),
+}
+
+impl Extent {
+    fn new(tree: &Tree, parts: Parts, view: &View) -> Self {
+        let [right, up, _] = view.axes();
+        let mut extent = Self { right: (0.0, 0.0), up: (0.0, 0.0) };
+        let mut add = |point: DVec3, radius: f64| {
+            for (range, at) in [(&mut extent.right, point.dot(right)), (&mut extent.up, point.dot(up))] {
+                *range = (range.0.min(at - radius), range.1.max(at + radius));
+            }
+        };
+        for stem in tree.stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
+            tree.knots_of(stem).iter().for_each(|knot| add(knot.point, knot.radius));
+        }
+        let mut add_shape = |leaf: &Leaf, u: f32, v: f32, w: f32| {
+            let point = leaf.position + leaf.across * u + leaf.along * v + leaf.normal() * w;
+            add(point.as_dvec3(), 0.0);
+        };
+        if parts.contains(Parts::LEAVES) {
+            for leaf in &tree.leaves {
+                tree.outline_of(leaf).corners().iter().for_each(|p| add_shape(leaf, p[0], p[1], 0.0));
+            }
+        }
+        if parts.contains(Parts::BLOSSOMS) {
+            for blossom in &tree.blossoms {
+                let faces = tree.blossom_shapes[usize::from(blossom.shape)].faces();
+                faces.vertices.iter().for_each(|p| add_shape(blossom, p[0], p[1], p[2]));
+            }
+        }
+        if parts.contains(Parts::BLOBS) {
+            tree.blob_vertices.iter().for_each(|vertex| add(vertex.as_dvec3(), 0.0));
+        }
+        extent
+    }
+
+    /// Metres across or up that a square picture of the view has to show.
+    fn size(&self, view: &View) -> f64 {
+        let (right, up) = (self.right, self.up);
+        if view.elevation == 0.0 {
+            // The foot is in the middle; what hangs below the ground is cut off.
+            (2.0 * right.1.max(-right.0)).max(up.1)
+        } else {
+            (right.1 - right.0).max(up.1 - up.0)
+        }
+    }
+
+    fn frame(&self, view: &View, quarter: u32, scale: f64) -> Frame {
+        let middle = f64::from(quarter) / 2.0;
+        let (axis_column, ground_row) = if view.elevation == 0.0 {
+            (middle, f64::from(quarter))
+        } else {
+            let (x, y) = ((self.right.0 + self.right.1) / 2.0, (self.up.0 + self.up.1) / 2.0);
+            (middle - x / scale, middle + y / scale)
+        };
+        Frame { width: quarter, height: quarter, meters_per_pixel: scale, axis_column, ground_row }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{DVec3, dvec3};
+    use glam::dvec3;
     use pleach_tree::{Knot, Stem, StemKind};
 
     /// A straight trunk and a level branch from its top.
@@ -108,6 +155,7 @@ mod tests {
         assert!((0.65..0.8).contains(&ratio), "{ratio}");
         assert!(south.0.abs_diff(above.0) <= 1 && above.1 < 8, "{south:?} {above:?}");
         assert!(south.1.abs_diff(east.1) <= 1, "one scale: {south:?} {east:?}");
+        assert!((46..=49).contains(&south.0), "the largest fills 95 % of its side: {south:?}");
         // Towards the south-east: end on from there.
         let sheet = four_views(&gallows(dvec3(2.0, -2.0, 0.0)), Parts::LEAFY, 200);
         assert!(extents(&sheet)[1].0 < 10, "{:?}", extents(&sheet));
