@@ -154,7 +154,7 @@ mod tests {
         let ratio = f64::from(south_east.0) / f64::from(south.0);
         assert!((0.65..0.8).contains(&ratio), "{ratio}");
         assert!(south.0.abs_diff(above.0) <= 2 && above.1 < 8, "{south:?} {above:?}");
-        assert!(south.1.abs_diff(east.1) <= 1, "one scale: {south:?} {east:?}");
+        assert!(south.1.abs_diff(east.1) <= 2, "one scale: {south:?} {east:?}");
         assert!((46..=49).contains(&south.0), "the largest fills 95 % of its side: {south:?}");
         // Towards the south-east: end on from there.
         let sheet = four_views(&gallows(dvec3(2.0, -2.0, 0.0)), Parts::LEAFY, 200);
