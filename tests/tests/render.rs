@@ -107,7 +107,8 @@ fn the_gallery_may_be_of_another_generator() {
     assert_eq!((sheet.width(), sheet.height()), (3 * (2 * 24 + 4) + 4, 4 * 30 + 4));
     dir.run(["render", "--gallery", "--generator", "oaks"])
         .fails(2, &["unknown generator `oaks`", "fractal"]);
-    dir.run(["render", "acer", "--generator", "fractal"]).fails(2, &["--gallery"]);
+    dir.run(["render", "acer", "--generator", "fractal"]).fails(2, &["--generator", "SPECIES"]);
+    dir.run(["render", "--generator", "fractal"]).fails(2, &["--gallery"]);
 }
 
 #[test]

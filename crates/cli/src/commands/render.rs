@@ -44,7 +44,7 @@ pub(crate) struct Render {
     #[arg(long, conflicts_with_all = ["species", "season", "no_leaves", "turntable", "background", "ground"])]
     gallery: bool,
     /// On the sheet: all species of this generator instead
-    #[arg(long, value_name = "NAME", requires = "gallery", value_parser = family)]
+    #[arg(long, value_name = "NAME", requires = "gallery", conflicts_with = "species", value_parser = family)]
     generator: Option<&'static dyn Family>,
     /// Seed of the tree; the species file's own, or 1, by default
     #[arg(long, value_name = "N", value_parser = input::seed)]
