@@ -1,7 +1,7 @@
 //! Fractal trees: every branch ends in smaller copies of itself, turned by fixed angles.
 //!
 //! Coffey 2025, *Modelling the Growth and Shape of Trees*, §3 (in the plane) and Appendix (in space,
-//! with chance). `PARAMS` in the declarations says what each number does; `docs/fractal.md` shows the
+//! with chance). The declarations say what each number does; `docs/fractal.md` shows the
 //! trees.
 //!
 //! | module | idea |
