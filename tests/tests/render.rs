@@ -98,6 +98,20 @@ fn the_gallery_is_one_sheet_of_fifteen_species_twice() {
 }
 
 #[test]
+fn the_gallery_may_be_of_another_generator() {
+    let dir = Dir::new();
+    let args = ["render", "--gallery", "--generator", "fractal", "--size", "24", "-o", "sheet.png"];
+    let _ = dir.run(args).ok();
+    let sheet = open(&dir.path("sheet.png"));
+    // Ten species, three in a row.
+    assert_eq!((sheet.width(), sheet.height()), (3 * (2 * 24 + 4) + 4, 4 * 30 + 4));
+    dir.run(["render", "--gallery", "--generator", "oaks"])
+        .fails(2, &["unknown generator `oaks`", "fractal"]);
+    dir.run(["render", "acer", "--generator", "fractal"]).fails(2, &["--generator", "SPECIES"]);
+    dir.run(["render", "--generator", "fractal"]).fails(2, &["--gallery"]);
+}
+
+#[test]
 fn what_cannot_be_drawn_says_what_can() {
     let dir = Dir::new();
     dir.run(["render", "acer", "-o", "a.jpg"]).fails(1, &["`.jpg`", ".png"]);

@@ -43,6 +43,36 @@ fn views_and_leaves_make_a_difference() {
 }
 
 #[test]
+fn four_views_are_one_picture_of_every_family() {
+    let dir = Dir::new();
+    for species in ["small_pine", "abop_bush", "coffey_whorls"] {
+        let sheet = png(&dir, &[species, "--size", "256", "--four-views"]).to_luma8();
+        assert_eq!(sheet.dimensions(), (256, 256));
+        for (x, y) in [(0, 0), (128, 0), (0, 128), (128, 128)] {
+            let quarter = image::imageops::crop_imm(&sheet, x, y, 128, 128).to_image();
+            let ink = quarter.pixels().filter(|p| p[0] == 0).count();
+            assert!(ink > 100, "{species}: {ink} pixels in the quarter at {x}, {y}");
+        }
+    }
+    // What lies in the plane from west to east is a line from the east, and from above.
+    let sheet = png(&dir, &["coffey_umbrella", "--size", "256", "--four-views"]).to_luma8();
+    let ink = |x: u32, y: u32, width: u32, height: u32| {
+        image::imageops::crop_imm(&sheet, x, y, width, height)
+            .to_image()
+            .pixels()
+            .filter(|p| p[0] == 0)
+            .count()
+    };
+    let (beside, above) = (ink(0, 128, 128, 128), ink(128, 128, 128, 128));
+    assert!(beside > 0 && beside == ink(59, 128, 10, 128), "from the east, around the middle column");
+    assert!(above > 0 && above == ink(128, 187, 128, 10), "from above, around the middle row");
+    assert!(ink(0, 0, 128, 128) > 2 * beside);
+    dir.run(["silhouette", "palm", "--four-views", "--view", "90"]).fails(2, &["--four-views", "--view"]);
+    let text = dir.run(["silhouette", "palm", "--four-views"]).ok();
+    assert!(text.lines().count() > 30, "{text}");
+}
+
+#[test]
 fn without_a_file_the_tree_is_drawn_in_the_terminal() {
     let text = Dir::new().run(["silhouette", "palm"]).ok();
     assert!(text.lines().count() > 30 && text.contains('⣿'), "{text}");

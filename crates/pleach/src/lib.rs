@@ -99,8 +99,8 @@ pub use pleach_generators::{
 };
 pub use pleach_silhouette::score::ScoreCard;
 pub use pleach_silhouette::{
-    Bitmap, Detail, Frame, Goal, GoalError, GoalOptions, GoalWarning, Polarity, Projection, Rasterizer, View,
-    silhouette,
+    Bitmap, Detail, FOUR_VIEWS, Frame, Goal, GoalError, GoalOptions, GoalWarning, Polarity, Projection,
+    Rasterizer, View, four_views, silhouette,
 };
 pub use pleach_tree::leaf_shape::{BlossomShape, LeafShape, Outline, OutlineError};
 pub use pleach_tree::species::{Appearance, Color, Season};

@@ -12,6 +12,7 @@
 
 pub mod bitmap;
 mod encode;
+mod four_views;
 pub mod goal;
 pub mod mask;
 pub mod picture;
@@ -22,6 +23,7 @@ mod touches;
 pub mod view;
 
 pub use bitmap::Bitmap;
+pub use four_views::{FOUR_VIEWS, four_views};
 pub use goal::{Goal, GoalError, GoalOptions, GoalWarning, Polarity};
 pub use raster::{Detail, Rasterizer, silhouette};
 pub use view::{Camera, Frame, Projection, View};

@@ -67,7 +67,7 @@ mod tests {
     #[test]
     fn generators_are_named_and_others_are_told_which_there_are() {
         assert_eq!("all".parse(), Ok(GeneratorChoice::Auto));
-        for name in ["auto", "weber-penn", "lsystem"] {
+        for name in ["auto", "weber-penn", "lsystem", "fractal"] {
             assert_eq!(name.parse::<GeneratorChoice>().unwrap().to_string(), name);
         }
         let error = "lsystems".parse::<GeneratorChoice>().unwrap_err();

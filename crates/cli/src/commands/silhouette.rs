@@ -3,7 +3,7 @@
 use crate::input::LimitArgs;
 use crate::{files, input, output};
 use anyhow::{Context, bail};
-use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View, four_views};
 use pleach_tree::{Foliage, Growth, Parts};
 use std::path::PathBuf;
 
@@ -11,11 +11,15 @@ const EXAMPLES: &str = "Examples:
   pleach silhouette acer                      drawn in the terminal
   pleach silhouette acer --seed 7 -o acer.png
   pleach silhouette acer --view 90,20 --no-leaves -o side.png
+  pleach silhouette acer --four-views -o four.png
   pleach silhouette acer -o - > acer.png      to standard output
 
 The PNG is black on white, one bit per pixel. The ground is the bottom edge, the trunk's foot is in the \
 middle, and the larger of height and width fills 95 % of the picture. Azimuth 0 looks along +y with +x \
-to the right.";
+to the right.
+
+With --four-views the quarters of the picture show the tree from the south (azimuth 0), the south-east (45) \
+and the east (90), and from above with north at the top, all at one scale; +x is east, +y north.";
 
 /// Draw the binary picture of a tree
 #[derive(Debug, clap::Args)]
@@ -32,6 +36,9 @@ pub(crate) struct Silhouette {
     /// Direction of view in degrees: azimuth, and elevation where it is not 0
     #[arg(long, value_name = "AZ[,EL]", default_value = "0", allow_hyphen_values = true, value_parser = input::view)]
     view: View,
+    /// Four views in one picture: from the south, the south-east, the east and above
+    #[arg(long, conflicts_with = "view")]
+    four_views: bool,
     /// Draw stems only
     #[arg(long)]
     no_leaves: bool,
@@ -52,27 +59,24 @@ impl Silhouette {
             .grow_with(&growth)
             .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
 
-        let draw = |width: u32, height: u32| {
-            let frame =
-                Frame::automatic(&tree, &self.view, Parts::with_foliage(!self.no_leaves), width, height);
+        let parts = Parts::with_foliage(!self.no_leaves);
+        let draw = |size: u32| {
+            if self.four_views {
+                return four_views(&tree, parts, size);
+            }
+            let frame = Frame::automatic(&tree, &self.view, parts, size, size);
             let mut bitmap = Bitmap::default();
-            Rasterizer::new().draw(
-                &tree,
-                &self.view,
-                &frame,
-                Parts::with_foliage(!self.no_leaves),
-                &mut bitmap,
-            );
+            Rasterizer::new().draw(&tree, &self.view, &frame, parts, &mut bitmap);
             bitmap
         };
         let Some(path) = &self.out else {
-            return output::line(in_characters(&draw(160, 160)));
+            return output::line(in_characters(&draw(160)));
         };
         let png = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("png"));
         if !png && !files::is_stdout(path) {
             bail!("{} is not a .png: silhouettes are written as PNG", path.display());
         }
-        let bitmap = draw(self.size, self.size);
+        let bitmap = draw(self.size);
         files::write_out(path, |mut out| Ok(bitmap.write_png(&mut out)?))?;
         output::wrote(path);
         Ok(())

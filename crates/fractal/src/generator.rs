@@ -1,0 +1,39 @@
+//! The generator: values, and what becomes of them.
+
+use crate::grow::{Scratch, grow};
+use crate::model::Model;
+use crate::params::{Id, is_active, space};
+use pleach_tree::{CheckedParams, Generator, GrowError, Growth, ParamSpace, Slot, Tree, Workspace};
+use std::sync::Arc;
+
+/// What species files call the generator.
+pub(crate) const NAME: &str = "fractal";
+
+/// The growth model. It has nothing but its numbers, so there is nothing in it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Fractal;
+
+impl Generator for Fractal {
+    fn family(&self) -> &'static str {
+        NAME
+    }
+
+    fn space(&self) -> &Arc<ParamSpace> {
+        space()
+    }
+
+    fn is_active(&self, values: &[f64], slot: Slot) -> bool {
+        is_active(values, Id::ALL[slot.index()])
+    }
+
+    fn grow(
+        &self,
+        params: &CheckedParams,
+        growth: &Growth,
+        workspace: &mut Workspace,
+        tree: &mut Tree,
+    ) -> Result<(), GrowError> {
+        let model = Model::new(params.values_in(space())?);
+        grow(&model, growth, workspace.scratch::<Scratch>(), tree)
+    }
+}

@@ -1,0 +1,27 @@
+//! Fractal trees: every branch ends in smaller copies of itself, turned by fixed angles.
+//!
+//! Coffey 2025, *Modelling the Growth and Shape of Trees*, §3 (in the plane) and Appendix (in space,
+//! with chance). The declarations say what each number does; `docs/fractal.md` shows the
+//! trees.
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | `params` | the numbers, declared once |
+//! | `model` | the numbers as a generator wants them |
+//! | [`frame`] | where a branch points, and how its daughters' azimuths are counted |
+//! | [`noise`] | the two laws of chance |
+//! | `count` | how many branches are certain, before any grows |
+//! | `grow` | the recursion, as a stack |
+
+mod count;
+mod family;
+pub mod frame;
+mod generator;
+mod grow;
+mod model;
+pub mod noise;
+mod params;
+mod purpose;
+
+pub use family::{FractalFamily, preset};
+pub use generator::Fractal;

@@ -1,0 +1,139 @@
+//! The numbers of a tree as the generator wants them: radians, typed choices.
+
+use crate::noise::Noise;
+use crate::params::{Id, MAX_SIDES, SCALES};
+use pleach_tree::leaf_shape::LeafShape;
+
+/// Whether a tree is flat.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Dimensions {
+    /// All of it lies in the plane y = 0.
+    Plane,
+    /// Branches turn about their parents.
+    Space,
+}
+
+impl Dimensions {
+    pub(crate) const NAMES: [&str; 2] = ["plane", "space"];
+
+    pub(crate) fn from_number(number: f64) -> Self {
+        if number < 1.5 { Self::Plane } else { Self::Space }
+    }
+}
+
+/// How radii of daughters follow from their parent's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ThicknessRule {
+    /// Divided by a factor in each generation.
+    Factor,
+    /// Together the daughters have the cross-section of their parent, each in proportion to its
+    /// length squared: Leonardo da Vinci's rule (Coffey 2025, §2).
+    Area,
+}
+
+impl ThicknessRule {
+    pub(crate) const NAMES: [&str; 2] = ["factor", "area"];
+
+    pub(crate) fn from_number(number: f64) -> Self {
+        if number < 1.5 { Self::Factor } else { Self::Area }
+    }
+}
+
+/// A number and its greatest deviation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Varied {
+    pub(crate) nominal: f64,
+    pub(crate) deviation: f64,
+}
+
+/// All numbers of a tree. Angles in radians, lengths in metres.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Model {
+    pub(crate) dimensions: Dimensions,
+    pub(crate) generations: u16,
+    pub(crate) trunk_length: f64,
+    pub(crate) trunk_radius: f64,
+    pub(crate) thickness_rule: ThicknessRule,
+    pub(crate) thickness_factor: f64,
+    pub(crate) side_branches: Varied,
+    pub(crate) polar: Varied,
+    pub(crate) azimuth: Varied,
+    pub(crate) scale: Varied,
+    pub(crate) apical_ratio: Varied,
+    pub(crate) central_polar_v: f64,
+    pub(crate) noise: Noise,
+    pub(crate) drop: f64,
+    pub(crate) drop_from: u16,
+    pub(crate) leaf_rate: f64,
+    pub(crate) leaf_length: f64,
+    pub(crate) leaf_width: f64,
+    pub(crate) leaf_shape: LeafShape,
+}
+
+impl Model {
+    /// The model of `values` that their space has checked.
+    pub(crate) fn new(values: &[f64]) -> Self {
+        let get = |id: Id| id.get(values);
+        let varied = |id, v| Varied { nominal: get(id), deviation: get(v) };
+        let radians = |id, v| Varied { nominal: get(id).to_radians(), deviation: f64::to_radians(get(v)) };
+        Self {
+            dimensions: Dimensions::from_number(get(Id::dimensions)),
+            generations: get(Id::generations) as u16,
+            trunk_length: get(Id::trunk_length),
+            trunk_radius: get(Id::trunk_length) * get(Id::thickness),
+            thickness_rule: ThicknessRule::from_number(get(Id::thickness_rule)),
+            thickness_factor: get(Id::thickness_factor),
+            side_branches: varied(Id::side_branches, Id::side_branches_v),
+            polar: radians(Id::polar, Id::polar_v),
+            azimuth: radians(Id::azimuth, Id::azimuth_v),
+            scale: varied(Id::scale, Id::scale_v),
+            apical_ratio: varied(Id::apical_ratio, Id::apical_ratio_v),
+            central_polar_v: get(Id::central_polar_v).to_radians(),
+            noise: Noise::ALL[usize::from(get(Id::noise) > 1.5)],
+            drop: get(Id::drop),
+            drop_from: get(Id::drop_from) as u16,
+            leaf_rate: get(Id::leaf_rate),
+            leaf_length: get(Id::leaf_length),
+            leaf_width: get(Id::leaf_width),
+            leaf_shape: LeafShape::from_number(get(Id::leaf_shape) as i64).unwrap_or(LeafShape::Rectangle),
+        }
+    }
+
+    /// Whether nodes have a central branch.
+    pub(crate) fn has_central(&self) -> bool {
+        self.apical_ratio.nominal > 0.0
+    }
+
+    /// The whole number of side branches that `count` stands for.
+    pub(crate) fn sides(count: f64) -> u32 {
+        count.round().clamp(0.0, MAX_SIDES) as u32
+    }
+
+    /// The length ratio of a side branch that `scale` stands for.
+    pub(crate) fn side_scale(scale: f64) -> f64 {
+        scale.clamp(SCALES.0, SCALES.1)
+    }
+
+    /// The length ratio of a central branch: nothing for an apical ratio of 0, so that a tree changes
+    /// gradually as it gets there.
+    pub(crate) fn central_scale(scale: f64, apical_ratio: f64) -> f64 {
+        (Self::side_scale(scale) * apical_ratio).clamp(0.0, SCALES.1)
+    }
+
+    /// By the rule of areas: radius at the tip of a branch without daughters, over that at its foot. It is
+    /// that of the thickest daughter that it would have without deviations.
+    pub(crate) fn tip_taper(&self) -> f64 {
+        let side = self.scale.nominal;
+        let central = Self::central_scale(side, self.apical_ratio.nominal);
+        let sides = f64::from(Self::sides(self.side_branches.nominal));
+        let greatest = if sides > 0.0 { side.max(central) } else { central };
+        let sum = sides * side * side + central * central;
+        if sum > 0.0 { greatest / sum.sqrt() } else { 1.0 }
+    }
+
+    /// In a plane: how much of the angle `polar` side branch `number` of `count` takes, from 1 (right) to
+    /// −1 (left).
+    pub(crate) fn fan(number: u32, count: u32) -> f64 {
+        if count < 2 { 1.0 } else { 1.0 - 2.0 * f64::from(number) / f64::from(count - 1) }
+    }
+}

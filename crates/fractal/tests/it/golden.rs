@@ -1,0 +1,33 @@
+//! Silhouettes of all species as text, as they were when someone last looked at them.
+//!
+//! `PLEACH_BLESS=1 cargo test -p pleach-fractal golden` writes them anew.
+
+use pleach_fractal::{FractalFamily, preset};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::{Family, Parts};
+use std::path::Path;
+
+/// Pixels across and down: enough for the main branches.
+const SIZE: u32 = 96;
+
+fn drawn(name: &str) -> String {
+    let tree = preset(name).unwrap().grow(1).unwrap();
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIZE, SIZE);
+    let mut bitmap = Bitmap::default();
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut bitmap);
+    bitmap.to_ascii()
+}
+
+#[test]
+fn species_look_as_they_did() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/golden");
+    for (name, _) in FractalFamily.presets() {
+        let path = folder.join(format!("{name}.txt"));
+        if std::env::var_os("PLEACH_BLESS").is_some() {
+            std::fs::write(&path, drawn(name)).unwrap();
+        }
+        let expected = std::fs::read_to_string(&path).unwrap();
+        let found = drawn(name);
+        assert!(found == expected, "{name} looks otherwise:\n{found}\nexpected\n{expected}");
+    }
+}
