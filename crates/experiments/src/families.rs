@@ -31,13 +31,8 @@ struct Named {
     /// The family that was named, and its nearest species.
     named: String,
     nearest: String,
-    /// Least cost of that family after the race.
-    cost: Fixed<4>,
-    /// The next family, and its cost.
-    second: String,
-    second_cost: Fixed<4>,
-    /// Cost of the goal's own family; 1 if it did not run.
-    own_cost: Fixed<4>,
+    /// Family, likeness before the race and cost after it, of all that ran, best first.
+    runners: String,
     wall_s: Fixed<1>,
 }
 
@@ -188,10 +183,8 @@ impl FamiliesSpec {
             |_, _| (),
         )?;
         let family = pleach_generators::species(species)?.generator.family();
-        let best = |wanted: &dyn Fn(&Runner) -> bool| found.runners.iter().find(|&one| wanted(one));
-        let first = best(&|_| true).context("a guess has a winner")?;
-        let second = best(&|one| one.family != first.family);
-        let own = best(&|one| one.family == family);
+        let first = found.runners.first().context("a guess has a winner")?;
+        let said = |one: &Runner| format!("{} {:.3} {:.3}", one.family, one.likeness, one.reached);
         Ok(Named {
             goal: number,
             species: species.to_owned(),
@@ -200,10 +193,7 @@ impl FamiliesSpec {
             family: family.to_owned(),
             named: first.family.to_owned(),
             nearest: first.species.clone(),
-            cost: Fixed(first.reached),
-            second: second.map(|one| one.family.to_owned()).unwrap_or_default(),
-            second_cost: Fixed(second.map_or(1.0, |one| one.reached)),
-            own_cost: Fixed(own.map_or(1.0, |one| one.reached)),
+            runners: found.runners.iter().map(said).collect::<Vec<_>>().join("; "),
             wall_s: Fixed(started.elapsed().as_secs_f64()),
         })
     }

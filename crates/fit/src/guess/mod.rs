@@ -1,8 +1,9 @@
 //! A first guess: which known species a goal looks like, and the lists that a search may start from.
 //!
 //! Candidates may be of any family of generators; each grows its own trees. Where they are of several
-//! generators, the likeliest are each searched for a short while ([`RaceSettings`]); the one that has then
-//! reached the least cost is searched on, from lists of that generator alone.
+//! generators, the likeliest are each searched for a short while ([`RaceSettings`]); the one that stands
+//! best by what it has reached, and by how like the goal its trees were before, is searched on, from lists
+//! of that generator alone.
 //!
 //! Trees of all candidates are grown as they are and with their numbers varied, drawn finely, laid into
 //! the goal's frame at the goal's height, and compared by likeness, which knows a species by other trees
@@ -148,7 +149,7 @@ impl GuessLibrary {
         let (mut costs, alike) = ranked(&shown, (entries, &found), keep);
         // What looks alike may still stand beside the goal: the objective of the search decides.
         let known = FitProblem { foliage, ..known.clone() };
-        let mut all = race::contenders(&shown, scored(&known, &shown, alike)?, keep);
+        let mut all = race::contenders(&shown, scored(&known, &shown, alike)?, &costs, keep);
         if let (Some(how), 2..) = (guess.race, all.len()) {
             all = race::race(&known, &shown, how, all, &mut progress)?;
         }
@@ -219,8 +220,9 @@ fn leaves(
     let other = if given == Foliage::None { Foliage::All } else { Foliage::None };
     let found_other = compare(shown, entries, other)?;
     let [leafy, bare] = if given == Foliage::None { [&found_other, &found] } else { [&found, &found_other] };
-    // Species that never have leaves say nothing for leaves.
-    let (leafy, bare) = (most_alike(leafy, |one| one.has_foliage), most_alike(bare, |_| true));
+    // Species that never have leaves say nothing for or against them.
+    let counts: Vec<bool> = leafy.iter().map(|one| one.as_ref().is_some_and(|one| one.has_foliage)).collect();
+    let (leafy, bare) = (most_alike(leafy, &counts), most_alike(bare, &counts));
     let foliage = if has_leaves(leafy, bare) { Foliage::All } else { Foliage::None };
     Ok(if foliage == given { (given, found) } else { (other, found_other) })
 }
@@ -320,8 +322,9 @@ fn first_of(costs: &[f64]) -> Option<usize> {
 }
 
 /// Likeness of the tree that is most like the goal, among those that count.
-fn most_alike(found: &[Option<Resemblance>], counts: impl Fn(&Resemblance) -> bool) -> f64 {
-    found.iter().flatten().filter(|one| counts(one)).map(|one| one.likeness).fold(0.0, f64::max)
+fn most_alike(found: &[Option<Resemblance>], counts: &[bool]) -> f64 {
+    let counting = found.iter().zip(counts).filter(|(_, counts)| **counts);
+    counting.filter_map(|(found, _)| found.as_ref()).map(|one| one.likeness).fold(0.0, f64::max)
 }
 
 /// Whether a goal has leaves, from the largest likeness that trees with leaves have to it, and those

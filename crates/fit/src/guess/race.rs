@@ -26,6 +26,8 @@ pub struct Runner {
     pub family: &'static str,
     /// Its species that was nearest to the goal at first.
     pub species: String,
+    /// Likeness of the tree of its family that is most like the goal, before any search.
+    pub likeness: f64,
     /// Least cost of its trees before the race: see [`crate::Objective`].
     pub guessed: f64,
     /// Least cost after it; the same where there was no race.
@@ -43,7 +45,15 @@ pub(super) struct Contender {
     pub(super) lists: Vec<Guess>,
     /// What the race has found, if it is better than all of them.
     pub(super) found: Option<Guess>,
+    /// Likeness of the tree of its family that is most like the goal.
+    likeness: f64,
 }
+
+/// What a tree that is like the goal before any search is worth beside what a search reaches.
+///
+/// A search makes any generator cover a goal; which one has a species whose other trees look like it says
+/// more about where the goal comes from.
+const BY_LIKENESS: f64 = 1.0;
 
 impl Contender {
     /// The least cost so far.
@@ -51,33 +61,53 @@ impl Contender {
         self.found.as_ref().unwrap_or(&self.lists[0]).score.cost
     }
 
+    /// What decides between generators; the least wins.
+    fn standing(&self) -> f64 {
+        self.cost() + BY_LIKENESS * (1.0 - self.likeness)
+    }
+
     /// How it did.
     pub(super) fn runner(&self, shown: &Shown<'_>) -> Runner {
         Runner {
             family: shown.family(self.candidate),
             species: self.lists[0].name.clone(),
+            likeness: self.likeness,
             guessed: self.lists[0].score.cost,
             reached: self.cost(),
         }
     }
 }
 
-/// The generators of `nearest`, which is sorted by cost; each with its `keep` best lists.
-pub(super) fn contenders(shown: &Shown<'_>, nearest: Vec<(usize, Guess)>, keep: usize) -> Vec<Contender> {
+/// The generators of `nearest`, which is sorted by cost; each with its `keep` best lists. `unlike` is what
+/// each candidate lacks of a likeness of 1.
+pub(super) fn contenders(
+    shown: &Shown<'_>,
+    nearest: Vec<(usize, Guess)>,
+    unlike: &[f64],
+    keep: usize,
+) -> Vec<Contender> {
+    let likeness = |candidate: usize| {
+        let family = shown.family(candidate);
+        let of_family = unlike.iter().enumerate().filter(|(other, _)| shown.family(*other) == family);
+        1.0 - of_family.map(|(_, unlike)| *unlike).fold(1.0, f64::min)
+    };
     let mut all: Vec<Contender> = Vec::new();
     for (candidate, guess) in nearest {
         let model = shown.models.number(candidate);
         match all.iter_mut().find(|one| one.model == model) {
             Some(one) if one.lists.len() < keep => one.lists.push(guess),
             Some(_) => {}
-            None => all.push(Contender { model, candidate, lists: vec![guess], found: None }),
+            None => {
+                let (likeness, lists) = (likeness(candidate), vec![guess]);
+                all.push(Contender { model, candidate, lists, found: None, likeness });
+            }
         }
     }
     all
 }
 
 /// Searches each of `all` for a while, the best of every family and others up to the number that
-/// `race` says, and sorts them by what they have reached. Those that do not run are dropped.
+/// `race` says, and sorts them by how they stand then. Those that do not run are dropped.
 pub(super) fn race(
     problem: &FitProblem,
     shown: &Shown<'_>,
@@ -92,7 +122,7 @@ pub(super) fn race(
         one.found = search(problem, shown, race, one)?;
         progress(number + 1, count);
     }
-    all.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+    all.sort_by(|a, b| a.standing().total_cmp(&b.standing()));
     Ok(all)
 }
 

@@ -30,7 +30,7 @@ pub struct RaceSettings {
 
 impl Default for RaceSettings {
     fn default() -> Self {
-        Self { runners: 6, evaluations: 150 }
+        Self { runners: 5, evaluations: 100 }
     }
 }
 

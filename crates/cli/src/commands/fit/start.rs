@@ -98,12 +98,13 @@ pub(super) fn raced(guess: &FirstGuess) -> Option<String> {
     let families = families(Some(guess));
     let (first, others) = families.split_first()?;
     let others: Vec<String> =
-        others.iter().map(|one| format!("{} {:.3} ({})", one.family, one.reached, one.species)).collect();
+        others.iter().map(|one| format!("{} {:.2}, {:.3}", one.family, one.likeness, one.reached)).collect();
     Some(format!(
-        "family {}: after a short race its cost is {:.3}, that of {} (0 is best)",
+        "family {}: likeness at first {:.2}, cost after a short race {:.3}; {}",
         first.family,
+        first.likeness,
         first.reached,
-        others.join(", ")
+        others.join("; ")
     ))
 }
 
