@@ -85,14 +85,13 @@ pub(crate) struct Request<'a> {
 /// The string after `request.steps` steps, or after the step that changed nothing.
 pub(crate) fn derive(program: &Program, request: &Request<'_>) -> Result<Modules, DeriveError> {
     let Request { globals, limits, .. } = *request;
-    let mut writer = Writer::new(program, globals, Modules::default(), limits.symbols);
+    let mut writer = Writer::new(program, globals, Modules::default(), limits.symbols, (0, limits.work));
     let key = request.key.child(purpose::AXIOM, 0);
     let axiom = writer.block(program.axiom, key).and_then(|()| writer.check());
     axiom.map_err(|trouble| Stop { rule: NO_RULE, trouble }.error(program, 0))?;
-    let mut string = writer.out;
+    let Writer { out: mut string, mut work, .. } = writer;
     cut(program, &mut string);
     let mut spare = Modules::default();
-    let mut work = 0;
     for number in 0..request.steps {
         let surroundings = program.has_context.then(|| Surroundings::new(program, &string));
         let step = Step {
@@ -101,14 +100,12 @@ pub(crate) fn derive(program: &Program, request: &Request<'_>) -> Result<Modules
             string: &string,
             number: number as u32,
             limits,
+            spent: work,
             surroundings: surroundings.as_ref(),
         };
         let fail = |stop: Stop| stop.error(program, number + 1);
         let (mut next, changed, more) = step.rewrite(spare, request.parallel).map_err(fail)?;
         work += more;
-        if work > limits.work {
-            return Err(fail(Stop { rule: NO_RULE, trouble: Trouble::TooMuchWork(limits.work) }));
-        }
         cut(program, &mut next);
         spare = std::mem::replace(&mut string, next);
         if !changed && !program.waits {

@@ -3,7 +3,7 @@
 use super::context::{Place, Surroundings};
 use super::machine::{Trouble, purpose};
 use super::string::Modules;
-use super::writer::Writer;
+use super::writer::{VALUES_PER_MODULE, Writer};
 use super::{Limits, NO_RULE, Stop};
 use crate::program::{Kind, Program, Rule, SUM_TOLERANCE};
 use pleach_tree::Key;
@@ -13,6 +13,10 @@ use rayon::prelude::*;
 const CHUNK: usize = 16_384;
 /// Tasks after which limits are looked at: bounds what is written beyond them.
 const WAVE: usize = 16;
+/// Rules tried for one module that are one more step of work.
+const RULES_PER_WORK: usize = 16;
+/// Modules passed in search of one context that are one more step of work.
+const PASSED_PER_WORK: u64 = 16;
 
 /// What all modules of a step share.
 #[derive(Clone, Copy)]
@@ -22,6 +26,8 @@ pub(super) struct Step<'a> {
     pub(super) string: &'a Modules,
     pub(super) number: u32,
     pub(super) limits: Limits,
+    /// Work of the steps before this one.
+    pub(super) spent: u64,
     pub(super) surroundings: Option<&'a Surroundings>,
 }
 
@@ -91,6 +97,7 @@ impl Step<'_> {
         let (mut changed, mut work) = (false, 0);
         for wave in chunks.chunks(WAVE) {
             let room = self.limits.symbols - out.kinds.len();
+            let most_values = self.limits.symbols.saturating_mul(VALUES_PER_MODULE);
             let written: Vec<Result<Written, Stop>> =
                 wave.par_iter().map(|&chunk| self.rewrite_chunk(chunk, Modules::default(), room)).collect();
             for part in written {
@@ -98,7 +105,8 @@ impl Step<'_> {
                 out.append(&part.out);
                 changed |= part.changed;
                 work += part.work;
-                if out.kinds.len() > self.limits.symbols {
+                let too_many = out.kinds.len() > self.limits.symbols || out.values.len() > most_values;
+                if too_many || self.spent + work > self.limits.work {
                     return None;
                 }
             }
@@ -108,9 +116,9 @@ impl Step<'_> {
 
     fn rewrite_chunk(&self, chunk: Chunk, out: Modules, room: usize) -> Result<Written, Stop> {
         let Self { program, string, .. } = *self;
-        let mut writer = Writer::new(program, self.globals, out, room);
+        let mut writer = Writer::new(program, self.globals, out, room, (self.spent, self.limits.work));
         let (mut changed, mut value) = (false, chunk.value);
-        writer.work = (chunk.end - chunk.start) as u64;
+        writer.work += (chunk.end - chunk.start) as u64;
         for at in chunk.start..chunk.end {
             let number = string.kinds[at];
             let kind = &program.kinds[usize::from(number)];
@@ -136,7 +144,7 @@ impl Step<'_> {
         }
         writer.check().map_err(|trouble| Stop { rule: NO_RULE, trouble })?;
         let Writer { out, work, .. } = writer;
-        Ok(Written { out, changed, work })
+        Ok(Written { out, changed, work: work - self.spent })
     }
 
     /// Replaces a module by the successor of the first rule that applies, if one does.
@@ -148,7 +156,9 @@ impl Step<'_> {
         for (number, &index) in kind.rules.iter().enumerate() {
             let rule = &program.rules[index];
             let stop = |trouble| Stop { rule: index, trouble };
-            if !self.in_context(rule, at, &mut writer.machine.frame) {
+            // Rules and expressions in such numbers, and contexts so far away, take time of their own.
+            writer.work += u64::from(rule.toll) + u64::from(number % RULES_PER_WORK == RULES_PER_WORK - 1);
+            if !self.in_context(rule, at, writer) {
                 continue;
             }
             let key = if kind.keyed { base.child(purpose::RULE, number as u32) } else { base };
@@ -166,14 +176,17 @@ impl Step<'_> {
         Ok(false)
     }
 
-    fn in_context(&self, rule: &Rule, at: usize, frame: &mut [f64]) -> bool {
+    fn in_context(&self, rule: &Rule, at: usize, writer: &mut Writer<'_>) -> bool {
         let Some(surroundings) = self.surroundings else { return true };
         if rule.left.is_empty() && rule.right.is_empty() {
             return true;
         }
         let Self { program, string, .. } = *self;
-        let mut place = Place { program, string, surroundings, frame };
-        place.left(at, &rule.left) && place.right(at + 1, &rule.right)
+        let frame = &mut writer.machine.frame;
+        let mut place = Place { program, string, surroundings, frame, passed: 0 };
+        let fits = place.left(at, &rule.left) && place.right(at + 1, &rule.right);
+        writer.work += place.passed / PASSED_PER_WORK;
+        fits
     }
 
     /// Draws one of the successors.
