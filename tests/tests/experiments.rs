@@ -43,11 +43,21 @@ fn complexity() {
 }
 
 #[test]
+fn lsystem_time() {
+    check("lsystem-time", &["--repetitions", "2"]);
+}
+
+#[test]
+fn lsystem_fit() {
+    check("lsystem-fit", &["--repetitions", "1"]);
+}
+
+#[test]
 fn likeness() {
     check("likeness", &["--repetitions", "1"]);
 }
 
-/// The first block of each area: two thousand cases.
+/// The first block of each area: 2,400 cases.
 #[test]
 fn robustness() {
     check("robustness", &["--repetitions", "1"]);

@@ -50,6 +50,8 @@ pub struct DeriveError {
     pub step: usize,
     /// What went wrong, and where in the grammar.
     pub diagnostic: Diagnostic,
+    /// The rule that was applied, such as `F(x)`; none in the axiom and the header.
+    pub rule: Option<String>,
 }
 
 /// The number of the axiom among the rules.
@@ -67,7 +69,8 @@ impl Stop {
         let rule = program.rules.get(self.rule);
         let name = rule.map_or_else(|| "the axiom".to_owned(), |r| format!("the rule for `{}`", r.name));
         let span = self.trouble.span().or(rule.map(|r| r.span)).unwrap_or_default();
-        DeriveError { step, diagnostic: Diagnostic::new(span, self.trouble.fault(&name)) }
+        let diagnostic = Diagnostic::new(span, self.trouble.fault(&name));
+        DeriveError { step, diagnostic, rule: rule.map(|rule| rule.name.clone()) }
     }
 }
 
@@ -162,5 +165,5 @@ pub(crate) fn globals(program: &Program, params: &[f64], key: Key) -> Result<Vec
 pub(crate) fn header_error(program: &Program, op: u32, trouble: Trouble) -> DeriveError {
     let span = trouble.span().unwrap_or(program.spans[op as usize]);
     let fault: Fault = trouble.fault("the header");
-    DeriveError { step: 0, diagnostic: Diagnostic::new(span, fault) }
+    DeriveError { step: 0, diagnostic: Diagnostic::new(span, fault), rule: None }
 }

@@ -2,7 +2,7 @@
 
 use super::compile::Compiler;
 use super::scope::Scope;
-use super::{Act, Block, Code, Command, Formal, KindIndex, OPS_PER_WORK, Pattern, Program, Rule};
+use super::{Act, Block, Code, Command, Formal, Kind, KindIndex, OPS_PER_WORK, Op, Pattern, Program, Rule};
 use crate::derive::Machine;
 use crate::diagnostic::{Diagnostic, Fault};
 use crate::syntax::{self, Context, Predecessor};
@@ -141,6 +141,29 @@ impl Program {
             let kind = &mut self.kinds[number];
             (kind.keyed, kind.run, kind.min_len) = (keyed, run, min_len);
         }
+    }
+
+    /// The rules that write most modules of the kinds that `is_meant` means, as messages call them;
+    /// repeats are not counted.
+    pub(crate) fn writers(&self, is_meant: impl Fn(&Kind) -> bool) -> Vec<String> {
+        /// Most that are named.
+        const MAX: usize = 2;
+        let count = |rule: &Rule| {
+            let written = rule.successors.iter().flat_map(|block| self.kinds_in(*block));
+            written.filter(|&kind| is_meant(&self.kinds[usize::from(kind)])).count()
+        };
+        let mut writers: Vec<(usize, &str)> =
+            self.rules.iter().map(|rule| (count(rule), rule.name.as_str())).filter(|w| w.0 > 0).collect();
+        writers.sort_by_key(|writer| std::cmp::Reverse(writer.0));
+        writers.into_iter().take(MAX).map(|(_, name)| name.to_owned()).collect()
+    }
+
+    /// The parameters that a setting is computed from.
+    pub(crate) fn params_of(&self, key: syntax::SettingKey) -> Vec<String> {
+        let codes = self.settings.iter().filter(|(known, _)| *known == key).flat_map(|(_, codes)| codes);
+        let ops = codes.flat_map(|code| &self.ops[code.start as usize..code.end as usize]);
+        let globals = ops.filter_map(|op| if let Op::Global(i) = op { Some(usize::from(*i)) } else { None });
+        globals.filter_map(|i| Some(self.params.get(i)?.name.text.clone())).collect()
     }
 
     fn act_draws(&self, act: &Act) -> bool {

@@ -88,3 +88,27 @@ fn a_megabyte_of_statements_is_read_or_refused_quickly() {
         assert!(report.is_none_or(|drawing| drawing.len() < 50_000), "{start}");
     }
 }
+
+/// Who is blamed for a tree beyond `limits`.
+fn blamed(grammar: &str, limits: pleach_tree::Limits) -> String {
+    let text = format!("grammar = '''\n{grammar}'''\n");
+    let doc = pleach_tree::SpeciesDoc::parse("test", &text).unwrap();
+    let species = doc.species(&pleach_lsystem::LSystemFamily).unwrap_or_else(|e| panic!("{e}"));
+    let growth = pleach_tree::Growth { limits, ..pleach_tree::Growth::seed(1) };
+    species.grow_with(&growth).unwrap_err().to_string()
+}
+
+#[test]
+fn the_rule_that_grows_is_named() {
+    let grammar = "dialect: hewitt\nsteps: n\nparam n = 9 in 1..64 count\naxiom: A(1)\n\
+                   A(l) -> F(l) [ B(l) ] A(l) [ C ]\nB(l) -> F(l, 40) B(l)\nC -> [ F(1) ] C F(1) F(1)\n";
+    let limits = pleach_tree::Limits::DEFAULT;
+    let told = blamed(grammar, pleach_tree::Limits { stems: 5, ..limits });
+    assert!(told.contains("because of `A(l)` and `C`"), "{told}");
+    let told = blamed(grammar, pleach_tree::Limits { knots: 5, ..limits });
+    assert!(told.contains("because of `C` and `A(l)`"), "{told}");
+    let told = blamed(grammar, pleach_tree::Limits { leaves: 5, ..limits });
+    assert!(told.contains("because of `B(l)`;"), "{told}");
+    let told = blamed(grammar, pleach_tree::Limits { work: 100, ..limits });
+    assert!(told.contains("`n`") && told.contains("because of `"), "{told}");
+}

@@ -24,7 +24,8 @@ pub(super) fn excerpt(text: &str, span: &Range<usize>, help: Option<&str>, color
     // Two-byte control characters, which the renderer lets through and terminals obey; as many bytes as
     // before.
     let line = line.replace(|c: char| matches!(c, '\u{80}'..='\u{9f}'), "\u{b7}");
-    let place = Snippet::source(line.as_str()).line_start(number).annotation(AnnotationKind::Primary.span(from..to));
+    let place =
+        Snippet::source(line.as_str()).line_start(number).annotation(AnnotationKind::Primary.span(from..to));
     let mut group = Group::with_level(Level::ERROR).element(place);
     if let Some(help) = help {
         group = group.element(Level::HELP.message(help));
