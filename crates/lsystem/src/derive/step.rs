@@ -11,6 +11,8 @@ use rayon::prelude::*;
 
 /// Modules that one task rewrites.
 const CHUNK: usize = 16_384;
+/// Modules from which tasks pay: on busy cores copying their results took longer than they saved.
+const MIN_PARALLEL: usize = 4 * CHUNK;
 /// Tasks after which limits are looked at: bounds what is written beyond them.
 const WAVE: usize = 16;
 /// Rules tried for one module that are one more step of work.
@@ -68,9 +70,9 @@ impl Step<'_> {
     pub(super) fn rewrite(&self, mut out: Modules, parallel: bool) -> Result<(Modules, bool, u64), Stop> {
         let length = self.foresee()?;
         out.clear();
-        if parallel && self.string.kinds.len() > 2 * CHUNK {
+        if parallel && self.string.kinds.len() > MIN_PARALLEL {
             let mut target = std::mem::take(&mut out);
-            if let Some((changed, work)) = self.in_waves(&mut target) {
+            if let Some((changed, work)) = self.in_waves(&mut target, length) {
                 return Ok((target, changed, work));
             }
             // Something went wrong: what, the modules in their order tell.
@@ -86,7 +88,10 @@ impl Step<'_> {
         Ok((out, changed, work))
     }
 
-    fn in_waves(&self, out: &mut Modules) -> Option<(bool, u64)> {
+    /// `length` is the fewest modules that there will be.
+    fn in_waves(&self, out: &mut Modules, length: usize) -> Option<(bool, u64)> {
+        out.kinds.reserve(length);
+        let part = length / self.string.kinds.len().div_ceil(CHUNK);
         let mut chunks = Vec::new();
         let mut value = 0;
         for (number, kinds) in self.string.kinds.chunks(CHUNK).enumerate() {
@@ -98,8 +103,10 @@ impl Step<'_> {
         for wave in chunks.chunks(WAVE) {
             let room = self.limits.symbols - out.kinds.len();
             let most_values = self.limits.symbols.saturating_mul(VALUES_PER_MODULE);
-            let written: Vec<Result<Written, Stop>> =
-                wave.par_iter().map(|&chunk| self.rewrite_chunk(chunk, Modules::default(), room)).collect();
+            let written: Vec<Result<Written, Stop>> = wave
+                .par_iter()
+                .map(|&chunk| self.rewrite_chunk(chunk, Modules::with_room(part), room))
+                .collect();
             for part in written {
                 let part = part.ok()?;
                 out.append(&part.out);
