@@ -144,10 +144,11 @@ impl Step<'_> {
                 if program.random {
                     writer.out.keys.push(string.keys[at]);
                 }
-                continue;
             }
-            let rule = kind.rules[0];
-            writer.check().map_err(|trouble| Stop { rule, trouble })?;
+            // Rules that did not apply were work too.
+            if let Some(&rule) = kind.rules.first() {
+                writer.check().map_err(|trouble| Stop { rule, trouble })?;
+            }
         }
         writer.check().map_err(|trouble| Stop { rule: NO_RULE, trouble })?;
         let Writer { out, work, .. } = writer;
