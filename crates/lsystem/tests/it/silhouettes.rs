@@ -8,16 +8,19 @@ use std::fmt::Write as _;
 const PICTURES: &str = include_str!("../data/silhouettes.txt");
 /// Pixels of a side.
 const SIDE: u32 = 28;
+/// Finer pixels in a row of one: twigs are thinner than a pixel, which is ink if any of it is.
+const FINE: u32 = 8;
 
 /// The silhouette of the tree of seed 1, from the front.
 fn silhouette(name: &str) -> Bitmap {
     let species =
         pleach_tree::species::preset(&LSystemFamily, name).unwrap_or_else(|| panic!("no species {name}"));
     let tree = species.grow(1).unwrap();
-    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIDE, SIDE);
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIDE * FINE, SIDE * FINE);
     let mut bitmap = Bitmap::default();
     Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut bitmap);
-    bitmap
+    let is_ink = |x, y| (0..FINE * FINE).any(|i| bitmap.get(x * FINE + i % FINE, y * FINE + i / FINE));
+    Bitmap::from_fn(SIDE, SIDE, is_ink)
 }
 
 /// Set `PLEACH_BLESS` to write the pictures again, and look at them.
