@@ -48,16 +48,11 @@ fn lsystem_time() {
 }
 
 #[test]
-fn lsystem_fit() {
-    check("lsystem-fit", &["--repetitions", "1"]);
-}
-
-#[test]
 fn likeness() {
     check("likeness", &["--repetitions", "1"]);
 }
 
-/// The first block of each area: 2,400 cases.
+/// The first block of each area: two thousand cases.
 #[test]
 fn robustness() {
     check("robustness", &["--repetitions", "1"]);
