@@ -43,6 +43,11 @@ fn complexity() {
 }
 
 #[test]
+fn lsystem_time() {
+    check("lsystem-time", &["--repetitions", "2"]);
+}
+
+#[test]
 fn likeness() {
     check("likeness", &["--repetitions", "1"]);
 }

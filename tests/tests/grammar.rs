@@ -48,3 +48,63 @@ fn species_with_grammars_grow_like_others() {
     assert!(vertices("palm.obj").len() > 1000);
     assert!(vertices("palm.obj") == vertices("again.obj"));
 }
+
+/// What is wrong is refused at once, with its place and a caret.
+#[test]
+fn bad_grammars_are_refused_quickly() {
+    let dir = Dir::new();
+    let doubling = "steps: 64\naxiom: F\nF -> FF\n";
+    let nan = "steps: 3\naxiom: F(-1)\nF(x) -> F(sqrt(x))\n";
+    let cases: [(&str, &str, &[&str]); 13] = [
+        ("", "1:1", &["the grammar has no axiom"]),
+        ("\n\n  # nothing\n", "1:1", &["the grammar has no axiom"]),
+        (&format!("axiom: F{}", "[".repeat(100_000)), "1:73", &["nested more than 64 deep", "^"]),
+        (&format!("axiom: F({}", "(".repeat(100_000)), "1:73", &["nested more than 64 deep", "^"]),
+        ("param for = 1 in 0..2\naxiom: F", "1:7", &["`for` is taken", "^^^"]),
+        ("axiom: F\nconst let = 1", "2:7", &["`let` is taken", "^^^"]),
+        ("axiom: F\nF(sin) -> F(1)", "2:3", &["`sin` is taken", "^^^"]),
+        ("module in\naxiom: F", "1:8", &["`in` is taken", "^^"]),
+        ("axiom: F\nF -(-1)-> F -2-> G", "2:5", &["is -1", "allowed is 0 to 1", "^^"]),
+        ("param a = 5 in 0..1\naxiom: F", "1:7", &["`a` is 5", "allowed is 0 to 1", "^"]),
+        (doubling, "3:1", &["more than 20000000 symbols", "`F`", "^^^^^^^"]),
+        (nan, "3:11", &["is NaN, which is not finite", "`F(x)`", "^^^^"]),
+        ("axiom: F(1/(2-2))", "1:10", &["division by zero", "^^^"]),
+    ];
+    for (text, place, told) in cases {
+        std::fs::write(dir.path("bad.lsys"), text).unwrap();
+        let started = std::time::Instant::now();
+        let run = dir.run(["grammar", "bad.lsys", "--derive", "64"]);
+        run.fails(1, &[told, &[&format!("bad.lsys:{place}")]].concat());
+        assert!(started.elapsed().as_secs() < 20, "{place}: {:?}", started.elapsed());
+    }
+    // A hundred megabytes, of which one is read.
+    let large = "F".repeat(1 << 20).repeat(100);
+    std::fs::write(dir.path("large.lsys"), format!("axiom: {large}")).unwrap();
+    let started = std::time::Instant::now();
+    dir.run(["grammar", "large.lsys"]).fails(1, &["bytes or more, at most 1048576", "large.lsys:1:1"]);
+    assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
+    std::fs::write(dir.path("bytes.lsys"), b"axiom: F\nF -> \xff").unwrap();
+    dir.run(["grammar", "bytes.lsys"]).fails(1, &["bytes.lsys:2:6", "0xff is not UTF-8"]);
+}
+
+#[test]
+fn mistakes_in_a_species_file_are_drawn_where_they_stand() {
+    let dir = Dir::new();
+    let text = "generator = \"lsystem\"\nsize = 12\ngrammar = '''\nscale: size\nparam size = 1 in 0..2\naxiom: F[+F\nF -> Q(foo)\n'''\n";
+    std::fs::write(dir.path("bad.toml"), text).unwrap();
+    let told = [
+        "bad.toml:6:9: `[` is not closed: there is no `]`",
+        "6 | axiom: F[+F",
+        "  |         ^",
+        "brackets pair up within one successor",
+        "bad.toml:7:8: `foo` is not a known name",
+        "7 | F -> Q(foo)",
+        "  |        ^^^",
+    ];
+    dir.run(["grow", "bad.toml", "--stats-only"]).fails(1, &told);
+    std::fs::write(dir.path("bad.toml"), text.replace("F[+F", "F").replace("Q(foo)", "FF")).unwrap();
+    let told = ["bad.toml:2:8: `size` is 12, which is out of range", "2 | size = 12", "  |        ^^"];
+    dir.run(["grow", "bad.toml", "--stats-only"]).fails(1, &told);
+    std::fs::write(dir.path("acer.toml"), "levels = 9\n").unwrap();
+    dir.run(["grow", "acer.toml"]).fails(1, &["acer.toml:1:10: `levels` is 9", "1 | levels = 9", "^"]);
+}

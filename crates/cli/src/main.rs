@@ -11,6 +11,8 @@ mod skeleton;
 
 use pleach_console::{files, interrupted, output, signals};
 use pleach_fit::FitError;
+use pleach_generators::RegistryError;
+use pleach_tree::SpeciesError;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -19,10 +21,19 @@ fn main() -> ExitCode {
         // Whoever reads our output has read enough, as in `pleach species | head`.
         Err(error) if output::is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            output::error(&error);
+            output::error(&error, species_file);
             if was_interrupted(&error) { ExitCode::from(signals::INTERRUPTED) } else { ExitCode::FAILURE }
         }
     }
+}
+
+/// A drawing of what is wrong with a species file, if that is what `cause` is about.
+fn species_file(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
+    let error = match cause.downcast_ref() {
+        Some(RegistryError::Species(error)) => Some(error),
+        _ => cause.downcast_ref::<SpeciesError>(),
+    };
+    error.map(|error| error.draw(true))
 }
 
 /// Whether a request to stop is what `error` is about.

@@ -54,16 +54,24 @@ pub fn wrote(path: &Path) {
     }
 }
 
-/// Tells the user why the program failed: each cause on its own line.
-pub fn error(error: &anyhow::Error) {
-    anstream::eprintln!("{ERROR}error:{ERROR:#} {}", causes(error, "\n  because: "));
+/// Tells the user why the program failed: each cause on its own line, or as `drawn` has it.
+pub fn error(error: &anyhow::Error, drawn: impl Fn(&(dyn std::error::Error + 'static)) -> Option<String>) {
+    anstream::eprintln!("{ERROR}error:{ERROR:#} {}", joined(error, "\n  because: ", drawn));
 }
 
 /// What went wrong and why, causes set apart by `because`.
 pub fn causes(error: &anyhow::Error, because: &str) -> String {
+    joined(error, because, |_| None)
+}
+
+fn joined(
+    error: &anyhow::Error,
+    because: &str,
+    drawn: impl Fn(&(dyn std::error::Error + 'static)) -> Option<String>,
+) -> String {
     let mut message = String::new();
     for (i, cause) in error.chain().enumerate() {
-        let cause = cause.to_string();
+        let cause = drawn(cause).unwrap_or_else(|| cause.to_string());
         // Errors that carry their source in their own words would say it twice.
         if i > 0 && message.contains(&cause) {
             continue;

@@ -66,10 +66,13 @@ fn utf8<'a>(bytes: &'a [u8], origin: &str) -> Result<&'a str, SpeciesError> {
             origin: origin.to_owned(),
             line,
             column,
+            span: at..at + 1,
             parameter: String::new(),
             problem: Problem::Syntax { message },
+            help: None,
         };
-        SpeciesError { issues: vec![issue] }
+        // The line as far as it is text, which has the place right before its end.
+        SpeciesError::new(before, vec![issue])
     })
 }
 

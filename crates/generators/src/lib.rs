@@ -149,7 +149,7 @@ pub fn species(name_or_path: &str) -> Result<Species, RegistryError> {
 pub fn read_text(origin: &str, text: &str) -> Result<Species, SpeciesError> {
     use pleach_tree::param::Problem;
     let doc = SpeciesDoc::parse(origin, text)?;
-    let wrong = |issue| SpeciesError { issues: vec![issue] };
+    let wrong = |issue| doc.wrong(vec![issue]);
     let name = doc.text("generator").map_err(wrong)?.unwrap_or_else(|| default_family().name());
     let Some(family) = families().iter().find(|family| family.name() == name) else {
         let span = doc.get("generator").map_or(0..0, |node| node.span.clone());

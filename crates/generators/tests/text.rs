@@ -32,10 +32,13 @@ fn check(text: &str) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-fn placed(SpeciesError { issues }: &SpeciesError, text: &str) -> Result<(), TestCaseError> {
+fn placed(told: &SpeciesError, text: &str) -> Result<(), TestCaseError> {
+    let SpeciesError { issues, .. } = told;
+    let drawing = told.draw(false);
+    prop_assert!(!drawing.chars().any(|c| c.is_control() && c != '\n'), "{:?}", drawing);
     prop_assert!(!issues.is_empty());
     let lines = text.matches('\n').count() + 1;
-    let error = SpeciesError { issues: issues.clone() }.to_string();
+    let error = told.to_string();
     prop_assert!(error.lines().count() <= 21, "{}", error);
     for issue in issues {
         prop_assert!((1..=lines).contains(&issue.line), "{}", issue);

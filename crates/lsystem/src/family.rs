@@ -1,6 +1,8 @@
 //! Species files with a grammar in them, and those that come with pleach.
 
+use crate::diagnostic::Diagnostic;
 use crate::generator::{GrammarGenerator, NAME};
+use crate::syntax::Span;
 use crate::system::LSystem;
 use pleach_tree::param::Problem;
 use pleach_tree::species::{Form, Issue, KEYS, Key, Value};
@@ -47,28 +49,35 @@ impl Family for LSystemFamily {
             ));
             return None;
         };
-        let mut complain = |message: String| {
-            issues.push(doc.issue(node.span.clone(), GRAMMAR, Problem::Syntax { message }));
-        };
         let system = match LSystem::read("grammar", text) {
             Ok(system) => system,
             Err(report) => {
                 for diagnostic in report.diagnostics.iter().take(MAX_TOLD) {
-                    let (line, column) = report.place(diagnostic.span.start);
-                    complain(format!("has a mistake at {line}:{column} of its text: {}", diagnostic.fault));
+                    let Diagnostic { span, fault } = diagnostic;
+                    let place = doc.span_within(node, span.start..span.end);
+                    let problem = Problem::Syntax { message: fault.to_string() };
+                    issues.push(Issue { help: fault.help(), ..doc.issue(place, "", problem) });
                 }
                 return None;
             }
         };
+        let mut complain = |span: Span, message: String| {
+            let place = doc.span_within(node, span.start..span.end);
+            issues.push(doc.issue(place, GRAMMAR, Problem::Syntax { message }));
+        };
         let taken = |name: &str| name == GRAMMAR || KEYS.iter().any(|key| key.name == name);
         if let Some(param) = system.params().iter().find(|p| taken(&p.name.text)) {
-            complain(format!("declares a parameter `{}`, which is a key of species files", param.name.text));
+            let name = &param.name;
+            complain(
+                name.span,
+                format!("declares a parameter `{}`, which is a key of species files", name.text),
+            );
             return None;
         }
         match GrammarGenerator::new(system) {
             Ok(generator) => Some(Arc::new(generator)),
             Err(error) => {
-                complain(format!("declares a parameter wrongly: {error}"));
+                complain(Span::default(), format!("declares a parameter wrongly: {error}"));
                 None
             }
         }

@@ -2,6 +2,7 @@
 
 use crate::derive::{DeriveError, Limits};
 use crate::diagnostic::Fault;
+use crate::program::Command;
 use crate::syntax::{ExprKind, Grammar, ParamDecl, ParamUnit, SettingKey};
 use crate::system::{Derivation, LSystem};
 use crate::turtle::GrowFault;
@@ -39,10 +40,11 @@ impl GrammarGenerator {
     }
 
     fn error(&self, error: &DeriveError, growth: &Growth) -> GrowError {
-        let blame = Blame::default();
-        let DeriveError { step, diagnostic } = error;
+        let DeriveError { step, diagnostic, rule } = error;
         match &diagnostic.fault {
             Fault::TooManySymbols { .. } | Fault::TooMuchWork { .. } => {
+                let params = self.system.program.params_of(SettingKey::Steps);
+                let blame = Blame(rule.iter().cloned().chain(params).collect());
                 GrowError::TooMuchWork { limit: growth.limits.work, blame }
             }
             fault => {
@@ -134,10 +136,23 @@ impl Generator for GrammarGenerator {
         };
         let derived = self.system.derive(&derivation).map_err(|error| self.error(&error, growth))?;
         let limits = growth.limits;
+        let writers = |is_meant: fn(Command, usize) -> bool| {
+            Blame(self.system.program.writers(|kind| is_meant(kind.command, kind.arity)))
+        };
+        let is_leaf = |command, arity| match command {
+            Command::Forward => arity > 1,
+            command => matches!(command, Command::Leaf | Command::ClosePolygon),
+        };
         derived.grow(&limits, growth.foliage, tree).map_err(|fault| match fault {
-            GrowFault::Stems => GrowError::TooManyStems { limit: limits.stems, blame: Blame::default() },
-            GrowFault::Knots => GrowError::TooManyKnots { limit: limits.knots, blame: Blame::default() },
-            GrowFault::Leaves => GrowError::TooManyLeaves { limit: limits.leaves, blame: Blame::default() },
+            GrowFault::Stems => {
+                let blame = writers(|command, _| matches!(command, Command::Open | Command::Move));
+                GrowError::TooManyStems { limit: limits.stems, blame }
+            }
+            GrowFault::Knots => {
+                let blame = writers(|command, _| command == Command::Forward);
+                GrowError::TooManyKnots { limit: limits.knots, blame }
+            }
+            GrowFault::Leaves => GrowError::TooManyLeaves { limit: limits.leaves, blame: writers(is_leaf) },
             GrowFault::NotFinite => GrowError::NotFinite { what: "a position" },
             GrowFault::NothingDrawn => GrowError::Rule {
                 line: 1,

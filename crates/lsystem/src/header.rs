@@ -27,7 +27,11 @@ impl Header {
                 if !(min..=max).contains(&number) {
                     let fault = Fault::OutOfRange { name: key.name().to_owned(), value: number, min, max };
                     let span = program.spans[code.start as usize];
-                    return Err(DeriveError { step: 0, diagnostic: Diagnostic::new(span, fault) });
+                    return Err(DeriveError {
+                        step: 0,
+                        diagnostic: Diagnostic::new(span, fault),
+                        rule: None,
+                    });
                 }
                 *value = number;
             }

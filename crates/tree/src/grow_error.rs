@@ -3,7 +3,8 @@
 use crate::param::ForeignParams;
 use std::fmt;
 
-/// The parameters that an error is put down to, most of all first; none where that is not known.
+/// The parameters, or the rules of a grammar, that an error is put down to, most of all first; none where
+/// that is not known.
 ///
 /// Its text continues a sentence: `, because of branches[2] and branches[1]`, with quotes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -4,6 +4,7 @@ use crate::{files, input, output};
 use anyhow::{Context, anyhow, bail};
 use pleach_lsystem::{Derivation, LSystem, LSystemFamily, MAX_BYTES};
 use pleach_tree::{Family, SpeciesDoc};
+use std::borrow::Cow;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -81,20 +82,28 @@ impl GrammarCommand {
             let system = LSystem::read(&self.file, text)?;
             return Ok((system, Some(species.params.values().to_vec())));
         }
-        let mut text = String::new();
+        let mut bytes = Vec::new();
         // One byte more than allowed, so that what is too large is seen to be.
         let limit = MAX_BYTES as u64 + 1;
         if input::is_standard(path) {
-            std::io::stdin()
-                .lock()
-                .take(limit)
-                .read_to_string(&mut text)
-                .context("cannot read the grammar")?;
+            let read = std::io::stdin().lock().take(limit).read_to_end(&mut bytes);
+            read.context("cannot read the grammar")?;
         } else {
             let file = std::fs::File::open(path)
                 .with_context(|| format!("cannot read the grammar {}", path.display()))?;
-            let read = file.take(limit).read_to_string(&mut text);
+            let read = file.take(limit).read_to_end(&mut bytes);
             read.with_context(|| format!("cannot read the grammar {}", path.display()))?;
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        if let (Cow::Owned(_), Err(error)) = (&text, std::str::from_utf8(&bytes))
+            && bytes.len() <= MAX_BYTES
+        {
+            let at = error.valid_up_to();
+            let before = String::from_utf8_lossy(&bytes[..at]);
+            let (line, last) = (before.matches('\n').count() + 1, before.rsplit('\n').next());
+            let column = last.map_or(0, |last| last.chars().count()) + 1;
+            let (file, byte) = (&self.file, bytes[at]);
+            bail!("{file}:{line}:{column}: the byte 0x{byte:02x} is not UTF-8 text, expected a grammar");
         }
         match LSystem::read(&self.file, &text) {
             Ok(system) => Ok((system, None)),

@@ -76,6 +76,8 @@ struct Blocks {
     pictures: Whole<0, 100_000>,
     checkpoints: Whole<0, 100_000>,
     experiments: Whole<0, 100_000>,
+    #[serde(default)]
+    grammars: Option<Whole<0, 100_000>>,
 }
 
 impl RobustnessSpec {
@@ -84,13 +86,14 @@ impl RobustnessSpec {
     }
 
     fn areas(&self) -> anyhow::Result<Vec<(Arc<dyn Area>, u64)>> {
-        let Blocks { species, parameters, pictures, checkpoints, experiments } = &self.blocks;
+        let Blocks { species, parameters, pictures, checkpoints, experiments, grammars } = &self.blocks;
         Ok(vec![
             (Arc::new(areas::SpeciesFiles::new()), **species),
             (Arc::new(areas::Parameters::new()), **parameters),
             (Arc::new(areas::Pictures::new()?), **pictures),
             (Arc::new(areas::Checkpoints::new()?), **checkpoints),
             (Arc::new(areas::Experiments), **experiments),
+            (Arc::new(areas::Grammars::new()?), grammars.as_ref().map_or(0, |blocks| **blocks)),
         ])
     }
 }

@@ -10,7 +10,7 @@ use pleach_fit::{
 };
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::score::likeness::Likeness;
-use pleach_tree::{Limits, Species};
+use pleach_tree::{Family, Limits, Species};
 use std::time::{Duration, Instant};
 
 /// Seed of the trees that are fitted; own goals are of other seeds.
@@ -25,8 +25,8 @@ pub(super) struct Attempt {
 }
 
 /// First guesses of one goal: several methods start from the same.
-#[derive(Default)]
 pub(super) struct Guesses {
+    family: &'static dyn Family,
     known: Vec<(Objective, TreeSeed, u64, Guessed)>,
 }
 
@@ -36,6 +36,11 @@ struct Guessed {
 }
 
 impl Guesses {
+    /// No guess yet, of which each is of a species of `family`.
+    pub(super) const fn new(family: &'static dyn Family) -> Self {
+        Self { family, known: Vec::new() }
+    }
+
     fn of(&mut self, problem: &FitProblem, settings: &FitSettings) -> anyhow::Result<&Guessed> {
         let FitSettings { objective, tree_seed, seed, .. } = *settings;
         let is_same = |known: &(Objective, TreeSeed, u64, Guessed)| {
@@ -45,7 +50,7 @@ impl Guesses {
             Some(at) => at,
             None => {
                 let started = Instant::now();
-                let known = pleach_generators::presets(pleach_generators::default_family());
+                let known = pleach_generators::presets(self.family);
                 let found = first_guess(
                     problem,
                     settings,

@@ -120,9 +120,9 @@ fn seeds_of(goal: &OwnGoal) -> anyhow::Result<Option<Ceiling>> {
     let whole = OwnGoal { degraded: None, ..goal.clone() };
     let problem = Problem::own(&GoalSpec::Own(whole.clone()), &whole)?;
     let species = pleach_generators::species(&goal.species)?;
+    let own = FitProblem { start: species.clone(), ..problem.fit };
     let truth = Genome::new(species.params.values().to_vec(), goal.seed);
-    let fresh =
-        fresh_seeds(&problem.fit, Objective::default(), Limits::default(), &truth, FRESH, stop::flag())?;
+    let fresh = fresh_seeds(&own, Objective::default(), Limits::default(), &truth, FRESH, stop::flag())?;
     Ok(fresh.map(|fresh| Ceiling { likeness: fresh.likeness.mean, iou: fresh.iou.mean }))
 }
 

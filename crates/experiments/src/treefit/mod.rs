@@ -77,7 +77,7 @@ impl Kind for TreefitSpec {
                 |row: &Fit| (&row.goal, &row.method, row.repetition) == (&name, &method.name, repetition);
             let make = || {
                 let is_first = repetition == 1 && method.name == self.first_method().name;
-                let row = fitted(folder, goal, method, repetition, &mut current, keeps && is_first)?;
+                let row = self.fitted(folder, goal, method, repetition, &mut current, keeps && is_first)?;
                 Ok(vec![row])
             };
             journal.job(is_of, make)?;
@@ -107,32 +107,33 @@ impl TreefitSpec {
         let others = table.rows.into_iter().zip(fits).filter(|(_, fit)| !again.contains(&fit.method));
         Ok(others.map(|(row, _)| row).collect())
     }
-}
 
-/// The row of a fit; what was found is written as well if it `is_kept`.
-fn fitted(
-    folder: &Path,
-    goal: &GoalSpec,
-    method: &MethodSpec,
-    repetition: u64,
-    current: &mut Option<(Problem, Guesses)>,
-    is_kept: bool,
-) -> anyhow::Result<Fit> {
-    let name = goal.name();
-    let (problem, guesses) = match current.take().filter(|(problem, _)| problem.name == name) {
-        Some(same) => current.insert(same),
-        None => current.insert((Problem::with_ceiling(folder, goal)?, Guesses::default())),
-    };
-    let result = attempt::fit(problem, guesses, method, repetition)
-        .with_context(|| format!("{name}, {}, repetition {repetition}", method.name))?;
-    if is_kept && !stop::is_raised() {
-        files::make_folder(&folder.join("fits"))?;
-        write_species(&folder.join(fit_file(&name)), &name, &result.best)?;
-        if let Some(guess) = &result.guess {
-            write_species(&folder.join(guess_file(&name)), &name, guess)?;
+    /// The row of a fit; what was found is written as well if it `is_kept`.
+    fn fitted(
+        &self,
+        folder: &Path,
+        goal: &GoalSpec,
+        method: &MethodSpec,
+        repetition: u64,
+        current: &mut Option<(Problem, Guesses)>,
+        is_kept: bool,
+    ) -> anyhow::Result<Fit> {
+        let name = goal.name();
+        let (problem, guesses) = match current.take().filter(|(problem, _)| problem.name == name) {
+            Some(same) => current.insert(same),
+            None => current.insert((Problem::with_ceiling(folder, goal)?, Guesses::new(self.family()))),
+        };
+        let result = attempt::fit(problem, guesses, method, repetition)
+            .with_context(|| format!("{name}, {}, repetition {repetition}", method.name))?;
+        if is_kept && !stop::is_raised() {
+            files::make_folder(&folder.join("fits"))?;
+            write_species(&folder.join(fit_file(&name)), &name, &result.best)?;
+            if let Some(guess) = &result.guess {
+                write_species(&folder.join(guess_file(&name)), &name, guess)?;
+            }
         }
+        Ok(result.row)
     }
-    Ok(result.row)
 }
 
 /// A fit as a species file, so that anybody can grow it.

@@ -3,9 +3,12 @@
 use crate::spec::{Evaluations, OTHER_NAME, Repetitions, Seed, Source, stem};
 use crate::within::{Azimuth, FileName, List, Meters, Real, Seconds, SpeciesName, Word};
 use pleach_fit::{Objective, Optimizer};
+use pleach_tree::Family;
+use pleach_tree::param::shown;
 use serde::Deserialize;
 use serde::de::{Error, IgnoredAny};
 use std::path::PathBuf;
+use std::str::FromStr;
 use toml::Spanned;
 
 #[derive(Clone, Debug, Deserialize)]
@@ -15,6 +18,8 @@ pub(in super::super) struct TreefitSpec {
     _kind: IgnoredAny,
     #[serde(rename = "question")]
     _question: Option<String>,
+    /// The family of generators that is fitted; the default one if it is not said.
+    generator: Option<Word<FamilyName>>,
     /// The goals.
     pub(super) goals: List<Spanned<GoalSpec>>,
     /// Ways to fit them.
@@ -39,6 +44,11 @@ impl TreefitSpec {
         Ok(self)
     }
 
+    /// The family of generators that is fitted.
+    pub(super) fn family(&self) -> &'static dyn Family {
+        self.generator.as_ref().map_or_else(pleach_generators::default_family, |word| word.value.0)
+    }
+
     /// The goals in order.
     pub(super) fn goals(&self) -> impl Iterator<Item = &GoalSpec> {
         self.goals.iter().map(Spanned::get_ref)
@@ -52,6 +62,24 @@ impl TreefitSpec {
     /// The method that the files in `fits` are of.
     pub(super) fn first_method(&self) -> &MethodSpec {
         self.methods[0].get_ref()
+    }
+}
+
+/// A family of generators by its name.
+#[derive(Clone, Copy, Debug)]
+struct FamilyName(&'static dyn Family);
+
+impl FromStr for FamilyName {
+    type Err = String;
+
+    fn from_str(given: &str) -> Result<Self, Self::Err> {
+        let families = pleach_generators::families();
+        let names = || families.iter().map(|family| family.name()).collect::<Vec<_>>().join(", ");
+        families
+            .iter()
+            .find(|family| family.name() == given)
+            .map(|family| Self(*family))
+            .ok_or_else(|| format!("unknown generator `{}`, known are {}", shown(given), names()))
     }
 }
 

@@ -38,6 +38,8 @@ pub(super) struct Place<'a> {
     pub(super) surroundings: &'a Surroundings,
     /// Takes the arguments of the context's modules.
     pub(super) frame: &'a mut [f64],
+    /// Modules looked at so far.
+    pub(super) passed: u64,
 }
 
 impl Place<'_> {
@@ -64,6 +66,7 @@ impl Place<'_> {
                     return false;
                 }
                 at -= 1;
+                self.passed += 1;
                 let kind = self.string.kinds[at];
                 if kind == CLOSE {
                     at = self.surroundings.partners[at] as usize;
@@ -84,6 +87,7 @@ impl Place<'_> {
         for pattern in patterns {
             loop {
                 let Some(&kind) = self.string.kinds.get(at) else { return false };
+                self.passed += 1;
                 match (kind, pattern) {
                     (CLOSE, _) => return false,
                     (OPEN, Pattern::Module(_)) => at = self.surroundings.partners[at] as usize + 1,

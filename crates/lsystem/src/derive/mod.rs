@@ -50,6 +50,8 @@ pub struct DeriveError {
     pub step: usize,
     /// What went wrong, and where in the grammar.
     pub diagnostic: Diagnostic,
+    /// The rule that was applied, such as `F(x)`; none in the axiom and the header.
+    pub rule: Option<String>,
 }
 
 /// The number of the axiom among the rules.
@@ -67,7 +69,8 @@ impl Stop {
         let rule = program.rules.get(self.rule);
         let name = rule.map_or_else(|| "the axiom".to_owned(), |r| format!("the rule for `{}`", r.name));
         let span = self.trouble.span().or(rule.map(|r| r.span)).unwrap_or_default();
-        DeriveError { step, diagnostic: Diagnostic::new(span, self.trouble.fault(&name)) }
+        let diagnostic = Diagnostic::new(span, self.trouble.fault(&name));
+        DeriveError { step, diagnostic, rule: rule.map(|rule| rule.name.clone()) }
     }
 }
 
@@ -85,14 +88,13 @@ pub(crate) struct Request<'a> {
 /// The string after `request.steps` steps, or after the step that changed nothing.
 pub(crate) fn derive(program: &Program, request: &Request<'_>) -> Result<Modules, DeriveError> {
     let Request { globals, limits, .. } = *request;
-    let mut writer = Writer::new(program, globals, Modules::default(), limits.symbols);
+    let mut writer = Writer::new(program, globals, Modules::default(), limits.symbols, (0, limits.work));
     let key = request.key.child(purpose::AXIOM, 0);
     let axiom = writer.block(program.axiom, key).and_then(|()| writer.check());
     axiom.map_err(|trouble| Stop { rule: NO_RULE, trouble }.error(program, 0))?;
-    let mut string = writer.out;
+    let Writer { out: mut string, mut work, .. } = writer;
     cut(program, &mut string);
     let mut spare = Modules::default();
-    let mut work = 0;
     for number in 0..request.steps {
         let surroundings = program.has_context.then(|| Surroundings::new(program, &string));
         let step = Step {
@@ -101,14 +103,12 @@ pub(crate) fn derive(program: &Program, request: &Request<'_>) -> Result<Modules
             string: &string,
             number: number as u32,
             limits,
+            spent: work,
             surroundings: surroundings.as_ref(),
         };
         let fail = |stop: Stop| stop.error(program, number + 1);
         let (mut next, changed, more) = step.rewrite(spare, request.parallel).map_err(fail)?;
         work += more;
-        if work > limits.work {
-            return Err(fail(Stop { rule: NO_RULE, trouble: Trouble::TooMuchWork(limits.work) }));
-        }
         cut(program, &mut next);
         spare = std::mem::replace(&mut string, next);
         if !changed && !program.waits {
@@ -165,5 +165,5 @@ pub(crate) fn globals(program: &Program, params: &[f64], key: Key) -> Result<Vec
 pub(crate) fn header_error(program: &Program, op: u32, trouble: Trouble) -> DeriveError {
     let span = trouble.span().unwrap_or(program.spans[op as usize]);
     let fault: Fault = trouble.fault("the header");
-    DeriveError { step: 0, diagnostic: Diagnostic::new(span, fault) }
+    DeriveError { step: 0, diagnostic: Diagnostic::new(span, fault), rule: None }
 }

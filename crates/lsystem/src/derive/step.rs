@@ -3,7 +3,7 @@
 use super::context::{Place, Surroundings};
 use super::machine::{Trouble, purpose};
 use super::string::Modules;
-use super::writer::Writer;
+use super::writer::{VALUES_PER_MODULE, Writer};
 use super::{Limits, NO_RULE, Stop};
 use crate::program::{Kind, Program, Rule, SUM_TOLERANCE};
 use pleach_tree::Key;
@@ -11,8 +11,14 @@ use rayon::prelude::*;
 
 /// Modules that one task rewrites.
 const CHUNK: usize = 16_384;
+/// Modules from which tasks pay: on busy cores copying their results took longer than they saved.
+const MIN_PARALLEL: usize = 4 * CHUNK;
 /// Tasks after which limits are looked at: bounds what is written beyond them.
 const WAVE: usize = 16;
+/// Rules tried for one module that are one more step of work.
+const RULES_PER_WORK: usize = 16;
+/// Modules passed in search of one context that are one more step of work.
+const PASSED_PER_WORK: u64 = 16;
 
 /// What all modules of a step share.
 #[derive(Clone, Copy)]
@@ -22,6 +28,8 @@ pub(super) struct Step<'a> {
     pub(super) string: &'a Modules,
     pub(super) number: u32,
     pub(super) limits: Limits,
+    /// Work of the steps before this one.
+    pub(super) spent: u64,
     pub(super) surroundings: Option<&'a Surroundings>,
 }
 
@@ -62,9 +70,9 @@ impl Step<'_> {
     pub(super) fn rewrite(&self, mut out: Modules, parallel: bool) -> Result<(Modules, bool, u64), Stop> {
         let length = self.foresee()?;
         out.clear();
-        if parallel && self.string.kinds.len() > 2 * CHUNK {
+        if parallel && self.string.kinds.len() > MIN_PARALLEL {
             let mut target = std::mem::take(&mut out);
-            if let Some((changed, work)) = self.in_waves(&mut target) {
+            if let Some((changed, work)) = self.in_waves(&mut target, length) {
                 return Ok((target, changed, work));
             }
             // Something went wrong: what, the modules in their order tell.
@@ -80,7 +88,10 @@ impl Step<'_> {
         Ok((out, changed, work))
     }
 
-    fn in_waves(&self, out: &mut Modules) -> Option<(bool, u64)> {
+    /// `length` is the fewest modules that there will be.
+    fn in_waves(&self, out: &mut Modules, length: usize) -> Option<(bool, u64)> {
+        out.kinds.reserve(length);
+        let part = length / self.string.kinds.len().div_ceil(CHUNK);
         let mut chunks = Vec::new();
         let mut value = 0;
         for (number, kinds) in self.string.kinds.chunks(CHUNK).enumerate() {
@@ -91,14 +102,18 @@ impl Step<'_> {
         let (mut changed, mut work) = (false, 0);
         for wave in chunks.chunks(WAVE) {
             let room = self.limits.symbols - out.kinds.len();
-            let written: Vec<Result<Written, Stop>> =
-                wave.par_iter().map(|&chunk| self.rewrite_chunk(chunk, Modules::default(), room)).collect();
+            let most_values = self.limits.symbols.saturating_mul(VALUES_PER_MODULE);
+            let written: Vec<Result<Written, Stop>> = wave
+                .par_iter()
+                .map(|&chunk| self.rewrite_chunk(chunk, Modules::with_room(part), room))
+                .collect();
             for part in written {
                 let part = part.ok()?;
                 out.append(&part.out);
                 changed |= part.changed;
                 work += part.work;
-                if out.kinds.len() > self.limits.symbols {
+                let too_many = out.kinds.len() > self.limits.symbols || out.values.len() > most_values;
+                if too_many || self.spent + work > self.limits.work {
                     return None;
                 }
             }
@@ -108,9 +123,9 @@ impl Step<'_> {
 
     fn rewrite_chunk(&self, chunk: Chunk, out: Modules, room: usize) -> Result<Written, Stop> {
         let Self { program, string, .. } = *self;
-        let mut writer = Writer::new(program, self.globals, out, room);
+        let mut writer = Writer::new(program, self.globals, out, room, (self.spent, self.limits.work));
         let (mut changed, mut value) = (false, chunk.value);
-        writer.work = (chunk.end - chunk.start) as u64;
+        writer.work += (chunk.end - chunk.start) as u64;
         for at in chunk.start..chunk.end {
             let number = string.kinds[at];
             let kind = &program.kinds[usize::from(number)];
@@ -129,14 +144,15 @@ impl Step<'_> {
                 if program.random {
                     writer.out.keys.push(string.keys[at]);
                 }
-                continue;
             }
-            let rule = kind.rules[0];
-            writer.check().map_err(|trouble| Stop { rule, trouble })?;
+            // Rules that did not apply were work too.
+            if let Some(&rule) = kind.rules.first() {
+                writer.check().map_err(|trouble| Stop { rule, trouble })?;
+            }
         }
         writer.check().map_err(|trouble| Stop { rule: NO_RULE, trouble })?;
         let Writer { out, work, .. } = writer;
-        Ok(Written { out, changed, work })
+        Ok(Written { out, changed, work: work - self.spent })
     }
 
     /// Replaces a module by the successor of the first rule that applies, if one does.
@@ -148,7 +164,9 @@ impl Step<'_> {
         for (number, &index) in kind.rules.iter().enumerate() {
             let rule = &program.rules[index];
             let stop = |trouble| Stop { rule: index, trouble };
-            if !self.in_context(rule, at, &mut writer.machine.frame) {
+            // Rules and expressions in such numbers, and contexts so far away, take time of their own.
+            writer.work += u64::from(rule.toll) + u64::from(number % RULES_PER_WORK == RULES_PER_WORK - 1);
+            if !self.in_context(rule, at, writer) {
                 continue;
             }
             let key = if kind.keyed { base.child(purpose::RULE, number as u32) } else { base };
@@ -166,14 +184,17 @@ impl Step<'_> {
         Ok(false)
     }
 
-    fn in_context(&self, rule: &Rule, at: usize, frame: &mut [f64]) -> bool {
+    fn in_context(&self, rule: &Rule, at: usize, writer: &mut Writer<'_>) -> bool {
         let Some(surroundings) = self.surroundings else { return true };
         if rule.left.is_empty() && rule.right.is_empty() {
             return true;
         }
         let Self { program, string, .. } = *self;
-        let mut place = Place { program, string, surroundings, frame };
-        place.left(at, &rule.left) && place.right(at + 1, &rule.right)
+        let frame = &mut writer.machine.frame;
+        let mut place = Place { program, string, surroundings, frame, passed: 0 };
+        let fits = place.left(at, &rule.left) && place.right(at + 1, &rule.right);
+        writer.work += place.passed / PASSED_PER_WORK;
+        fits
     }
 
     /// Draws one of the successors.

@@ -15,6 +15,12 @@ pub(crate) struct Modules {
 }
 
 impl Modules {
+    /// An empty string with room for this many modules and as many arguments.
+    pub(crate) fn with_room(modules: usize) -> Self {
+        let (kinds, values) = (Vec::with_capacity(modules), Vec::with_capacity(modules));
+        Self { kinds, values, keys: Vec::new() }
+    }
+
     pub(crate) fn clear(&mut self) {
         self.kinds.clear();
         self.values.clear();

@@ -8,27 +8,41 @@ use pleach_tree::Key;
 /// The address of modules from which nothing draws.
 const NOBODY: u64 = 0;
 
+/// Most arguments for each module that there is room for: bounds the memory of a string.
+pub(super) const VALUES_PER_MODULE: usize = 4;
+
 /// Writes modules until there are too many.
 pub(super) struct Writer<'a> {
     pub(super) machine: Machine<'a>,
     pub(super) out: Modules,
     /// Most modules of `out`.
     pub(super) room: usize,
-    /// Repeats so far, and modules read.
+    /// Repeats so far, modules read, and the tolls of what was evaluated, those of earlier steps
+    /// included.
     pub(super) work: u64,
+    /// Most work.
+    max_work: u64,
     nobody: Key,
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(program: &'a Program, globals: &'a [f64], out: Modules, room: usize) -> Self {
+    /// `work` is what was done before, and the most of all.
+    pub(super) fn new(
+        program: &'a Program,
+        globals: &'a [f64],
+        out: Modules,
+        room: usize,
+        work: (u64, u64),
+    ) -> Self {
         let machine = Machine::with_globals(program, globals);
-        Self { machine, out, room, work: 0, nobody: Key::root(NOBODY) }
+        Self { machine, out, room, work: work.0, max_work: work.1, nobody: Key::root(NOBODY) }
     }
 
     /// Writes a block whose draws and modules have addresses under `key`.
     pub(super) fn block(&mut self, block: Block, key: Key) -> Result<(), Trouble> {
         let program = self.machine.program;
         self.machine.key = key;
+        self.work += u64::from(block.toll);
         let mut at = block.start;
         while at < block.end {
             let act = program.acts[at as usize];
@@ -52,7 +66,7 @@ impl<'a> Writer<'a> {
                     let value = self.machine.eval(program.codes[value as usize])?;
                     self.machine.frame[usize::from(local)] = value;
                 }
-                Act::Range { local, from, to, end, site } => {
+                Act::Range { local, from, to, end, toll, site } => {
                     let low = self.machine.eval(program.codes[from as usize])?;
                     let high = self.machine.eval(program.codes[to as usize])?;
                     let count = (high - low).ceil().max(0.0);
@@ -61,15 +75,15 @@ impl<'a> Writer<'a> {
                         return Err(Trouble::Repeats(span, count));
                     }
                     let key = key.child(purpose::REPEAT, site);
-                    let body = Block { start: at, end };
+                    let body = Block { start: at, end, toll };
                     for i in 0..count as u32 {
                         self.machine.frame[usize::from(local)] = low + f64::from(i);
                         self.repeat(body, key, i)?;
                     }
                     at = end;
                 }
-                Act::List { local, first, count, end, site } => {
-                    let body = Block { start: at, end };
+                Act::List { local, first, count, end, toll, site } => {
+                    let body = Block { start: at, end, toll };
                     for i in 0..count {
                         self.machine.key = key;
                         let value = self.machine.eval(program.codes[(first + i) as usize])?;
@@ -90,9 +104,17 @@ impl<'a> Writer<'a> {
         self.check()
     }
 
-    /// Whether there is room for what was written.
+    /// Whether there is room for what was written, and time for what was done.
     pub(super) const fn check(&self) -> Result<(), Trouble> {
-        if self.out.kinds.len() > self.room { Err(Trouble::TooManySymbols(self.room)) } else { Ok(()) }
+        let too_many = self.out.kinds.len() > self.room
+            || self.out.values.len() > self.room.saturating_mul(VALUES_PER_MODULE);
+        if too_many {
+            Err(Trouble::TooManySymbols(self.room))
+        } else if self.work > self.max_work {
+            Err(Trouble::TooMuchWork(self.max_work))
+        } else {
+            Ok(())
+        }
     }
 
     /// Writes a slice of the program's runs.

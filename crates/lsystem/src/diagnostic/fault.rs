@@ -163,7 +163,7 @@ impl fmt::Display for Fault {
         match self {
             Self::Expected { expected, found } => write!(f, "expected {expected}, found {found}"),
             Self::TooLarge { bytes, limit } => {
-                write!(f, "the grammar has {bytes} bytes, at most {limit} are allowed")
+                write!(f, "the grammar has {bytes} bytes or more, at most {limit} are allowed")
             }
             Self::TooDeep { limit } => write!(f, "brackets are nested more than {limit} deep"),
             Self::TooMany { what, limit } => write!(f, "there are more than {limit} {what}"),

@@ -62,6 +62,8 @@ impl Report {
     /// The drawings, with colours or without.
     #[must_use]
     pub fn draw(&self, colored: bool) -> String {
+        // What the renderer lets through and terminals obey; as many bytes as before.
+        let text = self.text.replace(is_c1_control, "\u{b7}");
         let renderer = if colored { Renderer::styled() } else { Renderer::plain() };
         let mut drawing = String::new();
         for diagnostic in self.diagnostics.iter().take(MAX_SHOWN) {
@@ -70,7 +72,7 @@ impl Report {
             let start = span.start.min(self.text.len());
             let end = span.end.clamp(start, self.text.len());
             let level = if fault.is_warning() { Level::WARNING } else { Level::ERROR };
-            let place = Snippet::source(self.text.as_str())
+            let place = Snippet::source(text.as_str())
                 .path(self.origin.as_str())
                 .annotation(AnnotationKind::Primary.span(start..end));
             let mut group = level.primary_title(title.as_str()).element(place);
@@ -86,6 +88,11 @@ impl Report {
         }
         drawing
     }
+}
+
+/// Whether a character is one of the two-byte control characters from U+0080 to U+009F.
+const fn is_c1_control(c: char) -> bool {
+    matches!(c, '\u{80}'..='\u{9f}')
 }
 
 impl fmt::Display for Report {

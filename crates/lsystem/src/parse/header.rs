@@ -122,6 +122,10 @@ impl Cursor<'_> {
                 return Err(self.fault(name.span, Fault::Duplicate { name: name.text }));
             }
             let alias = if self.take('=') { Some(self.symbol()?) } else { None };
+            if grammar.modules.len() == super::MAX_MODULES {
+                let fault = Fault::TooMany { what: "names of modules", limit: super::MAX_MODULES };
+                return Err(self.fault(name.span, fault));
+            }
             grammar.modules.push(ModuleName { name, alias });
             if !self.take(',') {
                 return if self.rest().is_empty() { Ok(()) } else { Err(self.unexpected("`,` or `=`")) };

@@ -15,6 +15,14 @@ use cursor::{Cursor, Parsed};
 
 /// Most bytes of a grammar.
 pub const MAX_BYTES: usize = 1 << 20;
+/// Most names of modules: each is compared with every place of the text.
+const MAX_MODULES: usize = 256;
+/// Most parameters, and most constants: each name is compared with those before it.
+const MAX_NAMES: usize = 1000;
+/// Most rules: a module may try them all.
+const MAX_RULES: usize = 10_000;
+/// Problems after which nothing more is read.
+const MAX_PROBLEMS: usize = 1000;
 
 /// Words that cannot be names of parameters, constants or local definitions.
 fn is_reserved(word: &str) -> bool {
@@ -54,6 +62,18 @@ pub(crate) fn parse(text: &str) -> (Grammar, Vec<Diagnostic>) {
         };
         if let Err(problem) = read.and_then(|()| cursor.end()) {
             problems.push(*problem);
+        }
+        let counts = [
+            ("parameters", grammar.params.len(), MAX_NAMES),
+            ("constants", grammar.consts.len(), MAX_NAMES),
+            ("rules", grammar.rules.len(), MAX_RULES),
+        ];
+        if let Some((what, _, limit)) = counts.into_iter().find(|(_, count, limit)| count > limit) {
+            problems.push(Diagnostic::new(span, Fault::TooMany { what, limit }));
+            break;
+        }
+        if problems.len() >= MAX_PROBLEMS {
+            break;
         }
     }
     grammar.settings.sort_by_key(|setting| setting.key);

@@ -1,10 +1,10 @@
 //! From the syntax tree to the compact form.
 
 use super::scope::Scope;
-use super::{Act, Block, Code, Command, Kind, KindIndex, Program};
+use super::{Act, Block, Code, Command, Kind, KindIndex, OPS_PER_WORK, Program};
 use crate::diagnostic::{Diagnostic, Fault};
 use crate::syntax::{Expr, Grammar, Item, Name, Span, Values};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Most kinds of modules.
 const MAX_KINDS: usize = 4096;
@@ -17,6 +17,8 @@ pub(crate) fn compile(grammar: &Grammar) -> (Program, Vec<Diagnostic>) {
         numbers: HashMap::new(),
         uses: Vec::new(),
         sealed: 0,
+        ops: 0,
+        settled: HashSet::new(),
         program: Program {
             dialect: grammar.dialect,
             params: grammar.params.clone(),
@@ -27,7 +29,7 @@ pub(crate) fn compile(grammar: &Grammar) -> (Program, Vec<Diagnostic>) {
             codes: Vec::new(),
             ops: Vec::new(),
             spans: Vec::new(),
-            axiom: Block { start: 0, end: 0 },
+            axiom: Block { start: 0, end: 0, toll: 0 },
             consts: Vec::new(),
             settings: Vec::new(),
             ignored: Vec::new(),
@@ -61,6 +63,10 @@ pub(super) struct Compiler<'a> {
     uses: Vec<Option<Span>>,
     /// Acts before this one are of repetitions that ended, or of other blocks.
     sealed: usize,
+    /// Operations of the expressions of the block that is compiled, without those of blocks within it.
+    ops: u32,
+    /// Kinds with a rule that always applies, which hides those after it.
+    pub(super) settled: HashSet<KindIndex>,
     pub(super) program: Program,
 }
 
@@ -139,13 +145,15 @@ impl Compiler<'_> {
     pub(super) fn block(&mut self, items: &[Item], scope: &mut Scope<'_>) -> Block {
         let start = self.program.acts.len() as u32;
         self.sealed = start as usize;
+        let before = std::mem::take(&mut self.ops);
         let mut position = 0;
         let (locals, site) = (scope.len(), scope.site);
         scope.site = 0;
         self.items(items, scope, &mut position);
         scope.truncate(locals);
         scope.site = site;
-        Block { start, end: self.program.acts.len() as u32 }
+        let ops = std::mem::replace(&mut self.ops, before);
+        Block { start, end: self.program.acts.len() as u32, toll: ops / OPS_PER_WORK }
     }
 
     fn items(&mut self, items: &[Item], scope: &mut Scope<'_>, position: &mut u32) {
@@ -200,14 +208,14 @@ impl Compiler<'_> {
         let before = scope.len();
         let local = scope.add(name);
         let hole = match count {
-            None => Act::Range { local, from: first, to: first + 1, end: 0, site },
-            Some(count) => Act::List { local, first, count, end: 0, site },
+            None => Act::Range { local, from: first, to: first + 1, end: 0, toll: 0, site },
+            Some(count) => Act::List { local, first, count, end: 0, toll: 0, site },
         };
         self.program.acts.push(hole);
         let block = self.block(body, scope);
         scope.truncate(before);
-        if let Act::Range { end, .. } | Act::List { end, .. } = &mut self.program.acts[act] {
-            *end = block.end;
+        if let Act::Range { end, toll, .. } | Act::List { end, toll, .. } = &mut self.program.acts[act] {
+            (*end, *toll) = (block.end, block.toll);
         }
         self.sealed = block.end as usize;
     }
@@ -227,6 +235,7 @@ impl Compiler<'_> {
     /// Compiles expressions one after the other; returns the number of the first.
     fn codes(&mut self, exprs: &[Expr], scope: &mut Scope<'_>) -> u32 {
         let codes: Vec<Code> = exprs.iter().map(|expr| self.program.expr(expr, scope)).collect();
+        self.ops += codes.iter().map(|code| code.end - code.start).sum::<u32>();
         let first = self.program.codes.len() as u32;
         self.program.codes.extend(codes);
         first
@@ -248,13 +257,9 @@ impl Compiler<'_> {
             let fault = Fault::NoMeaning { name: kind.name.clone(), ruled, found: kind.arity };
             problems.push(Diagnostic::new(*span, fault));
         }
-        let mut ignored = vec![false; program.kinds.len()];
-        for name in &self.grammar.ignore {
-            for (kind, ignored) in program.kinds.iter().zip(&mut ignored) {
-                *ignored |= kind.name == name.text;
-            }
-        }
-        self.program.ignored = ignored;
+        let ignore: HashSet<&str> = self.grammar.ignore.iter().map(|name| name.text.as_str()).collect();
+        self.program.ignored =
+            self.program.kinds.iter().map(|kind| ignore.contains(kind.name.as_str())).collect();
         self.program.settle();
     }
 }

@@ -64,14 +64,22 @@ pub(crate) struct Rule {
     pub(crate) condition: Option<Code>,
     /// Weights (empty for a single successor) and where their sum is known to be 1.
     pub(crate) weights: Vec<Code>,
+    /// Work of condition and weights, as of a [`Block`].
+    pub(crate) toll: u32,
     pub(crate) successors: Vec<Block>,
 }
+
+/// Operations of one block or condition that are one more step of work: none that people write has so
+/// many.
+pub(crate) const OPS_PER_WORK: u32 = 64;
 
 /// A slice of [`Program::acts`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     pub(crate) start: u32,
     pub(crate) end: u32,
+    /// Work of its expressions beyond that of being read: one for [`OPS_PER_WORK`] operations.
+    pub(crate) toll: u32,
 }
 
 /// What a successor does, in order.
@@ -83,10 +91,10 @@ pub(crate) enum Act {
     Module { kind: KindIndex, args: u32, position: u32 },
     /// Gives a local name its value.
     Let { local: u16, value: u32 },
-    /// Repeats the acts up to `end`; `from` and `to` are codes.
-    Range { local: u16, from: u32, to: u32, end: u32, site: u32 },
+    /// Repeats the acts up to `end`; `from` and `to` are codes. `toll` is that of the [`Block`].
+    Range { local: u16, from: u32, to: u32, end: u32, toll: u32, site: u32 },
     /// Repeats the acts up to `end` once for each of `count` codes.
-    List { local: u16, first: u32, count: u32, end: u32, site: u32 },
+    List { local: u16, first: u32, count: u32, end: u32, toll: u32, site: u32 },
 }
 
 /// A compiled grammar.

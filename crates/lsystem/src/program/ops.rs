@@ -44,6 +44,9 @@ pub(crate) enum Op {
     JumpIfZero(u32),
 }
 
+/// Stands for what has no meaning, in programs that nobody runs: a number that is not known yet.
+const UNKNOWN: Op = Op::Local(0);
+
 /// Where names are looked up.
 pub(super) trait Names {
     fn find(&self, name: &str) -> Option<Op>;
@@ -76,6 +79,7 @@ impl Program {
                     self.op(op, span);
                 } else {
                     names.complain(span, &expr.kind, 0);
+                    self.op(UNKNOWN, span);
                 }
             }
             ExprKind::Unary(op, operand) => {
@@ -111,6 +115,7 @@ impl Program {
                 });
                 let Some(function) = known else {
                     names.complain(span, &expr.kind, args.len());
+                    self.op(UNKNOWN, span);
                     return 1;
                 };
                 return self.call(function, args, span, names);

@@ -2,7 +2,7 @@
 
 use super::compile::Compiler;
 use super::scope::Scope;
-use super::{Act, Block, Code, Command, Formal, KindIndex, Pattern, Program, Rule};
+use super::{Act, Block, Code, Command, Formal, Kind, KindIndex, OPS_PER_WORK, Op, Pattern, Program, Rule};
 use crate::derive::Machine;
 use crate::diagnostic::{Diagnostic, Fault};
 use crate::syntax::{self, Context, Predecessor};
@@ -32,13 +32,14 @@ impl Compiler<'_> {
         self.program.locals = self.program.locals.max(scope.most);
         let kind = usize::from(pred.kind);
         let number = self.program.rules.len();
-        let hidden = self.program.kinds[kind].rules.iter().any(|&earlier| {
-            let earlier: &Rule = &self.program.rules[earlier];
-            earlier.condition.is_none() && earlier.left.is_empty() && earlier.right.is_empty()
-        });
-        if hidden {
+        if self.settled.contains(&pred.kind) {
             problems.push(Diagnostic::new(rule.span, Fault::Hidden { rule: rule.pred.to_string() }));
         }
+        if condition.is_none() && left.is_empty() && right.is_empty() {
+            self.settled.insert(pred.kind);
+        }
+        let ops: u32 = condition.iter().chain(&weights).map(|code| code.end - code.start).sum();
+        let toll = ops / OPS_PER_WORK;
         if matches!(rule.pred.name.text.as_str(), "[" | "]" | "{" | "}") {
             let fault = Fault::Reserved { name: rule.pred.name.text.clone() };
             problems.push(Diagnostic::new(rule.pred.name.span, fault));
@@ -46,7 +47,7 @@ impl Compiler<'_> {
         self.program.kinds[kind].rules.push(number);
         self.program.has_context |= !(left.is_empty() && right.is_empty());
         let (name, span) = (rule.head(), rule.span);
-        self.program.rules.push(Rule { name, span, left, right, condition, weights, successors });
+        self.program.rules.push(Rule { name, span, left, right, condition, weights, toll, successors });
     }
 
     fn formal(&mut self, module: &Predecessor, scope: &mut Scope<'_>) -> Formal {
@@ -70,7 +71,7 @@ impl Compiler<'_> {
 
     /// Probabilities that are plain numbers are summed here, others at each step.
     fn check_weights(&mut self, rule: &syntax::Rule, weights: &[Code], scope: &mut Scope<'_>) {
-        let known = weights.iter().all(|&w| self.program.is_constant(w) && w.start < w.end);
+        let known = weights.iter().all(|&w| self.program.is_constant(w));
         if weights.is_empty() || !known || weights.len() < rule.successors.len() {
             return;
         }
@@ -119,18 +120,18 @@ impl Program {
             })
             .collect();
         // A kind whose successors need addresses needs one itself, and so on up.
-        loop {
-            let mut changed = false;
-            for (number, kind) in self.kinds.iter().enumerate() {
-                let needs = |block: &Block| self.kinds_in(*block).any(|k| keyed[usize::from(k)]);
-                let mut successors = kind.rules.iter().flat_map(|&r| &self.rules[r].successors);
-                if !keyed[number] && successors.any(needs) {
-                    keyed[number] = true;
-                    changed = true;
-                }
+        let mut writers = vec![Vec::new(); self.kinds.len()];
+        for (number, kind) in self.kinds.iter().enumerate() {
+            for &block in kind.rules.iter().flat_map(|&r| &self.rules[r].successors) {
+                self.kinds_in(block).for_each(|written| writers[usize::from(written)].push(number));
             }
-            if !changed {
-                break;
+        }
+        let mut waiting: Vec<usize> = (0..keyed.len()).filter(|&number| keyed[number]).collect();
+        while let Some(number) = waiting.pop() {
+            for &writer in &writers[number] {
+                if !std::mem::replace(&mut keyed[writer], true) {
+                    waiting.push(writer);
+                }
             }
         }
         self.waits = self.rules.iter().any(|rule| rule.condition.is_some_and(|c| self.draws(c)));
@@ -140,6 +141,29 @@ impl Program {
             let kind = &mut self.kinds[number];
             (kind.keyed, kind.run, kind.min_len) = (keyed, run, min_len);
         }
+    }
+
+    /// The rules that write most modules of the kinds that `is_meant` means, as messages call them;
+    /// repeats are not counted.
+    pub(crate) fn writers(&self, is_meant: impl Fn(&Kind) -> bool) -> Vec<String> {
+        /// Most that are named.
+        const MAX: usize = 2;
+        let count = |rule: &Rule| {
+            let written = rule.successors.iter().flat_map(|block| self.kinds_in(*block));
+            written.filter(|&kind| is_meant(&self.kinds[usize::from(kind)])).count()
+        };
+        let mut writers: Vec<(usize, &str)> =
+            self.rules.iter().map(|rule| (count(rule), rule.name.as_str())).filter(|w| w.0 > 0).collect();
+        writers.sort_by_key(|writer| std::cmp::Reverse(writer.0));
+        writers.into_iter().take(MAX).map(|(_, name)| name.to_owned()).collect()
+    }
+
+    /// The parameters that a setting is computed from.
+    pub(crate) fn params_of(&self, key: syntax::SettingKey) -> Vec<String> {
+        let codes = self.settings.iter().filter(|(known, _)| *known == key).flat_map(|(_, codes)| codes);
+        let ops = codes.flat_map(|code| &self.ops[code.start as usize..code.end as usize]);
+        let globals = ops.filter_map(|op| if let Op::Global(i) = op { Some(usize::from(*i)) } else { None });
+        globals.filter_map(|i| Some(self.params.get(i)?.name.text.clone())).collect()
     }
 
     fn act_draws(&self, act: &Act) -> bool {
@@ -172,7 +196,7 @@ impl Program {
         }
         let run = match rules.first().map(|&r| &self.rules[r]) {
             Some(rule) if always(rule) && rule.weights.len() < 2 => {
-                let Block { start, end } = rule.successors[0];
+                let Block { start, end, .. } = rule.successors[0];
                 match (end - start, self.acts.get(start as usize)) {
                     (0, _) => Some((0, 0)),
                     (1, Some(&Act::Run { start, len, .. })) => Some((start, len)),

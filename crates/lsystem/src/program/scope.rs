@@ -7,6 +7,8 @@ use pleach_tree::param::nearest;
 
 /// Most local names in sight at once.
 const MAX_LOCALS: usize = 200;
+/// Problems after which no name is suggested.
+const MAX_SUGGESTIONS: usize = 100;
 
 /// Names in sight, the innermost last.
 pub(super) struct Scope<'a> {
@@ -76,6 +78,10 @@ impl Names for Scope<'_> {
     }
 
     fn complain(&mut self, span: Span, expr: &ExprKind, found: usize) {
+        // Looking for names that are alike takes time, and nobody reads that far.
+        let nearest = |name: &str, known: &mut dyn Iterator<Item = &str>| {
+            if self.problems.len() < MAX_SUGGESTIONS { nearest(name, known) } else { None }
+        };
         let fault = match expr {
             ExprKind::Call(name, _) => match Function::from_name(name) {
                 Some(function) => {
@@ -83,15 +89,15 @@ impl Names for Scope<'_> {
                     Fault::Arguments { name: name.clone(), found, min, max }
                 }
                 None => {
-                    let nearest = nearest(name, Function::ALL.map(Function::name));
+                    let nearest = nearest(name, &mut Function::ALL.into_iter().map(Function::name));
                     Fault::Unknown { what: "function", name: name.clone(), nearest }
                 }
             },
             ExprKind::Name(name) => {
                 let known = self.words.iter().copied();
-                let known = known.chain(self.locals.iter().chain(self.globals).map(String::as_str));
+                let mut known = known.chain(self.locals.iter().chain(self.globals).map(String::as_str));
                 let what = if self.words.is_empty() { "name" } else { "word here" };
-                Fault::Unknown { what, name: name.clone(), nearest: nearest(name, known) }
+                Fault::Unknown { what, name: name.clone(), nearest: nearest(name, &mut known) }
             }
             _ => return,
         };

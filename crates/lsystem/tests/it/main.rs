@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod bounds;
+mod chance;
 mod classics;
 mod conformance;
 mod diagnostics;
@@ -10,6 +12,7 @@ mod facts;
 mod language;
 mod normal_form;
 mod plane;
+mod silhouettes;
 mod strings;
 mod table;
 mod turtle;

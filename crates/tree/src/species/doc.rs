@@ -1,6 +1,7 @@
 //! A parsed species file that remembers where everything stood.
 
 use super::error::{Issue, SpeciesError};
+use super::quoted;
 use crate::param::{Problem, escaped};
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
@@ -80,9 +81,7 @@ impl SpeciesDoc {
                 doc.entries = entries(table.get_ref());
                 Ok(doc)
             }
-            Err(error) => {
-                Err(SpeciesError { issues: vec![doc.syntax(error.span().unwrap_or(0..0), error.message())] })
-            }
+            Err(error) => Err(doc.wrong(vec![doc.syntax(error.span().unwrap_or(0..0), error.message())])),
         }
     }
 
@@ -120,7 +119,32 @@ impl SpeciesDoc {
         let at = span.start.min(self.text.len());
         let line = self.line_starts.partition_point(|&start| start <= at);
         let column = self.text[self.line_starts[line - 1]..at].chars().count() + 1;
-        Issue { origin: self.origin.clone(), line, column, parameter: parameter.to_owned(), problem }
+        Issue {
+            origin: self.origin.clone(),
+            line,
+            column,
+            span,
+            parameter: parameter.to_owned(),
+            problem,
+            help: None,
+        }
+    }
+
+    /// The file with these problems, at least one.
+    #[must_use]
+    pub fn wrong(&self, issues: Vec<Issue>) -> SpeciesError {
+        SpeciesError::new(&self.text, issues)
+    }
+
+    /// The bytes of the file that these bytes of the string in `node` came from; all of `node` if it is
+    /// not a string.
+    #[must_use]
+    pub fn span_within(&self, node: &Node, inside: Range<usize>) -> Range<usize> {
+        let (Value::Text(text), Some(raw)) = (&node.value, self.text.get(node.span.clone())) else {
+            return node.span.clone();
+        };
+        let at = |byte| node.span.start + quoted::place(raw, text, byte);
+        at(inside.start)..at(inside.end.max(inside.start))
     }
 
     /// The string under a top-level key, if it is there.

@@ -15,9 +15,11 @@
 mod appearance;
 mod doc;
 mod error;
+mod excerpt;
 mod family;
 mod key;
 mod name;
+mod quoted;
 mod read;
 mod write;
 

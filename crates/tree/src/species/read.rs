@@ -40,7 +40,7 @@ impl SpeciesDoc {
             return Ok(Species { name, description, generator, params, tree_seed, appearance });
         }
         issues.sort_by_key(|issue| (issue.line, issue.column));
-        Err(SpeciesError { issues })
+        Err(self.wrong(issues))
     }
 
     /// The name of the species, if the file says one.

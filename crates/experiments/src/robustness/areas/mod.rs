@@ -2,12 +2,14 @@
 
 mod checkpoints;
 mod experiments;
+mod grammars;
 mod parameters;
 mod pictures;
 mod species;
 
 pub(super) use checkpoints::Checkpoints;
 pub(super) use experiments::Experiments;
+pub(super) use grammars::Grammars;
 pub(super) use parameters::Parameters;
 pub(super) use pictures::Pictures;
 pub(super) use species::SpeciesFiles;
