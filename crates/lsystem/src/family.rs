@@ -1,5 +1,6 @@
 //! Species files with a grammar in them, and those that come with pleach.
 
+use crate::evolve::blank;
 use crate::generator::{GrammarGenerator, NAME};
 use crate::system::LSystem;
 use pleach_tree::param::Problem;
@@ -72,6 +73,10 @@ impl Family for LSystemFamily {
                 None
             }
         }
+    }
+
+    fn blank(&self) -> Option<&'static str> {
+        Some(concat!("generator = \"lsystem\"\nname = \"evolved\"\ngrammar = '''\n", blank!(), "axiom: F(1)\n'''\n"))
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
