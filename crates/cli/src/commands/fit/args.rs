@@ -80,6 +80,10 @@ pub(super) struct SearchArgs {
     /// (the dissertation's genetic algorithm) or random
     #[arg(long, value_name = "NAME", default_value = pleach_fit::Optimizer::NAMES[0])]
     pub(super) optimizer: String,
+    /// Search the rules of a grammar too, and not only numbers: from the grammar in --from, by default
+    /// from nothing; prints the grammar that was found. See docs/grammars.md
+    #[arg(long, conflicts_with_all = ["optimizer", "settings"])]
+    pub(super) evolve_rules: bool,
     /// A setting of the optimiser, such as children=8 for evolution; repeatable. `--set help` lists them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) settings: Vec<String>,
@@ -120,6 +124,7 @@ impl SearchArgs {
     /// or the default one.
     pub(super) fn generator(&self) -> anyhow::Result<start::GeneratorChoice> {
         Ok(match (&self.generator, &self.from) {
+            (None, start::From::Auto | start::From::Random) if self.evolve_rules => start::varied_family()?,
             (Some(choice), _) => choice.clone(),
             (None, start::From::Species(name)) => {
                 start::GeneratorChoice::Family(crate::input::species(name)?.generator.family())
@@ -128,5 +133,11 @@ impl SearchArgs {
                 start::GeneratorChoice::Family(pleach_generators::default_family().name())
             }
         })
+    }
+
+    /// The species that the fit starts from, unless a first guess has a better one.
+    pub(super) fn start(&self) -> anyhow::Result<pleach_tree::Species> {
+        let generator = self.generator()?;
+        if self.evolve_rules { self.from.varied(&generator) } else { self.from.species(&generator) }
     }
 }
