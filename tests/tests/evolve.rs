@@ -103,6 +103,22 @@ fn a_killed_search_goes_on_to_the_same_bits() {
 }
 
 #[test]
+fn the_commands_of_the_page_run() {
+    let dir = Dir::new();
+    let page = read(&pleach_tests::root().join("docs/grammars.md"));
+    let page = String::from_utf8(page).unwrap();
+    let section = page.split("## Evolving rules").nth(1).unwrap().split("\n## ").next().unwrap();
+    let commands: Vec<&str> = section.lines().filter_map(|line| line.strip_prefix("pleach ")).collect();
+    assert_eq!(commands.len(), 2);
+    let targets = format!("{}/", pleach_tests::root().join("targets").display());
+    for command in commands {
+        let command = command.replace("targets/", &targets);
+        let _ = dir.run(command.split(' ').chain(["--size", "48", "--evaluations", "250"])).ok();
+    }
+    let _ = dir.run(["grow", "runs/european_larch/best.toml", "--seed", "7", "-o", "larch.glb"]).ok();
+}
+
+#[test]
 fn what_cannot_be_together_is_refused() {
     let dir = Dir::new();
     goal(&dir);

@@ -35,7 +35,10 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
                 let family = problem.start.generator.family();
                 return Err(FitError::NoVariation { family });
             }
-            drive(&evaluator.with_work(MAX_WORK), space.priced(rules.price), settings, rules, fingerprint, control)
+            // What is given may have any number of leaves.
+            let leaves = if settings.start == Start::Random { MAX_LEAVES } else { usize::MAX };
+            let evaluator = evaluator.with_at_most(MAX_WORK, leaves);
+            drive(&evaluator, space.priced(rules.price), settings, rules, fingerprint, control)
         }
     }
 }
@@ -43,6 +46,9 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
 /// Steps of work that a tree of a searched structure may take: a tenth of a second. Most changes of a
 /// grammar that make it grow far do not make it better.
 const MAX_WORK: u64 = 1_000_000;
+/// Leaves of such a tree where the search begins from nothing: enough for a crown in a picture of 256
+/// pixels, and half of the time goes into leaves.
+const MAX_LEAVES: usize = 6_000;
 
 /// The space that a fit searches: the free slots, in ranges that hold every start.
 pub(crate) fn search_space(problem: &FitProblem, settings: &FitSettings) -> Result<SearchSpace, FitError> {

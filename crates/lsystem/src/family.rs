@@ -76,7 +76,11 @@ impl Family for LSystemFamily {
     }
 
     fn blank(&self) -> Option<&'static str> {
-        Some(concat!("generator = \"lsystem\"\nname = \"evolved\"\ngrammar = '''\n", blank!(), "axiom: F(1)\n'''\n"))
+        Some(concat!(
+            "generator = \"lsystem\"\nname = \"evolved\"\ngrammar = '''\n",
+            blank!(),
+            "axiom: F(1)\n'''\n"
+        ))
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {

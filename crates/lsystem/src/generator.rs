@@ -6,7 +6,9 @@ use crate::syntax::{ExprKind, Grammar, ParamDecl, ParamUnit, SettingKey};
 use crate::system::{Derivation, LSystem};
 use crate::turtle::GrowFault;
 use pleach_tree::param::{DeclarationError, Effect, Kind, Param, Scale};
-use pleach_tree::{Blame, CheckedParams, Generator, GrowError, Growth, ParamSpace, Tree, Unit, Variation, Workspace};
+use pleach_tree::{
+    Blame, CheckedParams, Generator, GrowError, Growth, ParamSpace, Tree, Unit, Variation, Workspace,
+};
 use std::sync::Arc;
 
 /// The family's name in species files.

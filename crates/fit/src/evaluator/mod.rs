@@ -76,10 +76,11 @@ impl Evaluator {
         Self { height: GoalHeight::seen(&self.views[0]), ..self }
     }
 
-    /// Gives up trees that take more than `work` steps.
+    /// Gives up trees that take more than `work` steps or have more than `leaves` leaves.
     #[must_use]
-    pub(crate) fn with_work(self, work: u64) -> Self {
-        let limits = Limits { work: self.limits.work.min(work), ..self.limits };
+    pub(crate) fn with_at_most(self, work: u64, leaves: usize) -> Self {
+        let Limits { work: most, leaves: most_leaves, .. } = self.limits;
+        let limits = Limits { work: most.min(work), leaves: most_leaves.min(leaves), ..self.limits };
         Self { limits, ..self }
     }
 
@@ -137,7 +138,9 @@ impl Evaluator {
             }
         };
         let mut growth = self.growth(genome.tree_seed, self.foliage, most);
-        let Some(resized) = self.grow_matched(generator, genome, &growth, memory) else { return Score::INVALID };
+        let Some(resized) = self.grow_matched(generator, genome, &growth, memory) else {
+            return Score::INVALID;
+        };
         let size = Size::new(&memory.tree);
         let mut sum = Sum::new();
         for number in 0..self.seeds {

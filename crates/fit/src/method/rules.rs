@@ -34,7 +34,7 @@ pub struct RulesSettings {
 
 impl Default for RulesSettings {
     fn default() -> Self {
-        Self { islands: 5, parents: 10, children: 10, first: 120, patience: 50, price: 1e-4 }
+        Self { islands: 5, parents: 10, children: 10, first: 120, patience: 50, price: 1.5e-4 }
     }
 }
 
@@ -89,7 +89,8 @@ impl MethodSettings for RulesSettings {
 impl Rules {
     /// The individuals that an island begins with.
     fn first(&self, island: usize, member: usize, space: &SearchSpace, variation: &dyn Variation) -> Genome {
-        let mut draws = Stream::at(self.seed, FIRST, self.round, (island * self.settings.first + member) as u32);
+        let mut draws =
+            Stream::at(self.seed, FIRST, self.round, (island * self.settings.first + member) as u32);
         let lists = self.start.lists();
         let values = if lists.is_empty() { space.base() } else { &lists[member % lists.len()] };
         let mut genome = space.individual(values, SearchSpace::random_seed(&mut draws));
@@ -108,7 +109,13 @@ impl Rules {
         genome
     }
 
-    fn child(&self, island: usize, space: &SearchSpace, variation: &dyn Variation, draws: &mut Stream) -> Genome {
+    fn child(
+        &self,
+        island: usize,
+        space: &SearchSpace,
+        variation: &dyn Variation,
+        draws: &mut Stream,
+    ) -> Genome {
         let population = &self.islands[island].population;
         let parent = &population[(population.len() as f64 * draws.unit().powf(GREED)) as usize].genome;
         let mut child = parent.clone();
@@ -155,9 +162,11 @@ impl Rules {
     /// How many individuals each island has asked for in this generation.
     fn asked(&self) -> impl Iterator<Item = usize> {
         let RulesSettings { first, children, .. } = self.settings;
-        self.islands.iter().map(move |island| {
-            if island.population.is_empty() { first.max(2) } else { children.max(1) }
-        })
+        self.islands.iter().map(
+            move |island| {
+                if island.population.is_empty() { first.max(2) } else { children.max(1) }
+            },
+        )
     }
 
     /// Ends islands that no longer improve.
@@ -201,8 +210,11 @@ impl Method for Rules {
     }
 
     fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>) {
-        let places: Vec<(usize, usize)> =
-            self.asked().enumerate().flat_map(|(island, count)| (0..count).map(move |m| (island, m))).collect();
+        let places: Vec<(usize, usize)> = self
+            .asked()
+            .enumerate()
+            .flat_map(|(island, count)| (0..count).map(move |m| (island, m)))
+            .collect();
         let make = |&(island, member): &(usize, usize)| {
             // Without a family that offers variation there is nothing to vary, and `fit` has said so.
             let Some(variation) = space.variation() else { return space.individual(space.base(), 0) };
@@ -218,8 +230,10 @@ impl Method for Rules {
     fn tell(&mut self, _: &SearchSpace, members: &[Genome], scores: &[Score]) {
         self.round += 1;
         let counts: Vec<usize> = self.asked().collect();
-        let mut newborn =
-            members.iter().zip(scores).map(|(genome, score)| Scored { genome: genome.clone(), score: *score });
+        let mut newborn = members
+            .iter()
+            .zip(scores)
+            .map(|(genome, score)| Scored { genome: genome.clone(), score: *score });
         for (island, count) in self.islands.iter_mut().zip(counts) {
             island.settle(newborn.by_ref().take(count), self.settings.parents);
         }

@@ -129,7 +129,10 @@ fn called(symbols: &Symbols, scope: &[String], draws: &mut Draws) -> Item {
 /// A name that nothing in `scope` has.
 fn unused(stem: &str, scope: &[String]) -> String {
     let is_free = |candidate: &String| !scope.contains(candidate);
-    (0..).map(|n| if n == 0 { stem.to_owned() } else { format!("{stem}{n}") }).find(is_free).unwrap_or_default()
+    (0..)
+        .map(|n| if n == 0 { stem.to_owned() } else { format!("{stem}{n}") })
+        .find(is_free)
+        .unwrap_or_default()
 }
 
 /// Makes an item another one of its kind, puts one into brackets or takes brackets away.

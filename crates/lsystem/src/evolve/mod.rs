@@ -91,7 +91,8 @@ impl Variation for GrammarGenerator {
         let mut in_word = false;
         for c in structure.chars() {
             let is_word = c.is_alphanumeric() || c == '_' || c == '.';
-            length += usize::from(if is_word { !in_word } else { !c.is_whitespace() && !",;:()".contains(c) });
+            length +=
+                usize::from(if is_word { !in_word } else { !c.is_whitespace() && !",;:()".contains(c) });
             in_word = is_word;
         }
         length

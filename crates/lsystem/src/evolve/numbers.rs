@@ -16,8 +16,18 @@ const MAX_NUMBER: f64 = 1000.0;
 const MAX_REPEATS: f64 = 40.0;
 const MAX_LEAVES: f64 = 400.0;
 /// Whole words that leaf shapes are.
-const SHAPES: [&str; 10] =
-    ["ovate", "linear", "cordate", "maple", "palmate", "spiky_oak", "rounded_oak", "elliptic", "rectangle", "triangle"];
+const SHAPES: [&str; 10] = [
+    "ovate",
+    "linear",
+    "cordate",
+    "maple",
+    "palmate",
+    "spiky_oak",
+    "rounded_oak",
+    "elliptic",
+    "rectangle",
+    "triangle",
+];
 
 /// Changes one number, a few, many a little, or all values of a repetition together.
 pub(super) fn vary(grammar: &mut Grammar, draws: &mut Draws) {

@@ -48,9 +48,7 @@ fn duplicate(grammar: &mut Grammar, chosen: usize, draws: &mut Draws) {
         grammar.rules.push(copy);
     }
     let mut uses = 0;
-    let is_use = |item: &Item| {
-        matches!(item, Item::Module { name, args } if *name == old.name && args.len() == old.params.len())
-    };
+    let is_use = |item: &Item| matches!(item, Item::Module { name, args } if *name == old.name && args.len() == old.params.len());
     super::walk::lists(grammar, &mut |list, _| uses += list.iter().filter(|item| is_use(item)).count());
     let mut left = draws.below(uses) as isize;
     super::walk::lists(grammar, &mut |list, _| {
@@ -78,7 +76,8 @@ fn weigh(rule: &mut Rule, draws: &mut Draws) {
     let mut left = 100.0;
     for (i, successor) in rule.successors.iter_mut().enumerate() {
         let rest = (count - 1 - i) as f64;
-        let share = if rest == 0.0 { left } else { (100.0 * weights[i] / sum).round().clamp(1.0, left - rest) };
+        let share =
+            if rest == 0.0 { left } else { (100.0 * weights[i] / sum).round().clamp(1.0, left - rest) };
         left -= share;
         successor.weight = Some(number(rounded(share / 100.0)));
     }

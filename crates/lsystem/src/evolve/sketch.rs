@@ -27,12 +27,11 @@ pub(super) fn sketch(draws: &mut Draws) -> String {
     let leaf = rounded(0.012 * 5.0_f64.powf(draws.unit()));
     format!(
         "{}steps: {}\nthickness: 0.5\nthinning: {}\ntropism: (0, 0, {lift})\nleaf_shape: {shape}\nleaf_scale: {leaf}\n\
-         leaf_scale_x: {}\nleaf_bend: {}\n{body}",
+         leaf_scale_x: {}\n{body}",
         blank!(),
         12 + draws.below(20),
         between(draws, 0.8, 0.98),
         between(draws, 0.3, 1.2),
-        between(draws, 0.0, 0.5),
     )
 }
 
@@ -55,7 +54,8 @@ fn around(draws: &mut Draws) -> String {
 
 /// `B(r)`: a branch of length `r` with its leaves.
 fn branch(draws: &mut Draws) -> String {
-    let leaves = |draws: &mut Draws| format!("{}, {}, 137.5", 4 + draws.below(24), between(draws, 20.0, 80.0));
+    let leaves =
+        |draws: &mut Draws| format!("{}, {}, 137.5", 4 + draws.below(24), between(draws, 20.0, 80.0));
     let bend = between(draws, -25.0, 25.0);
     let side = between(draws, 20.0, 70.0);
     let (a, b) = (leaves(draws), leaves(draws));
@@ -67,8 +67,9 @@ fn branch(draws: &mut Draws) -> String {
              ^({bend}) F(r*0.5, {b}) %\n"
         ),
         2 => format!(
-            "B(r) -> !(0.05*r) for k in 0..{} {{ F(r*0.2, {a}) ^({bend}) /(90) [ +({side}) F(r*{long}*0.5, {b}) % ] }}\n",
-            3 + draws.below(3)
+            "B(r) -> !(0.05*r) for k in 0..{} {{ F(r*0.2, {a}) ^({bend}) /(90) [ +({side}) F(r*{}, {b}) % ] }}\n",
+            3 + draws.below(3),
+            rounded(0.5 * long),
         ),
         _ => {
             let least = between(draws, 0.05, 0.15);

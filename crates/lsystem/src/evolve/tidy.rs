@@ -1,10 +1,13 @@
 //! Takes away what changes nothing, so that grammars stay short.
 
-use super::walk::lists;
-use crate::syntax::{Grammar, Item};
+use super::draws::rounded;
+use super::walk::{exprs, lists, literal, number};
+use crate::syntax::{BinaryOp, Expr, ExprKind, Grammar, Item};
 
-/// Takes away empty brackets and repetitions, and rules for symbols that are never written.
+/// Takes away empty brackets and repetitions, and rules for symbols that are never written; makes one
+/// number of products of numbers.
 pub(super) fn tidy(grammar: &mut Grammar) {
+    exprs(grammar, &mut |expr, _| fold(expr));
     // Taking one away may empty the one around it.
     loop {
         let mut is_done = true;
@@ -23,9 +26,10 @@ pub(super) fn tidy(grammar: &mut Grammar) {
         while known < written.len() {
             let (symbol, count) = written[known].clone();
             known += 1;
-            let rules = grammar.rules.iter().filter(|rule| {
-                rule.pred.name.text == symbol && rule.pred.params.len() == count
-            });
+            let rules = grammar
+                .rules
+                .iter()
+                .filter(|rule| rule.pred.name.text == symbol && rule.pred.params.len() == count);
             for successor in rules.flat_map(|rule| &rule.successors) {
                 collect(&successor.items, &mut written);
             }
@@ -53,5 +57,22 @@ fn collect(items: &[Item], written: &mut Vec<(String, usize)>) {
             Item::For { body, .. } => collect(body, written),
             Item::Let { .. } => {}
         }
+    }
+}
+
+/// `2*3` is 6, and `l*2*3` is `l*6`.
+fn fold(expr: &mut Expr) {
+    let ExprKind::Binary(BinaryOp::Mul, parts) = &mut expr.kind else { return };
+    let [left, right] = &mut **parts;
+    fold(left);
+    let Some(factor) = literal(right) else { return };
+    if let Some(value) = literal(left) {
+        *expr = number(rounded(value * factor));
+    } else if let ExprKind::Binary(BinaryOp::Mul, inner) = &mut left.kind
+        && let Some(value) = literal(&inner[1])
+    {
+        inner[1] = number(rounded(value * factor));
+        let folded = left.clone();
+        *expr = folded;
     }
 }

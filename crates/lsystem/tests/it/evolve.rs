@@ -40,11 +40,7 @@ fn any_sequence_of_changes_ends_in_a_grammar() {
         let mut one = own.clone();
         for step in 0..25 {
             let key = Key::root(number as u64).child(0, step);
-            one = if step % 5 == 4 {
-                variation.cross(&one, &own, key)
-            } else {
-                variation.vary(&one, key)
-            };
+            one = if step % 5 == 4 { variation.cross(&one, &own, key) } else { variation.vary(&one, key) };
             grown += usize::from(is_sound(&parent, &one));
         }
         assert_ne!(one, own);
@@ -75,7 +71,8 @@ fn changes_are_of_every_kind() {
     let parent = preset(&LSystemFamily, "grammar_acer").unwrap().generator;
     let variation = parent.variation().unwrap();
     let own = variation.own();
-    let letters = |text: &str| -> String { text.chars().filter(|c| !c.is_ascii_digit() && *c != '.').collect() };
+    let letters =
+        |text: &str| -> String { text.chars().filter(|c| !c.is_ascii_digit() && *c != '.').collect() };
     let children: Vec<String> = (0..300).map(|n| variation.vary(&own, Key::root(n))).collect();
     let numbers = children.iter().filter(|child| letters(child) == letters(&own)).count();
     assert!((100..250).contains(&numbers), "{numbers} of 300 change numbers only");

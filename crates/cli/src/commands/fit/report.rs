@@ -135,7 +135,8 @@ fn work(summary: &Summary) -> String {
 
 /// Where the time has gone.
 fn times(summary: &Summary) -> String {
-    let guess = (summary.from == "auto" && summary.rules.is_none()).then(|| format!("first guess {:.1} s", summary.first_guess_seconds));
+    let guess = (summary.from == "auto" && summary.rules.is_none())
+        .then(|| format!("first guess {:.1} s", summary.first_guess_seconds));
     let search = Some(format!("search {:.1} s", summary.search_seconds));
     let judging = summary.judging_seconds.map(|seconds| format!("judging {seconds:.1} s"));
     let parts: Vec<String> = [guess, search, judging].into_iter().flatten().collect();
