@@ -245,6 +245,7 @@ impl Method for Rules {
         self.round <= generations
             && self.islands.len() == self.settings.islands.max(1)
             && self.islands.iter().all(|island| island.population.len() <= self.settings.parents.max(2))
+            && self.islands.iter().all(|island| island.stagnation.max(island.ends) <= generations)
             && population().all(|one| is_individual(&one.genome, space) && space.has_structure(&one.genome))
             && (pending == 0 || pending == self.asked().sum::<usize>())
     }
