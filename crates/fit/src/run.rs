@@ -35,9 +35,13 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
                 let family = problem.start.generator.family();
                 return Err(FitError::NoVariation { family });
             }
-            // What is given may have any number of leaves.
-            let leaves = if settings.start == Start::Random { MAX_LEAVES } else { usize::MAX };
-            let evaluator = evaluator.with_at_most(MAX_WORK, leaves);
+            // What is given may be large.
+            let (work, leaves) = if settings.start == Start::Random {
+                (MAX_WORK, MAX_LEAVES)
+            } else {
+                (10 * MAX_WORK, usize::MAX)
+            };
+            let evaluator = evaluator.with_at_most(work, leaves);
             drive(&evaluator, space.priced(rules.price), settings, rules, fingerprint, control)
         }
     }

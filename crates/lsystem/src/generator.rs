@@ -2,6 +2,7 @@
 
 use crate::derive::{DeriveError, Limits};
 use crate::diagnostic::Fault;
+use crate::evolve::MAX_TEXT;
 use crate::syntax::{ExprKind, Grammar, ParamDecl, ParamUnit, SettingKey};
 use crate::system::{Derivation, LSystem};
 use crate::turtle::GrowFault;
@@ -118,7 +119,8 @@ impl Generator for GrammarGenerator {
     }
 
     fn variation(&self) -> Option<&dyn Variation> {
-        Some(self)
+        // A search keeps hundreds of copies.
+        (self.structure.len() <= MAX_TEXT).then_some(self)
     }
 
     fn grow(

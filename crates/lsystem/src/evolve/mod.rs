@@ -26,7 +26,7 @@ use std::sync::Arc;
 const TRIES: u32 = 8;
 /// Longest text of a grammar that evolves, in bytes: some ten screens. What is longer is refused, so
 /// that duplication ends.
-const MAX_TEXT: usize = 20_000;
+pub(crate) const MAX_TEXT: usize = 20_000;
 
 /// Chances of changes to numbers only, to items, and to rules otherwise.
 const NUMBERS: f64 = 0.6;

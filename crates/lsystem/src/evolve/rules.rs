@@ -8,6 +8,8 @@ use crate::syntax::{Grammar, Item, Rule, Successor};
 /// Most successors of a rule, and most rules.
 const MAX_SUCCESSORS: usize = 4;
 const MAX_RULES: usize = 12;
+/// Most successors whose probabilities are drawn: each is at least a hundredth.
+const MAX_WEIGHED: usize = 50;
 
 /// Adds a successor or takes one away, moves probability between two, or copies a rule under a new name.
 pub(super) fn vary(grammar: &mut Grammar, draws: &mut Draws) {
@@ -70,6 +72,9 @@ fn weigh(rule: &mut Rule, draws: &mut Draws) {
         return;
     }
     let count = rule.successors.len();
+    if count > MAX_WEIGHED {
+        return;
+    }
     let mut weights: Vec<f64> = rule.successors.iter().map(weight).collect();
     weights[draws.below(count)] = draws.between(0.1, 1.0);
     let sum: f64 = weights.iter().sum();
@@ -84,5 +89,5 @@ fn weigh(rule: &mut Rule, draws: &mut Draws) {
 }
 
 fn weight(successor: &Successor) -> f64 {
-    successor.weight.as_ref().and_then(literal).filter(|w| *w > 0.0).unwrap_or(0.5)
+    successor.weight.as_ref().and_then(literal).filter(|w| *w > 0.0 && *w <= 1.0).unwrap_or(0.5)
 }

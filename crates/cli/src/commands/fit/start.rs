@@ -164,7 +164,14 @@ impl From {
             SpeciesDoc::parse("blank", text)?.species(family)?
         };
         let family = species.generator.family();
-        ensure!(species.generator.variation().is_some(), no_rules(family));
+        let is_varied =
+            pleach_generators::families().iter().any(|f| f.name() == family && f.blank().is_some());
+        ensure!(is_varied, no_rules(family));
+        ensure!(
+            species.generator.variation().is_some(),
+            "the grammar of {} is longer than --evolve-rules takes",
+            species.name
+        );
         Ok(species)
     }
 
