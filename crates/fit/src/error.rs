@@ -22,6 +22,12 @@ pub enum FitError {
     /// `Start::Lists` without a list.
     #[error("the list of starts is empty")]
     NoStart,
+    /// The structure is to be searched, and the generator offers no way to change it.
+    #[error("species of the generator `{family}` have no rules that could change, or too many")]
+    NoVariation {
+        /// The family.
+        family: &'static str,
+    },
     /// The caller's stop flag was raised during a first guess or while a result was judged.
     #[error("interrupted")]
     Interrupted,

@@ -18,8 +18,8 @@ impl Fingerprint {
     /// That of a fit of `problem`.
     pub(crate) fn from_fit(problem: &FitProblem, settings: &FitSettings) -> Self {
         let limits = &settings.limits;
-        let of = format!("{}/{}", problem.start.generator.family(), settings.optimizer.name());
-        goal_parts(problem)
+        let of = format!("{}/{}", problem.start.generator.family(), settings.method_name());
+        let parts = goal_parts(problem)
             .into_iter()
             .fold(Self::named(&of), |parts, (name, bytes)| parts.with_bytes(name, bytes))
             .with_bytes("generator", problem.start.generator.model().to_string())
@@ -31,7 +31,11 @@ impl Fingerprint {
             .with("robust", &settings.robust)
             .with("objective", &settings.objective)
             .with("start", &settings.start)
-            .with("limits", &(limits.stems, limits.leaves, limits.knots, limits.work))
+            .with("limits", &(limits.stems, limits.leaves, limits.knots, limits.work));
+        match &settings.rules {
+            Some(rules) => parts.with("the search over rules", rules),
+            None => parts,
+        }
     }
 
     /// Without parts, of a run that is called `of`.

@@ -10,6 +10,7 @@ use crate::judged::{Judge, Judged, Judging};
 use crate::problem::FitProblem;
 use crate::run::fit;
 use crate::settings::FitSettings;
+use crate::space::SpaceError;
 use crate::verdict::Verdict;
 use pleach_silhouette::score::ScoreCard;
 use pleach_tree::Species;
@@ -56,7 +57,8 @@ impl GoalSettings {
 /// What came of a whole fit.
 #[derive(Clone, Debug)]
 pub struct Fitted {
-    /// What was fitted, with the species that the search started from.
+    /// What was fitted, with the species that the search started from; where its structure was searched
+    /// too, with the one that was found.
     pub problem: FitProblem,
     /// How it was searched, with the lists that the search started from.
     pub settings: FitSettings,
@@ -147,7 +149,7 @@ pub fn fit_goal_with(
     library: &mut GuessLibrary,
     mut control: Control<'_>,
 ) -> Result<Fitted, FitError> {
-    let begun = begin(problem, settings, library, &mut control)?;
+    let mut begun = begin(problem, settings, library, &mut control)?;
     for observer in &mut control.observers {
         observer.begun(&begun).map_err(FitError::Observer)?;
     }
@@ -159,6 +161,11 @@ pub fn fit_goal_with(
             _ => FitError::NothingGrew { evaluations: outcome.evaluations },
         });
     };
+    if best.genome.structure.is_some() {
+        // From here on it is a fit of the generator that was found.
+        begun.problem.start = begun.problem.species(&best.genome).map_err(SpaceError::Start)?;
+        best.genome.structure = None;
+    }
     let mut judged = None;
     if let (Some(judging), false) = (settings.judging, outcome.stop == StopReason::Interrupted) {
         control.observers.iter_mut().for_each(|observer| observer.judging());

@@ -14,13 +14,16 @@ pub struct Genome {
     pub nuisances: Vec<f64>,
     /// Seed of the tree.
     pub tree_seed: u64,
+    /// The structure, where it is searched too ([`pleach_tree::Variation`]); none for that of the
+    /// problem's generator.
+    pub structure: Option<String>,
 }
 
 impl Genome {
     /// Of goals of whose views everything is known.
     #[must_use]
     pub const fn new(values: Vec<f64>, tree_seed: u64) -> Self {
-        Self { values, nuisances: Vec::new(), tree_seed }
+        Self { values, nuisances: Vec::new(), tree_seed, structure: None }
     }
 }
 

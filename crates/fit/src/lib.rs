@@ -75,7 +75,7 @@ pub use history::{COLUMNS, Column, Row};
 pub use judged::{Judged, Judging};
 pub use method::{
     Cma, CmaSettings, Evolution, EvolutionSettings, Hewitt, HewittSettings, Merge, Method, MethodSettings,
-    Random, RandomSettings, Shade, ShadeSettings, Start,
+    Random, RandomSettings, Rules, RulesSettings, Shade, ShadeSettings, Start,
 };
 pub use nuisance::{Azimuth, MAX_OFFSET, MAX_SCALE, Nuisance, Placement, ROUGH_AZIMUTH, Unknown};
 pub use objective::{Objective, UnknownObjective};

@@ -139,6 +139,18 @@ pub struct UnknownOptimizer {
     pub given: String,
 }
 
+impl MethodSettings for Optimizer {
+    type Method = AnyMethod;
+
+    fn begin(&self, seed: u64, start: Start) -> AnyMethod {
+        self.method(seed, start)
+    }
+
+    fn has_begun(&self, method: &AnyMethod, seed: u64, start: &Start) -> bool {
+        Self::has_begun(self, method, seed, start)
+    }
+}
+
 impl Default for Optimizer {
     fn default() -> Self {
         Self::Evolution(EvolutionSettings::default())

@@ -5,6 +5,7 @@ use crate::nuisance::{Placement, Unknown};
 use pleach_silhouette::{Bitmap, Frame, View};
 use pleach_tree::param::SlotError;
 use pleach_tree::{Foliage, Species};
+use std::sync::Arc;
 
 /// One picture of the goal tree, and from where it was taken.
 #[derive(Clone, Debug)]
@@ -86,12 +87,19 @@ impl FitProblem {
         Ok(Self { start: with_values(&self.start, values)?, ..self.clone() })
     }
 
-    /// The species that `genome` is: that of the start with its numbers and its tree seed.
+    /// The species that `genome` is: that of the start with its numbers, its structure and its tree seed.
     ///
     /// # Errors
     /// The first value that the generator does not allow; none of an individual that a fit has found.
     pub fn species(&self, genome: &Genome) -> Result<Species, SlotError> {
-        let species = with_values(&self.start, genome.values.clone())?;
+        // What was scored has grown, so its structure can be read.
+        let read = |structure: &String| self.start.generator.variation()?.generator(structure);
+        let generator = genome.structure.as_ref().and_then(read);
+        let start = Species {
+            generator: generator.unwrap_or_else(|| Arc::clone(&self.start.generator)),
+            ..self.start.clone()
+        };
+        let species = with_values(&start, genome.values.clone())?;
         Ok(Species { tree_seed: Some(genome.tree_seed), ..species })
     }
 

@@ -24,11 +24,35 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
     let mut evaluator =
         Evaluator::new(problem, settings.objective, settings.limits)?.with_seeds(settings.robust);
     let space = search_space(problem, settings)?;
-    if settings.optimizer.matches_height() && space.sizes_are_free() {
+    if (settings.rules.is_some() || settings.optimizer.matches_height()) && space.sizes_are_free() {
         evaluator = evaluator.with_height_matching();
     }
-    drive(&evaluator, space, settings, Fingerprint::from_fit(problem, settings), control)
+    let fingerprint = Fingerprint::from_fit(problem, settings);
+    match &settings.rules {
+        None => drive(&evaluator, space, settings, &settings.optimizer, fingerprint, control),
+        Some(rules) => {
+            if space.variation().is_none() {
+                let family = problem.start.generator.family();
+                return Err(FitError::NoVariation { family });
+            }
+            // What is given may be large.
+            let (work, leaves) = if settings.start == Start::Random {
+                (MAX_WORK, MAX_LEAVES)
+            } else {
+                (10 * MAX_WORK, usize::MAX)
+            };
+            let evaluator = evaluator.with_at_most(work, leaves);
+            drive(&evaluator, space.priced(rules.price), settings, rules, fingerprint, control)
+        }
+    }
 }
+
+/// Steps of work that a tree of a searched structure may take: a tenth of a second. Most changes of a
+/// grammar that make it grow far do not make it better.
+const MAX_WORK: u64 = 1_000_000;
+/// Leaves of such a tree where the search begins from nothing: enough for a crown in a picture of 256
+/// pixels, and half of the time goes into leaves.
+const MAX_LEAVES: usize = 6_000;
 
 /// The space that a fit searches: the free slots, in ranges that hold every start.
 pub(crate) fn search_space(problem: &FitProblem, settings: &FitSettings) -> Result<SearchSpace, FitError> {
@@ -44,7 +68,9 @@ pub(crate) fn search_space(problem: &FitProblem, settings: &FitSettings) -> Resu
         let base = problem.start.params.values();
         space = space.plausible(settings.start.lists().first().map_or(base, Vec::as_slice));
     }
-    Ok(space.settling(settles).drawn_to(settings.start.lists(), settings.optimizer.prior()))
+    // Numbers of another structure mean something else.
+    let prior = if settings.rules.is_some() { 0.0 } else { settings.optimizer.prior() };
+    Ok(space.settling(settles).drawn_to(settings.start.lists(), prior))
 }
 
 /// The slots of `genome` that the fit of `problem` has set to zero because one tree cannot show them:

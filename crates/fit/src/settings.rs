@@ -1,7 +1,7 @@
 //! How a fit is run.
 
 use crate::budget::Budget;
-use crate::method::Start;
+use crate::method::{RulesSettings, Start};
 use crate::objective::Objective;
 use crate::optimizer::Optimizer;
 use crate::space::{Freedom, TreeSeed};
@@ -18,6 +18,8 @@ pub const FIT_LIMITS: Limits = Limits { stems: 60_000, leaves: 500_000, knots: 3
 pub struct FitSettings {
     /// The optimiser and its settings.
     pub optimizer: Optimizer,
+    /// Whether the generator's structure is searched too, and how: in the place of the optimiser.
+    pub rules: Option<RulesSettings>,
     /// When to stop.
     pub budget: Budget,
     /// Seed of the search.
@@ -36,11 +38,20 @@ pub struct FitSettings {
     pub limits: Limits,
 }
 
+impl FitSettings {
+    /// What searches: `rules`, or the name of the optimiser.
+    #[must_use]
+    pub const fn method_name(&self) -> &'static str {
+        if self.rules.is_some() { "rules" } else { self.optimizer.name() }
+    }
+}
+
 impl Default for FitSettings {
     /// The default optimiser from random lists, every parameter free, tree seed 1, no budget.
     fn default() -> Self {
         Self {
             optimizer: Optimizer::default(),
+            rules: None,
             budget: Budget::default(),
             seed: 1,
             tree_seed: TreeSeed::Fixed(1),

@@ -1,6 +1,7 @@
 //! Species files with a grammar in them, and those that come with pleach.
 
 use crate::diagnostic::Diagnostic;
+use crate::evolve::blank;
 use crate::generator::{GrammarGenerator, NAME};
 use crate::syntax::Span;
 use crate::system::LSystem;
@@ -81,6 +82,14 @@ impl Family for LSystemFamily {
                 None
             }
         }
+    }
+
+    fn blank(&self) -> Option<&'static str> {
+        Some(concat!(
+            "generator = \"lsystem\"\nname = \"evolved\"\ngrammar = '''\n",
+            blank!(),
+            "axiom: F(1)\n'''\n"
+        ))
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {

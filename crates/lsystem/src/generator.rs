@@ -2,12 +2,15 @@
 
 use crate::derive::{DeriveError, Limits};
 use crate::diagnostic::Fault;
+use crate::evolve::MAX_TEXT;
 use crate::program::Command;
 use crate::syntax::{ExprKind, Grammar, ParamDecl, ParamUnit, SettingKey};
 use crate::system::{Derivation, LSystem};
 use crate::turtle::GrowFault;
 use pleach_tree::param::{DeclarationError, Effect, Kind, Param, Scale};
-use pleach_tree::{Blame, CheckedParams, Generator, GrowError, Growth, ParamSpace, Tree, Unit, Workspace};
+use pleach_tree::{
+    Blame, CheckedParams, Generator, GrowError, Growth, ParamSpace, Tree, Unit, Variation, Workspace,
+};
 use std::sync::Arc;
 
 /// The family's name in species files.
@@ -115,6 +118,11 @@ impl Generator for GrammarGenerator {
 
     fn structure(&self) -> String {
         self.structure.clone()
+    }
+
+    fn variation(&self) -> Option<&dyn Variation> {
+        // A search keeps hundreds of copies.
+        (self.structure.len() <= MAX_TEXT).then_some(self)
     }
 
     fn grow(

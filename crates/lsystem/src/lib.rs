@@ -4,6 +4,7 @@
 
 mod derive;
 pub mod diagnostic;
+mod evolve;
 mod family;
 mod generator;
 mod header;

@@ -106,9 +106,9 @@ pub use pleach_tree::leaf_shape::{BlossomShape, LeafShape, Outline, OutlineError
 pub use pleach_tree::species::{Appearance, Color, Season};
 pub use pleach_tree::stats::Bounds;
 pub use pleach_tree::{
-    Blame, Blob, CheckedParams, Conflict, Family, Foliage, Generator, GrowError, Growth, Knot, Leaf, Limits,
-    MalformedTree, ModelId, Param, ParamSpace, Parts, Slot, Species, SpeciesDoc, SpeciesError, Stem,
-    StemKind, Tree, TreeStats, Workspace,
+    Blame, Blob, CheckedParams, Conflict, Family, Foliage, Generator, GrowError, Growth, Key, Knot, Leaf,
+    Limits, MalformedTree, ModelId, Param, ParamSpace, Parts, Slot, Species, SpeciesDoc, SpeciesError, Stem,
+    StemKind, Tree, TreeStats, Variation, Workspace,
 };
 /// What generators of your own are made of; `docs/a-generator.md` shows how.
 pub use pleach_tree::{param, random, species};
@@ -117,8 +117,8 @@ pub use pleach_tree::{param, random, species};
 pub use pleach_fit::{
     Budget, Candidate, Control, FirstGuess, FitError, FitProblem, FitSettings, Fitted, Genome, GoalSettings,
     GoalView, GuessLibrary, GuessSettings, Guessing, Judged, Judging, Objective, Observer, Optimizer,
-    Outcome, Progress, Score, Scored, Start, StopReason, TreeSeed, Unknown, Verdict, fit, fit_goal,
-    fit_goal_with,
+    Outcome, Progress, RulesSettings, Score, Scored, Start, StopReason, TreeSeed, Unknown, Verdict, fit,
+    fit_goal, fit_goal_with,
 };
 
 #[cfg(feature = "blend")]

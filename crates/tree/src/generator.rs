@@ -8,6 +8,7 @@ use crate::growth::{Growth, Workspace};
 use crate::model::ModelId;
 use crate::param::{CheckedParams, ParamSpace, Slot};
 use crate::plant::Tree;
+use crate::variation::Variation;
 use std::fmt;
 use std::sync::Arc;
 
@@ -44,6 +45,11 @@ pub trait Generator: Send + Sync + fmt::Debug {
     /// structure grow the same trees from the same numbers.
     fn structure(&self) -> String {
         String::new()
+    }
+
+    /// How searches may change the structure; none if they may not.
+    fn variation(&self) -> Option<&dyn Variation> {
+        None
     }
 
     /// What it is, apart from its numbers: the same for generators of one family with the same

@@ -40,6 +40,7 @@ pub mod spline;
 pub mod stats;
 pub mod trig;
 pub mod turtle;
+mod variation;
 
 pub use generator::Generator;
 pub use grow_error::{Blame, Conflict, GrowError};
@@ -50,3 +51,4 @@ pub use plant::{Blob, Knot, Leaf, MalformedTree, Parts, Stem, StemKind, Tree};
 pub use random::Key;
 pub use species::{Family, Species, SpeciesDoc, SpeciesError};
 pub use stats::TreeStats;
+pub use variation::Variation;

@@ -123,6 +123,9 @@ pub enum BodyProblem {
     /// The best individual is not of this generator.
     #[error("its best list: {0}")]
     Best(SlotError),
+    /// The best individual's structure is not one.
+    #[error("its best structure cannot be read")]
+    Structure,
     /// The optimiser cannot have come to this state.
     #[error("the optimiser's numbers do not fit together")]
     Method,

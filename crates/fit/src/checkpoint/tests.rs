@@ -138,7 +138,7 @@ fn the_header_says_what_it_is() {
     let bytes = fs::read(&path).unwrap();
     let header = bytes.split(|&byte| byte == b'\n').next().unwrap();
     let header = std::str::from_utf8(header).unwrap();
-    assert!(header.starts_with("pleach-checkpoint 4 palm-trees/hewitt "), "{header}");
+    assert!(header.starts_with("pleach-checkpoint 5 palm-trees/hewitt "), "{header}");
 }
 
 /// Bodies that were forged, checksum and all: errors or states, never panics and never much memory.

@@ -12,27 +12,29 @@ use crate::evaluate::Evaluate;
 use crate::fingerprint::Fingerprint;
 use crate::genome::{Score, Scored};
 use crate::history::Row;
+use crate::method::{Method, MethodSettings};
 use crate::observer::{Observer, Progress};
-use crate::optimizer::AnyMethod;
 use crate::search::{Search, SearchState};
 use crate::settings::FitSettings;
 use crate::solver::{ArgminSolver, AskTell, Batch, FitState};
 use crate::space::SearchSpace;
 use argmin::core::{Executor, TerminationReason};
 use pace::Pace;
+use serde::{Serialize, de::DeserializeOwned};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 /// Searches `space` for what `objective` scores best.
-pub(crate) fn drive(
+pub(crate) fn drive<S: MethodSettings<Method: State>>(
     objective: &impl Evaluate,
     space: SearchSpace,
     settings: &FitSettings,
+    method: &S,
     fingerprint: Fingerprint,
     control: Control<'_>,
 ) -> Result<Outcome, FitError> {
-    let mut driver = Driver::begin(objective, space, settings, fingerprint, control)?;
+    let mut driver = Driver::begin(objective, space, settings, method, fingerprint, control)?;
     driver.announce();
     if driver.verdict().is_none() {
         let best = driver.search.state.best.clone();
@@ -50,10 +52,15 @@ pub(crate) fn drive(
     Ok(driver.finish())
 }
 
-struct Driver<'a, 'e> {
+/// A method that can be saved.
+pub(crate) trait State: Method + Clone + Serialize + DeserializeOwned {}
+
+impl<M: Method + Clone + Serialize + DeserializeOwned> State for M {}
+
+struct Driver<'a, 'e, M> {
     /// For what scores do not tell.
     objective: &'e dyn Evaluate,
-    search: Search<AnyMethod>,
+    search: Search<M>,
     budget: Budget,
     fingerprint: Fingerprint,
     control: Control<'a>,
@@ -80,18 +87,19 @@ struct Times {
     before_search: Duration,
 }
 
-impl<'a, 'e> Driver<'a, 'e> {
-    fn begin(
+impl<'a, 'e, M: State> Driver<'a, 'e, M> {
+    fn begin<S: MethodSettings<Method = M>>(
         objective: &'e dyn Evaluate,
         space: SearchSpace,
         settings: &FitSettings,
+        method: &S,
         fingerprint: Fingerprint,
         control: Control<'a>,
     ) -> Result<Self, FitError> {
         let resumed = match &control.checkpoint {
             Some(file) if file.resume && file.path.exists() => {
                 let checkpoint = Checkpoint::read(&file.path, &fingerprint)?;
-                check(&checkpoint, settings, &space)
+                check(&checkpoint, settings, method, &space)
                     .map_err(|problem| CheckpointError::WrongBody { path: file.path.clone(), problem })?;
                 Some(checkpoint)
             }
@@ -100,7 +108,7 @@ impl<'a, 'e> Driver<'a, 'e> {
         let now = control.clock.elapsed();
         let (state, history, times) = match resumed {
             None => {
-                let method = settings.optimizer.method(settings.seed, settings.start.clone());
+                let method = method.begin(settings.seed, settings.start.clone());
                 let times = Times { earlier: Duration::ZERO, from: Duration::ZERO, before_search: now };
                 (SearchState::new(method, &settings.start), Vec::new(), times)
             }
@@ -278,23 +286,27 @@ impl<'a, 'e> Driver<'a, 'e> {
 }
 
 /// Whether a checkpoint of the right run holds what a search in `space` can have written.
-fn check(
-    checkpoint: &Checkpoint<AnyMethod>,
+fn check<S: MethodSettings>(
+    checkpoint: &Checkpoint<S::Method>,
     settings: &FitSettings,
+    method: &S,
     space: &SearchSpace,
 ) -> Result<(), BodyProblem> {
     let state = &checkpoint.search;
     // What was scored has grown, so it is a list of this generator's.
     if let Some(best) = &state.best {
         space.params().check(best.genome.values.clone()).map_err(BodyProblem::Best)?;
+        if !space.has_structure(&best.genome) {
+            return Err(BodyProblem::Structure);
+        }
     }
-    if !settings.optimizer.has_begun(&state.method, settings.seed, &settings.start) || !state.suits(space) {
+    if !method.has_begun(&state.method, settings.seed, &settings.start) || !state.suits(space) {
         return Err(BodyProblem::Method);
     }
     Ok(())
 }
 
-impl AskTell for Driver<'_, '_> {
+impl<M: State> AskTell for Driver<'_, '_, M> {
     fn name(&self) -> &str {
         self.search.name()
     }

@@ -34,7 +34,14 @@ fn still() -> Duration {
 fn run(settings: &FitSettings, checkpoint: Option<CheckpointSettings>) -> Result<Outcome, FitError> {
     let stop = AtomicBool::new(false);
     let control = Control { checkpoint, ..Control::new(&still, &stop) };
-    drive(&NEEDLE, space(), settings, Fingerprint::default().with("settings", &settings.seed), control)
+    drive(
+        &NEEDLE,
+        space(),
+        settings,
+        &settings.optimizer,
+        Fingerprint::default().with("settings", &settings.seed),
+        control,
+    )
 }
 
 #[test]
@@ -80,7 +87,15 @@ fn the_stop_flag_the_clock_and_the_target_end_a_run() {
     let settings = settings("random", Budget::default());
     let run = |budget, clock: &dyn Clock, stop: &AtomicBool| {
         let settings = FitSettings { budget, ..settings.clone() };
-        drive(&NEEDLE, space(), &settings, Fingerprint::default(), Control::new(clock, stop)).unwrap()
+        drive(
+            &NEEDLE,
+            space(),
+            &settings,
+            &settings.optimizer,
+            Fingerprint::default(),
+            Control::new(clock, stop),
+        )
+        .unwrap()
     };
     assert_eq!(run(Budget::default(), &still, &stop).stop, StopReason::Interrupted);
     let ticks = Mutex::new(0);
@@ -143,7 +158,9 @@ fn observers_see_every_generation_of_a_resumed_run() {
             ..Control::new(&still, &stop)
         };
         let settings = settings("hewitt", Budget::evaluations(evaluations));
-        outcome = Some(drive(&NEEDLE, space(), &settings, Fingerprint::default(), control).unwrap());
+        outcome = Some(
+            drive(&NEEDLE, space(), &settings, &settings.optimizer, Fingerprint::default(), control).unwrap(),
+        );
     }
     let outcome = outcome.unwrap();
     assert_eq!(seen.rows, outcome.history);

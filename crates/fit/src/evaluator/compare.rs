@@ -97,10 +97,15 @@ impl PreparedView {
             Objective::Blend => blend(&overlaps),
             Objective::Likeness => alike,
             Objective::Balance => f64::midpoint(blend(&overlaps), alike),
+            Objective::Overlap => iou * (alike / ALIKE).min(1.0).powi(2),
         };
         Agreement { accuracy, iou, value, likeness }
     }
 }
+
+/// Likeness from which on [`Objective::Overlap`] asks for no more: a little less than two trees of a species
+/// have to each other.
+const ALIKE: f64 = 0.78;
 
 /// The mean of overlaps over cell sizes: cells of 32, 16, 8, 4 and 2 pixels, then single pixels.
 ///
@@ -110,4 +115,39 @@ fn blend(overlaps: &Overlaps) -> f64 {
     let scales = overlaps.pyramid.iter().rev().copied().chain([overlaps.iou()]);
     let (sum, count) = scales.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
     sum / count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A filled box.
+    fn picture(left: u32, right: u32) -> Bitmap {
+        let mut bitmap = Bitmap::new(64, 64);
+        for row in 8..60 {
+            for column in left..right {
+                bitmap.set(column, row, true);
+            }
+        }
+        bitmap
+    }
+
+    #[test]
+    fn overlap_counts_as_far_as_it_is_alike() {
+        let frame =
+            Frame { width: 64, height: 64, meters_per_pixel: 0.1, axis_column: 32.0, ground_row: 60.0 };
+        let view = GoalView::new(picture(20, 40), View::FRONT, frame);
+        let problem = FitProblem::new(pleach_generators::preset("palm").unwrap(), view);
+        let views = PreparedView::of_problem(&problem);
+        let compare = |picture: &Bitmap| {
+            views[0].compare(picture, Objective::Overlap, Likeness::IfNeeded, &mut Comparisons::default())
+        };
+        assert_eq!(compare(&picture(20, 40)).value, 1.0);
+        let near = compare(&picture(21, 40));
+        assert!(near.likeness.unwrap() > ALIKE);
+        assert_eq!(near.value, near.iou);
+        let far = compare(&picture(4, 60));
+        let share = far.likeness.unwrap() / ALIKE;
+        assert!(share < 1.0 && (far.value - far.iou * share * share).abs() < 1e-12);
+    }
 }

@@ -76,6 +76,14 @@ impl Evaluator {
         Self { height: GoalHeight::seen(&self.views[0]), ..self }
     }
 
+    /// Gives up trees that take more than `work` steps or have more than `leaves` leaves.
+    #[must_use]
+    pub(crate) fn with_at_most(self, work: u64, leaves: usize) -> Self {
+        let Limits { work: most, leaves: most_leaves, .. } = self.limits;
+        let limits = Limits { work: most.min(work), leaves: most_leaves.min(leaves), ..self.limits };
+        Self { limits, ..self }
+    }
+
     /// Memory for one thread.
     ///
     /// # Panics
@@ -119,14 +127,26 @@ impl Evaluator {
         memory: &mut EvalWorkspace,
         likeness: Likeness,
     ) -> Score {
+        let own;
+        let generator = match &genome.structure {
+            None => &*self.generator,
+            Some(structure) => {
+                let read = self.generator.variation().and_then(|v| v.generator(structure));
+                let Some(read) = read else { return Score::INVALID };
+                own = read;
+                &*own
+            }
+        };
         let mut growth = self.growth(genome.tree_seed, self.foliage, most);
-        let Some(resized) = self.grow_matched(genome, &growth, memory) else { return Score::INVALID };
+        let Some(resized) = self.grow_matched(generator, genome, &growth, memory) else {
+            return Score::INVALID;
+        };
         let size = Size::new(&memory.tree);
         let mut sum = Sum::new();
         for number in 0..self.seeds {
             if number > 0 {
                 growth.seed = genome.tree_seed.wrapping_add(u64::from(number));
-                if !memory.grow(&*self.generator, &growth) {
+                if !memory.grow(generator, &growth) {
                     return Score::INVALID;
                 }
             }
@@ -149,16 +169,22 @@ impl Evaluator {
 
     /// Grows `genome`'s tree into `memory` at the height that it should have; the factor by which it was
     /// resized for that, or none if it does not grow.
-    fn grow_matched(&self, genome: &Genome, growth: &Growth, memory: &mut EvalWorkspace) -> Option<f64> {
+    fn grow_matched(
+        &self,
+        generator: &dyn Generator,
+        genome: &Genome,
+        growth: &Growth,
+        memory: &mut EvalWorkspace,
+    ) -> Option<f64> {
         memory.values.clone_from(&genome.values);
-        if !memory.grow(&*self.generator, growth) {
+        if !memory.grow(generator, growth) {
             return None;
         }
         let wanted = self.height.and_then(|goal| goal.factor(height_of(&memory.tree, self.foliage)));
-        let Some(factor) = wanted.filter(|&factor| self.generator.resize(&mut memory.values, factor)) else {
+        let Some(factor) = wanted.filter(|&factor| generator.resize(&mut memory.values, factor)) else {
             return Some(1.0);
         };
-        memory.grow(&*self.generator, growth).then_some(factor)
+        memory.grow(generator, growth).then_some(factor)
     }
 
     /// Compares the tree in `memory` with one goal.

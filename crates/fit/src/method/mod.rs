@@ -10,6 +10,7 @@
 //! | [`Cma`] | a normal distribution that learns which way to go: CMA-ES with margin | Hansen 2016; Hamano and others 2022 |
 //! | [`Shade`] | differences of a population, their factors learnt | Tanabe and Fukunaga 2013 |
 //! | [`Random`] | lists drawn independently: the floor to compare with | |
+//! | [`Rules`] | structures and their numbers: genetic programming | Koza 1993; Jacob 1994 |
 //! | [`Hewitt`] | copies of a base with one parameter changed each; the two fittest merge to the next base | Hewitt 2017, §3.3.2 |
 
 mod cma;
@@ -19,12 +20,14 @@ mod hewitt;
 #[cfg(test)]
 mod known_minima;
 mod random;
+mod rules;
 mod shade;
 
 pub use cma::{Cma, CmaSettings};
 pub use evolution::{Evolution, EvolutionSettings};
 pub use hewitt::{Hewitt, HewittSettings, Merge};
 pub use random::{Random, RandomSettings};
+pub use rules::{Rules, RulesSettings};
 pub use shade::{Shade, ShadeSettings};
 
 use crate::genome::{Genome, Score};

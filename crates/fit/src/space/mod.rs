@@ -12,7 +12,7 @@ use crate::genome::Genome;
 use crate::problem::FitProblem;
 use crate::stream::Stream;
 use pleach_tree::param::Problem;
-use pleach_tree::{Generator, ParamSpace, Slot};
+use pleach_tree::{Generator, ParamSpace, Slot, Variation};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -70,6 +70,8 @@ pub struct SearchSpace {
     settles: bool,
     /// What draws numbers to where the search starts, if anything does.
     prior: Option<Prior>,
+    /// What a word of a structure costs, where structures are searched.
+    price: f64,
 }
 
 /// Tells whether every pattern of `freedom` names parameters of `params`, and something is left to
@@ -190,6 +192,7 @@ impl SearchSpace {
             tree_seed,
             settles: false,
             prior: None,
+            price: 0.0,
         })
     }
 
@@ -230,11 +233,35 @@ impl SearchSpace {
         self
     }
 
-    /// What the search adds to the cost of `genome` for being unlike what it started from: 0 unless
-    /// [`SearchSpace::drawn_to`] has said otherwise.
+    /// What the search adds to the cost of `genome` for being unlike what it started from and for the length of
+    /// its structure: 0 unless [`SearchSpace::drawn_to`] or [`SearchSpace::priced`] have said otherwise.
     #[must_use]
     pub fn prior_cost(&self, genome: &Genome) -> f64 {
-        self.prior.as_ref().map_or(0.0, |prior| prior.of(&self.genes, &genome.values))
+        let length = |structure: &String| self.variation().map_or(0, |v| v.length(structure)) as f64;
+        let price = genome.structure.as_ref().map_or(0.0, |structure| self.price * length(structure));
+        price + self.prior.as_ref().map_or(0.0, |prior| prior.of(&self.genes, &genome.values))
+    }
+
+    /// Has every word of a structure cost `price`.
+    #[must_use]
+    pub fn priced(self, price: f64) -> Self {
+        Self { price, ..self }
+    }
+
+    /// How structures are changed; none if they cannot be.
+    #[must_use]
+    pub fn variation(&self) -> Option<&dyn Variation> {
+        self.generator.as_ref()?.variation()
+    }
+
+    /// Whether the structure of `genome`, if it has one of its own, can be read: what comes from a file
+    /// may be anything.
+    pub(crate) fn has_structure(&self, genome: &Genome) -> bool {
+        let is_one = |structure: &String| {
+            let generator = self.variation().and_then(|v| v.generator(structure));
+            generator.is_some_and(|generator| *generator.space() == self.params)
+        };
+        genome.structure.as_ref().is_none_or(is_one)
     }
 
     /// The free numbers: slots in order, then nuisances.
@@ -265,7 +292,7 @@ impl SearchSpace {
     /// seed of the problem (`seed` where any will do); nuisances are what is usual.
     #[must_use]
     pub fn individual(&self, values: &[f64], seed: u64) -> Genome {
-        let mut genome = Genome { values: self.base.clone(), nuisances: self.usual.clone(), tree_seed: seed };
+        let mut genome = Genome { nuisances: self.usual.clone(), ..Genome::new(self.base.clone(), seed) };
         for gene in &self.genes {
             if let Some(slot) = gene.slot() {
                 genome.values[slot.index()] = gene.clamp(values[slot.index()]);

@@ -18,7 +18,7 @@ fn listings_grow() {
         let system = LSystem::read("docs/grammars.md", text).unwrap_or_else(|e| panic!("{e}"));
         lengths.push(system.derive(&Derivation::default()).unwrap_or_else(|e| panic!("{e}")).len());
     }
-    assert_eq!(lengths.len(), 5);
+    assert_eq!(lengths.len(), 6);
     assert!(lengths.iter().all(|&n| n > 12), "{lengths:?}");
     for text in listings("toml") {
         let doc = SpeciesDoc::parse("docs/grammars.md", text).unwrap();

@@ -34,6 +34,12 @@ pub trait Family: Send + Sync + fmt::Debug {
     /// same, there is a generator nevertheless, so that all mistakes of a file are told at once.
     fn read(&self, doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Option<Arc<dyn Generator>>;
 
+    /// A species file whose structure is as small as can be: where a search over structures begins that
+    /// begins from nothing. None of a family whose structures cannot be [varied](crate::Variation).
+    fn blank(&self) -> Option<&'static str> {
+        None
+    }
+
     /// The species that come with pleach: name and text of the file.
     fn presets(&self) -> &'static [(&'static str, &'static str)];
 }

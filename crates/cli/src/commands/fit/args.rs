@@ -81,10 +81,15 @@ pub(super) struct SearchArgs {
     /// (the dissertation's genetic algorithm) or random
     #[arg(long, value_name = "NAME", default_value = pleach_fit::Optimizer::NAMES[0])]
     pub(super) optimizer: String,
+    /// Search the rules of a grammar too, and not only numbers: from the grammar in --from, by default
+    /// from nothing; prints the grammar that was found. See docs/grammars.md
+    #[arg(long, conflicts_with_all = ["optimizer", "settings"])]
+    pub(super) evolve_rules: bool,
     /// A setting of the optimiser, such as children=8 for evolution; repeatable. `--set help` lists them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) settings: Vec<String>,
-    /// What is made small: balance, blend, likeness, iou or accuracy
+    /// What is made small: balance, overlap (IoU, of trees with a likeness of 0.78), blend, likeness, iou or
+    /// accuracy
     #[arg(long, value_name = "NAME", default_value = Objective::default().name())]
     pub(super) objective: String,
     /// Seed of the search
@@ -121,6 +126,7 @@ impl SearchArgs {
     /// or the default one.
     pub(super) fn generator(&self) -> anyhow::Result<GeneratorChoice> {
         Ok(match (&self.generator, &self.from) {
+            (None, start::From::Auto | start::From::Random) if self.evolve_rules => start::varied_family()?,
             (Some(choice), _) => choice.clone(),
             (None, start::From::Species(name)) => {
                 GeneratorChoice::Family(crate::input::species(name)?.generator.family())
@@ -129,5 +135,11 @@ impl SearchArgs {
                 GeneratorChoice::Family(pleach_generators::default_family().name())
             }
         })
+    }
+
+    /// The species that the fit starts from, unless a first guess has a better one.
+    pub(super) fn start(&self) -> anyhow::Result<pleach_tree::Species> {
+        let generator = self.generator()?;
+        if self.evolve_rules { self.from.varied(&generator) } else { self.from.species(&generator) }
     }
 }

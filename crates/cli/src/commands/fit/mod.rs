@@ -24,7 +24,7 @@ use crate::{input, output};
 use anyhow::bail;
 use args::{BudgetArgs, GoalArgs, SearchArgs};
 use options::Settings;
-use pleach_fit::{Budget, FitSettings, GuessLibrary, Objective};
+use pleach_fit::{Budget, FitSettings, GuessLibrary, Objective, RulesSettings};
 use run_folder::{Mode, RunFolder};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -46,6 +46,7 @@ const EXAMPLES: &str = "Examples:
   pleach fit goal.png --from random --optimizer hewitt --evaluations 20000
   pleach fit goal.png --robust 4  parameters of which every seed is like it
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
+  pleach fit goal.png --evolve-rules --timeout 2m  a grammar from nothing
   pleach fit front.png --view 90=side.png --holdout-view 45=corner.png
   pleach fit front.png --view auto=other.png --free-frame  from who knows where
   pleach fit goal.png --out DIR --resume  go on after ctrl-C or a crash
@@ -140,7 +141,7 @@ impl Fit {
         }
         // Before a folder is made.
         let (from, generator) = (&self.search.from, &self.search.generator()?);
-        from.plan(generator, self.goal_options.leaves(), &from.species(generator)?, &settings)?;
+        from.plan(generator, self.goal_options.leaves(), &self.search.start()?, &settings)?;
         match &self.goals[..] {
             [goal] if !self.is_batch() => self.single(goal, &settings),
             _ => batch::run(self, &settings),
@@ -205,6 +206,7 @@ impl Fit {
         }
         Ok(Settings::Fit(Box::new(FitSettings {
             optimizer: options::optimizer(&search.optimizer, &search.settings)?,
+            rules: search.evolve_rules.then(RulesSettings::default),
             budget: Budget {
                 timeout,
                 evaluations: budget.evaluations,

@@ -32,8 +32,12 @@ pub(super) fn report(summary: &Summary, goal: &Path, folder: &Path) -> String {
             "of the parameters the goal determines {determined}, loosely {loosely}; {not_seen} are not seen\n"
         );
     }
+    let rules = summary.rules.as_ref();
+    let rules = rules.map_or_else(String::new, |rules| {
+        format!("the grammar, of {} words and signs:\n\n{}\n", rules.grammar_length, rules.grammar)
+    });
     format!(
-        "{}\n\n{}{judged}{}{}\n{}species  {}\noverlay  {}",
+        "{rules}{}\n\n{}{judged}{}{}\n{}species  {}\noverlay  {}",
         crate::commands::score::card(&summary.scores),
         sizes(summary),
         work(summary),
@@ -131,7 +135,8 @@ fn work(summary: &Summary) -> String {
 
 /// Where the time has gone.
 fn times(summary: &Summary) -> String {
-    let guess = (summary.from == "auto").then(|| format!("first guess {:.1} s", summary.first_guess_seconds));
+    let guess = (summary.from == "auto" && summary.rules.is_none())
+        .then(|| format!("first guess {:.1} s", summary.first_guess_seconds));
     let search = Some(format!("search {:.1} s", summary.search_seconds));
     let judging = summary.judging_seconds.map(|seconds| format!("judging {seconds:.1} s"));
     let parts: Vec<String> = [guess, search, judging].into_iter().flatten().collect();

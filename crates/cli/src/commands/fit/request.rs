@@ -115,8 +115,8 @@ fn options(
         ("generator", search.generator()?.to_string()),
         ("free", list(&search.free)),
         ("fix", list(&search.fix)),
-        ("optimizer", settings.optimizer.name().to_owned()),
-        ("set", serde_json::to_value(&settings.optimizer)?[settings.optimizer.name()].to_string()),
+        ("optimizer", settings.method_name().to_owned()),
+        ("set", method_settings(settings)?.to_string()),
         ("objective", settings.objective.to_string()),
         ("seed", settings.seed.to_string()),
         (
@@ -132,6 +132,14 @@ fn options(
         ("generations", optional(budget.generations.map(|count| count.to_string()))),
         ("target-iou", optional(budget.target_iou.map(|iou| iou.to_string()))),
     ]))
+}
+
+/// The settings of what searches.
+pub(super) fn method_settings(settings: &FitSettings) -> anyhow::Result<Value> {
+    Ok(match &settings.rules {
+        Some(rules) => serde_json::to_value(rules)?,
+        None => serde_json::to_value(&settings.optimizer)?[settings.optimizer.name()].take(),
+    })
 }
 
 #[cfg(test)]

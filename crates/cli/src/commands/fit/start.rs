@@ -4,11 +4,11 @@ use crate::commands::generator_choice::GeneratorChoice;
 use crate::input;
 use anyhow::{Context, ensure};
 use pleach_fit::{
-    Candidate, FirstGuess, FitSettings, GoalSettings, GuessSettings, Guessing, Judging, Runner, Start,
-    check_freedom,
+    Candidate, FirstGuess, FitSettings, GoalSettings, GuessSettings, Guessing, Judging, RulesSettings,
+    Runner, Start, check_freedom,
 };
 use pleach_tree::species::Appearance;
-use pleach_tree::{Foliage, Species};
+use pleach_tree::{Family, Foliage, Species, SpeciesDoc};
 use serde::Serialize;
 use std::str::FromStr;
 
@@ -122,7 +122,37 @@ pub(super) fn said(guess: &FirstGuess, detected: bool) -> String {
     format!("looks like {}{bare}", said.join(", "))
 }
 
+/// The family whose structures can be searched.
+pub(super) fn varied_family() -> anyhow::Result<GeneratorChoice> {
+    let family = pleach_generators::families().iter().find(|family| family.blank().is_some());
+    Ok(GeneratorChoice::Family(family.context("a family has rules")?.name()))
+}
+
 impl From {
+    /// The species that a search over rules starts from: that of `--from`, or one without rules.
+    pub(super) fn varied(&self, generator: &GeneratorChoice) -> anyhow::Result<Species> {
+        let species = if let Self::Species(_) = self {
+            self.species(generator)?
+        } else {
+            let blank = |family: &&'static dyn Family| Some((*family, family.blank()?));
+            let mut families = pleach_generators::families().iter().filter_map(blank);
+            let (family, text) = families
+                .find(|(family, _)| *generator == GeneratorChoice::Family(family.name()))
+                .with_context(|| no_rules(&generator.to_string()))?;
+            SpeciesDoc::parse("blank", text)?.species(family)?
+        };
+        let family = species.generator.family();
+        let is_varied =
+            pleach_generators::families().iter().any(|f| f.name() == family && f.blank().is_some());
+        ensure!(is_varied, no_rules(family));
+        ensure!(
+            species.generator.variation().is_some(),
+            "the grammar of {} is longer than --evolve-rules takes",
+            species.name
+        );
+        Ok(species)
+    }
+
     /// The species whose generator is fitted, and whose values fixed parameters keep unless a guess
     /// has better ones.
     pub(super) fn species(&self, generator: &GeneratorChoice) -> anyhow::Result<Species> {
@@ -140,8 +170,8 @@ impl From {
     }
 
     /// Whether leaves are looked for in the goal.
-    pub(super) fn detects(&self, leaves: Leaves) -> bool {
-        matches!(self, Self::Auto) && leaves == Leaves::Auto
+    pub(super) fn detects(&self, leaves: Leaves, rules: Option<&RulesSettings>) -> bool {
+        matches!(self, Self::Auto) && rules.is_none() && leaves == Leaves::Auto
     }
 
     /// The whole fit, with `search` from `start`, the species that [`From::species`] says.
@@ -159,15 +189,15 @@ impl From {
         let mut search = search.clone();
         let mut candidates: Vec<Candidate> = generator.known().map(Candidate::from).collect();
         let guess = match self {
-            Self::Auto => {
+            Self::Auto if search.rules.is_none() => {
                 candidates.retain(|candidate| check(&candidate.species).is_ok());
                 if candidates.is_empty() {
                     check(start)?;
                 }
-                let detect_leaves = self.detects(leaves);
+                let detect_leaves = self.detects(leaves, None);
                 Guessing::Compare(GuessSettings { detect_leaves, ..GuessSettings::default() })
             }
-            Self::Random | Self::Species(_) => {
+            Self::Auto | Self::Random | Self::Species(_) => {
                 check(start)?;
                 search.start = match self {
                     Self::Species(_) => Start::Lists(vec![start.params.values().to_vec()]),
@@ -178,6 +208,11 @@ impl From {
         };
         Ok(GoalSettings { search, guess, candidates, judging: Some(Judging::default()) })
     }
+}
+
+/// Why `--evolve-rules` cannot be.
+fn no_rules(generator: &str) -> String {
+    format!("--evolve-rules is about grammars, and the generator is {generator}: --generator lsystem")
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::drawing::{Drawing, Drawn};
 use super::judged;
-use super::request::Request;
+use super::request::{Request, method_settings};
 use super::run_folder::{Claim, SUMMARY};
 use super::start::{self, LooksLike, looks_like};
 use super::views::ViewScore;
@@ -60,6 +60,9 @@ pub(super) struct Summary {
     pub(super) evaluations_per_second: f64,
     pub(super) optimizer: &'static str,
     pub(super) optimizer_settings: Value,
+    /// The grammar that a search over rules has found.
+    #[serde(flatten)]
+    pub(super) rules: Option<Rules>,
     pub(super) objective: String,
     pub(super) cost: f64,
     pub(super) stopped_by: StopReason,
@@ -116,6 +119,23 @@ pub(super) struct Counts {
     pub(super) not_seen: usize,
 }
 
+/// Rules that were searched.
+#[derive(Debug, Serialize)]
+pub(super) struct Rules {
+    /// The grammar.
+    pub(super) grammar: String,
+    /// Its words and signs.
+    pub(super) grammar_length: usize,
+}
+
+impl Rules {
+    fn new(species: &Species) -> Option<Self> {
+        let variation = species.generator.variation()?;
+        let grammar = variation.own();
+        Some(Self { grammar_length: variation.length(&grammar), grammar })
+    }
+}
+
 impl Summary {
     /// Whether the fit can go on.
     pub(super) const fn interrupted(&self) -> bool {
@@ -137,7 +157,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
             "Fitted by pleach {} in {} evaluations ({}).",
             env!("CARGO_PKG_VERSION"),
             outcome.evaluations,
-            settings.optimizer.name()
+            settings.method_name()
         ),
         format!("IoU {:.4}, pixel accuracy {:.4} with tree_seed below.", scores.iou, scores.pixel_accuracy),
     ];
@@ -156,7 +176,6 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
     let seconds = outcome.elapsed.as_secs_f64();
     let first_guess_seconds = outcome.before_search.as_secs_f64();
     let verdict = fitted.verdict(&scores);
-    let optimizer = serde_json::to_value(&settings.optimizer)?;
     let summary = Summary {
         species: species.name.clone(),
         generator: species.generator.family().to_owned(),
@@ -177,8 +196,9 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         search_seconds: seconds - first_guess_seconds,
         judging_seconds: judged.as_ref().map(|judged| judged.elapsed.as_secs_f64()),
         evaluations_per_second: outcome.evaluations as f64 / seconds.max(1e-9),
-        optimizer: settings.optimizer.name(),
-        optimizer_settings: optimizer.get(settings.optimizer.name()).cloned().unwrap_or_default(),
+        optimizer: settings.method_name(),
+        optimizer_settings: method_settings(settings)?,
+        rules: settings.rules.as_ref().and_then(|_| Rules::new(species)),
         objective: settings.objective.to_string(),
         cost: best.score.cost,
         stopped_by: outcome.stop,

@@ -73,7 +73,7 @@ impl Task {
             resume: claim.resumes(),
         };
         let (view, further) = views::sort(&self.args.view)?;
-        let leaves_detected = from.detects(self.args.leaves());
+        let leaves_detected = from.detects(self.args.leaves(), settings.search.rules.as_ref());
         let drawing = |problem: &FitProblem, limits| Drawing {
             goals: &goals,
             args: &self.args,
@@ -127,7 +127,7 @@ impl Task {
     }
 
     fn problem(&self, fit: &Fit, goal: &Goal) -> anyhow::Result<FitProblem> {
-        let start = fit.search.from.species(&fit.search.generator()?)?;
+        let start = fit.search.start()?;
         let GoalArgs { height, size, free_frame, .. } = self.args;
         let (view, further) = views::sort(&self.args.view)?;
         let mut goals = vec![GoalView::new(goal.bitmap.clone(), view, goal.frame(height))];
