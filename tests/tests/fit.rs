@@ -158,6 +158,22 @@ fn the_first_guess_names_the_species_and_starts_the_fit() {
     run(&["--out", "x", "--from", "small_pin"]).fails(1, &["small_pin", "did you mean `small_pine`?"]);
 }
 
+/// Asked for all generators, a fit says which family it has chosen, and how the others did.
+#[test]
+fn the_family_is_chosen() {
+    let dir = Dir::new();
+    let args = ["silhouette", "coffey_pine", "--seed", "21", "--size", "96", "-o", "pine.png"];
+    let _ = dir.run(args).ok();
+    let args = ["fit", "pine.png", "--size", "64", "--evaluations", "20", "--out", "run", "--json"];
+    let run = dir.run([&args[..], &["--generator", "auto"]].concat());
+    assert!(run.stderr().contains("family fractal: "), "{}", run.stderr());
+    let summary = run.json();
+    assert_eq!(summary["generator"], "fractal");
+    let families = summary["families"].as_array().unwrap();
+    assert!(families.len() >= 3 && families[0]["family"] == "fractal", "{families:?}");
+    assert!(families.iter().all(|one| one["reached"].as_f64() <= one["guessed"].as_f64()), "{families:?}");
+}
+
 #[test]
 fn another_seed_is_another_search() {
     let dir = Dir::new();
