@@ -41,6 +41,9 @@ impl Derived<'_> {
             return Err(GrowFault::NothingDrawn);
         }
         let (factor, margin) = (SIDE / extent, SIDE * MARGIN);
+        if shapes.iter().any(|shape| !(shape.width.unwrap_or(0.0) * factor).is_finite()) {
+            return Err(GrowFault::NotFinite);
+        }
         let size = (high - low) * factor + 2.0 * margin;
         let place = |p: &DVec2| {
             // Adding 0 leaves no minus sign on a 0.

@@ -40,6 +40,8 @@ pub struct Report {
 
 /// Problems beyond which nobody reads on.
 const MAX_SHOWN: usize = 20;
+/// Places on lines with more bytes are not drawn: they would say nothing on a screen.
+const MAX_LINE: usize = 1000;
 
 impl Report {
     pub(crate) fn new(origin: &str, text: &str, mut diagnostics: Vec<Diagnostic>) -> Self {
@@ -72,6 +74,12 @@ impl Report {
             let start = span.start.min(self.text.len());
             let end = span.end.clamp(start, self.text.len());
             let level = if fault.is_warning() { Level::WARNING } else { Level::ERROR };
+            if longest_line(&text, start, end) > MAX_LINE {
+                let (line, column) = self.place(start);
+                let word = if fault.is_warning() { "warning" } else { "error" };
+                drawing.push_str(&format!("{word}: {title}\n --> {}:{line}:{column}\n", self.origin));
+                continue;
+            }
             let place = Snippet::source(text.as_str())
                 .path(self.origin.as_str())
                 .annotation(AnnotationKind::Primary.span(start..end));
@@ -88,6 +96,13 @@ impl Report {
         }
         drawing
     }
+}
+
+/// Bytes of the longest line that the bytes from `start` to `end` of `text` touch.
+fn longest_line(text: &str, start: usize, end: usize) -> usize {
+    let first = text.as_bytes()[..start].iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
+    let last = text.as_bytes()[end..].iter().position(|&b| b == b'\n').map_or(text.len(), |at| end + at);
+    text.as_bytes()[first..last].split(|&b| b == b'\n').map(<[u8]>::len).max().unwrap_or(0)
 }
 
 /// Whether a character is one of the two-byte control characters from U+0080 to U+009F.

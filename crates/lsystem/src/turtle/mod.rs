@@ -43,6 +43,9 @@ pub enum GrowFault {
 /// Metres beyond which single precision and sense end.
 const MAX_POSITION: f64 = 1e7;
 
+/// A thousand turns, in degrees.
+const MAX_TURN: f64 = 360e3;
+
 /// Whether a position is beyond all bounds.
 pub(crate) fn is_beyond(position: DVec3) -> bool {
     !position.is_finite() || position.abs().max_element() >= MAX_POSITION
@@ -184,7 +187,8 @@ impl Walk<'_> {
         );
         let count = leaves_of(values);
         if count > 0 {
-            let turn = values.get(3).copied().unwrap_or(0.0);
+            // Less whole turns, so that sums of turns are finite.
+            let turn = values.get(3).copied().unwrap_or(0.0) % MAX_TURN;
             let group = leaves::Group {
                 first_knot: knot,
                 right: from.right,

@@ -1,6 +1,7 @@
 //! What a grammar cannot do: take time or memory without end.
 
 use pleach_lsystem::{Derivation, Fault, LSystem, Limits};
+use pleach_tree::{Foliage, Tree};
 use std::time::{Duration, Instant};
 
 /// Time that none of these may take, on a machine that is busy with other things.
@@ -111,4 +112,27 @@ fn the_rule_that_grows_is_named() {
     assert!(told.contains("because of `B(l)`;"), "{told}");
     let told = blamed(grammar, pleach_tree::Limits { work: 100, ..limits });
     assert!(told.contains("`n`") && told.contains("because of `"), "{told}");
+}
+
+/// Numbers that are finite and whose products are not.
+#[test]
+fn huge_numbers_end_in_an_error_or_in_a_finite_tree() {
+    let wide = LSystem::read("wide", "steps: 1\naxiom: !(1.7e308) F(0.001) f\n").unwrap();
+    let derived = wide.derive(&Derivation::default()).unwrap();
+    assert!(derived.to_svg().is_err());
+    let turned = LSystem::read("turned", "dialect: hewitt\naxiom: F(10, 8, 45, 1e308)\n").unwrap();
+    let derived = turned.derive(&Derivation::default()).unwrap();
+    let mut tree = Tree::default();
+    derived.grow(&pleach_tree::Limits::default(), Foliage::All, &mut tree).unwrap();
+    assert_eq!(tree.leaves.len(), 8);
+    tree.well_formed().unwrap();
+}
+
+/// A mistake on a line as long as a book is told with its place and without the line.
+#[test]
+fn long_lines_are_not_drawn() {
+    let text = format!("axiom: F\n# {}\nF -> F({}1 +)\n", "x".repeat(50_000), "1+".repeat(20_000));
+    let report = LSystem::read("long", &text).unwrap_err();
+    let drawing = report.to_string();
+    assert!(drawing.len() < 2000 && drawing.contains("--> long:3:"), "{drawing}");
 }
