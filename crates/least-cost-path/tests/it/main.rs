@@ -1,0 +1,3 @@
+//! Tests of the family as its users see it.
+
+mod conformance;
