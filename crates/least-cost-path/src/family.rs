@@ -84,4 +84,12 @@ presets! {
     "round_maple",
     "oval_hornbeam",
     "tufted_acacia",
+    "taproot_elm",
+    "shallow_root_oak",
+    "tilted_tree",
+    "leafy_elm",
+    "leafy_maple",
+    "leafy_conifer",
+    "leafy_oak",
+    "leafy_willow",
 }

@@ -56,7 +56,8 @@ impl Shape {
         let share = volume.content / volume.parts[0].solid.content().max(f64::MIN_POSITIVE);
         let nodes = (self.nodes as f64 * share).round() as usize;
         let mut work = Work::default();
-        if nodes >= 2 {
+        // What is mostly below the ground would only creep along it.
+        if nodes >= 2 && share >= MIN_SHARE {
             let ends = Ends::Random { count: job.count, shell: 1.0 };
             work = graph.grow(&volume, job.at, (nodes, ends), rules, job.key, &mut batch.paths);
         }
@@ -73,6 +74,8 @@ pub(crate) struct Levels {
     jobs: Vec<Job>,
 }
 
+/// The share of a graph's volume that has to be on its side of the ground.
+const MIN_SHARE: f64 = 1.0 / 3.0;
 /// Graphs that a thread takes at a time.
 const CHUNK: usize = 16;
 

@@ -1,3 +1,4 @@
 //! Tests of the family as its users see it.
 
 mod conformance;
+mod dump;
