@@ -1,7 +1,7 @@
 //! Trees from least-cost paths through random graphs, after Xu and Mould 2012, *A procedural method
 //! for irregular tree models*, Computers & Graphics 36.
 //!
-//! Nodes are thrown into a volume, none too near to another ([`graph`]), and linked to the nearest in
+//! Nodes are thrown into a volume, none too near to another (`graph`), and linked to the nearest in
 //! each sector around them (a Yao graph). Edges have random weights. From some nodes, the endpoints,
 //! the paths of least weight to the root become branches, and around each endpoint a smaller graph
 //! grows the next ones.
@@ -14,6 +14,7 @@
 //! | `graph` | one graph: nodes, links, weights, paths |
 //! | `levels` | graphs around the endpoints of graphs |
 //! | `life`, `direction` | how long branches live, what light does, where they point |
+//! | `sketch` | a species that follows the outline of a tree in pictures |
 //! | `skeleton`, `thickness`, `stems`, `leaves` | from paths to a tree |
 
 mod budget;
@@ -27,6 +28,7 @@ mod life;
 mod numbers;
 mod purpose;
 mod skeleton;
+mod sketch;
 mod stems;
 mod structure;
 mod thickness;
@@ -35,3 +37,4 @@ mod volume;
 pub use family::LeastCostPathFamily;
 pub use generator::LeastCostPath;
 pub use graph::Work;
+pub use sketch::{SideView, species_around};

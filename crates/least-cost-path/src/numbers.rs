@@ -89,6 +89,9 @@ table! {
     crown_profile: Eight = Param::list("crown_profile", "height", Kind::real(0.0, 2.0), [0.2, 0.6, 0.9, 1.0, 0.95, 0.75, 0.45, 0.1])
         .search([(0.0, 1.0)]).group("volume").source(PAPER)
         .doc("radius over crown_radius at eight heights, from the crown's foot to its top");
+    outline_scale: Eight = Param::list("outline_scale", "height", Kind::real(0.1, 3.0), [1.0; 8])
+        .search([(0.6, 1.3)]).neutral(1.0).group("volume")
+        .doc("factors on the radii of a drawn outline at eight heights, from the crown's foot to its top");
     shell: f64 = real("shell", (0.02, 1.0), (0.05, 1.0), 1.0).neutral(1.0).group("volume").source(PAPER)
         .doc("endpoints lie at most this far below the crown's surface, over its radius; 1: anywhere");
     clusters: f64 = count("clusters", (0, 20), (0.0, 10.0), 0.0).neutral(0.0).group("volume").source(PAPER)
@@ -209,6 +212,7 @@ impl Numbers {
             "crown_height" => !given.volumes && self.crown_shape != 0.0,
             "crown_angle" => crown(0.0),
             "crown_profile" => crown(3.0) && !given.outline,
+            "outline_scale" => crown(3.0) && given.outline,
             "clusters" => !given.volumes,
             "cluster_size" => self.clusters > 0.0 && !given.volumes,
             "subgraph_nodes" => levels > 1 || self.root_depth > 0.0,

@@ -55,7 +55,11 @@ fn crown(n: &Numbers, drawn: Option<&Arc<Outline>>) -> (Solid, f64) {
         1 => (Solid::Cone { radius, height }, 0.0),
         2 => (Solid::Ellipsoid { across: radius, along: height / 2.0 }, height / 2.0),
         _ => {
-            let outline = drawn.map_or_else(|| Arc::new(Outline::of_radii(&n.crown_profile)), Arc::clone);
+            let outline = match drawn {
+                Some(drawn) if n.outline_scale == [1.0; 8] => Arc::clone(drawn),
+                Some(drawn) => Arc::new(drawn.scaled(&n.outline_scale)),
+                None => Arc::new(Outline::of_radii(&n.crown_profile)),
+            };
             (Solid::Turned { outline, radius, height }, 0.0)
         }
     }

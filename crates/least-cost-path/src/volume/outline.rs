@@ -32,6 +32,19 @@ impl Outline {
         outline
     }
 
+    /// With radii multiplied by `factors` at even heights, and by what lies between.
+    pub(crate) fn scaled(&self, factors: &[f64]) -> Self {
+        let last = (self.heights() - 1) as f64;
+        let factor = |row: usize| {
+            let at = row as f64 / last * (factors.len() - 1) as f64;
+            let low = (at as usize).min(factors.len() - 2);
+            factors[low] + (factors[low + 1] - factors[low]) * (at - low as f64)
+        };
+        let rows = self.radii.chunks(self.directions).enumerate();
+        let radii = rows.flat_map(|(row, radii)| radii.iter().map(move |r| r * factor(row))).collect();
+        Self::by_direction(radii, self.directions)
+    }
+
     fn heights(&self) -> usize {
         self.radii.len() / self.directions
     }
@@ -143,6 +156,12 @@ mod tests {
         ] {
             assert!((outline.radius(p) - radius).abs() < 1e-9, "{p}");
         }
+    }
+
+    #[test]
+    fn factors_are_by_height() {
+        let scaled = Outline::by_direction(vec![1.0; 6], 2).scaled(&[1.0, 3.0]);
+        assert_eq!(scaled.radii, [1.0, 1.0, 2.0, 2.0, 3.0, 3.0]);
     }
 
     #[test]

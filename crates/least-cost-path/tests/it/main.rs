@@ -1,4 +1,5 @@
 //! Tests of the family as its users see it.
 
 mod conformance;
-mod dump;
+
+mod bad_input;
