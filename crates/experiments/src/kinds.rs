@@ -5,6 +5,7 @@ use super::needle::NeedleSpec;
 use super::robustness::RobustnessSpec;
 use super::spec::{BlendSpec, FitsSpec, GrowthSpec, Kind, Source};
 use super::treefit::TreefitSpec;
+use super::yao::YaoSpec;
 
 /// What an experiment runs.
 #[derive(Clone, Debug)]
@@ -16,6 +17,7 @@ pub(super) enum Spec {
     Treefit(TreefitSpec),
     Needle(NeedleSpec),
     Robustness(RobustnessSpec),
+    Yao(YaoSpec),
 }
 
 impl Spec {
@@ -29,6 +31,7 @@ impl Spec {
             Kind::Treefit => Self::Treefit(source.parse::<TreefitSpec>()?.checked(source)?),
             Kind::Needle => Self::Needle(source.parse::<NeedleSpec>()?.checked(source)?),
             Kind::Robustness => Self::Robustness(source.parse::<RobustnessSpec>()?.checked(source)?),
+            Kind::Yao => Self::Yao(source.parse::<YaoSpec>()?.checked(source)?),
         })
     }
 }

@@ -20,6 +20,7 @@ mod stop;
 mod table;
 mod treefit;
 mod within;
+mod yao;
 
 use anyhow::bail;
 use journal::Journal;
@@ -88,6 +89,7 @@ impl Spec {
             Self::Likeness(spec) => spec,
             Self::Treefit(spec) => spec,
             Self::Needle(spec) => spec,
+            Self::Yao(spec) => spec,
             Self::Robustness(spec) => spec,
         }
     }

@@ -30,6 +30,8 @@ pub(super) enum Kind {
     Needle,
     /// Spoilt input of every sort.
     Robustness,
+    /// Graphs of least-cost paths and what they cost.
+    Yao,
 }
 
 impl Kind {
@@ -43,6 +45,7 @@ impl Kind {
             Self::Treefit => "treefit",
             Self::Needle => "needle",
             Self::Robustness => "robustness",
+            Self::Yao => "yao",
         }
     }
 }
