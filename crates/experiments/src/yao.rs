@@ -131,7 +131,9 @@ impl Kind for YaoSpec {
             for (links, lines) in model.links() {
                 for seed in 1..=seeds {
                     journal.job(
-                        |row: &Linked| (row.model.as_str(), row.links.as_str(), row.seed) == (&*model.name, links, seed),
+                        |row: &Linked| {
+                            (row.model.as_str(), row.links.as_str(), row.seed) == (&*model.name, links, seed)
+                        },
                         || Ok(vec![row(model, (links, lines), seed, &mut workspace, &mut tree)?]),
                     )?;
                 }
@@ -144,20 +146,33 @@ impl Kind for YaoSpec {
 
     fn report(&self, _: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
         let rows: Vec<Linked> = table.records()?;
-        let head =
-            ["model", "links", "nodes", "edges/node", "endpoints", "lost", "1 thread, ms", "all threads, ms", "2012, s"];
+        let head = [
+            "model",
+            "links",
+            "nodes",
+            "edges/node",
+            "endpoints",
+            "lost",
+            "1 thread, ms",
+            "all threads, ms",
+            "2012, s",
+        ];
         let mut lines = vec![head.map(str::to_owned).to_vec()];
         let mut plot = Plot::new("nodes", "milliseconds on one thread", Scale::Log, Scale::Log);
         let mut points = Vec::new();
         for model in &self.models {
             let model = model.get_ref();
             for (links, _) in model.links() {
-                let of: Vec<&Linked> =
-                    rows.iter().filter(|row| (row.model.as_str(), row.links.as_str()) == (&*model.name, links)).collect();
+                let of: Vec<&Linked> = rows
+                    .iter()
+                    .filter(|row| (row.model.as_str(), row.links.as_str()) == (&*model.name, links))
+                    .collect();
                 if of.is_empty() {
                     continue;
                 }
-                let mean = |value: &dyn Fn(&Linked) -> f64| of.iter().map(|row| value(row)).sum::<f64>() / of.len() as f64;
+                let mean = |value: &dyn Fn(&Linked) -> f64| {
+                    of.iter().map(|row| value(row)).sum::<f64>() / of.len() as f64
+                };
                 let time = mean(&|row| row.wall_one_thread_ms.0);
                 if links == YAO.0 {
                     points.push((mean(&|row| row.nodes as f64), time));
@@ -202,7 +217,9 @@ fn row(
     };
     let (work, one) = grow(false)?;
     let (_, all) = grow(true)?;
-    let length = |level: u16| tree.stems.iter().filter(move |stem| stem.level <= level).map(|stem| tree.length_of(stem));
+    let length = |level: u16| {
+        tree.stems.iter().filter(move |stem| stem.level <= level).map(|stem| tree.length_of(stem))
+    };
     Ok(Linked {
         model: model.name.to_string(),
         links: links.to_owned(),

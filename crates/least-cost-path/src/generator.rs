@@ -11,8 +11,8 @@ use crate::stems::Stems;
 use crate::structure::Structure;
 use crate::volume;
 use pleach_tree::{
-    Blame, CheckedParams, Conflict, Foliage, Generator, GrowError, Growth, Key, ParamSpace, Slot, StemKind, Tree,
-    Workspace,
+    Blame, CheckedParams, Conflict, Foliage, Generator, GrowError, Growth, Key, ParamSpace, Slot, StemKind,
+    Tree, Workspace,
 };
 use std::sync::Arc;
 
@@ -84,10 +84,8 @@ impl Generator for LeastCostPath {
     }
 
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {
-        let given = Given {
-            volumes: self.structure.volumes.is_some(),
-            outline: self.structure.outline.is_some(),
-        };
+        let given =
+            Given { volumes: self.structure.volumes.is_some(), outline: self.structure.outline.is_some() };
         Numbers::read(values).is_active(given, slot)
     }
 

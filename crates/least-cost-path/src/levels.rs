@@ -116,7 +116,8 @@ impl Levels {
             }
             if let Some(light) = &light {
                 let directions: Vec<DVec3> = self.jobs.iter().map(|job| job.axis).collect();
-                let shares = light.shares(&directions, n.branching[at] as usize, key.child(LIGHT, level as u32));
+                let shares =
+                    light.shares(&directions, n.branching[at] as usize, key.child(LIGHT, level as u32));
                 for (job, share) in self.jobs.iter_mut().zip(shares) {
                     (job.decrement, job.count) = (share.decrement, share.count);
                 }

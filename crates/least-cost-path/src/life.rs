@@ -62,7 +62,8 @@ impl Light {
     /// out: the best to the branch nearest to the light.
     pub(crate) fn shares(&self, directions: &[DVec3], count: usize, key: Key) -> Vec<Share> {
         let all = 0..directions.len() as u32;
-        let decrements = all.clone().map(|i| (key.unit(0, i) * f64::from(self.lifespan + 1)) as u32).collect();
+        let decrements =
+            all.clone().map(|i| (key.unit(0, i) * f64::from(self.lifespan + 1)) as u32).collect();
         let drawn = |i| (count as f64 * (1.0 + self.branching * key.signed(1, i))).round().max(1.0) as usize;
         self.deal(directions, decrements, all.map(drawn).collect())
     }

@@ -5,7 +5,6 @@ use pleach_tree::param::{Effect, Kind, Param, Scale, Unit};
 use pleach_tree::{ParamSpace, Slot};
 use std::sync::{Arc, LazyLock};
 
-
 type Eight = [f64; 8];
 
 /// Declares the parameters and the struct that they are read into, field by field in this order.
@@ -229,7 +228,9 @@ impl Numbers {
             "light_branching" | "light_lifespan" => levels > 1,
             "root_spread" | "root_laterals" => self.root_depth > 0.0,
             "root_branching" => self.root_depth > 0.0 && self.root_laterals > 0.0,
-            "leaf_shape" | "leaf_length" | "leaf_width" | "leaf_zone" | "leaf_angle" => self.leaf_number > 0.0,
+            "leaf_shape" | "leaf_length" | "leaf_width" | "leaf_zone" | "leaf_angle" => {
+                self.leaf_number > 0.0
+            }
             _ => true,
         }
     }

@@ -81,13 +81,16 @@ pub fn species_around(views: &[SideView], height: f64) -> Option<(Species, Vec<V
     };
     let widths: Vec<f64> = (0..rows).map(width).collect();
     let widest = widths.iter().copied().fold(0.0, f64::max);
-    let fork = widths.iter().position(|w| *w > CROWN * widest).unwrap_or(0).min((MAX_TRUNK * rows as f64) as usize);
+    let fork =
+        widths.iter().position(|w| *w > CROWN * widest).unwrap_or(0).min((MAX_TRUNK * rows as f64) as usize);
     let trunk_radius = match widths[..fork].iter().copied().min_by(f64::total_cmp) {
         Some(width) => width / 2.0,
         None => 0.01 * height,
     };
     let crown: Vec<Vec<f64>> = (fork..rows)
-        .map(|row| (0..DIRECTIONS).map(|d| radius(views, at(row), TAU * d as f64 / DIRECTIONS as f64)).collect())
+        .map(|row| {
+            (0..DIRECTIONS).map(|d| radius(views, at(row), TAU * d as f64 / DIRECTIONS as f64)).collect()
+        })
         .collect();
     let largest = crown.iter().flatten().copied().fold(0.0, f64::max);
     if crown.len() < 2 || largest <= 0.0 {

@@ -160,7 +160,8 @@ impl Stems {
             let before = if i > 0 { point(i - 1) } else { here };
             let after = if i < last { point(i + 1) } else { here };
             let is_inner = i > 0 && i < last;
-            let corner = if is_inner { (before + after - here * 2.0) * (n.smoothing / 6.0) } else { DVec3::ZERO };
+            let corner =
+                if is_inner { (before + after - here * 2.0) * (n.smoothing / 6.0) } else { DVec3::ZERO };
             let toward = |other: DVec3| here + (other - here) / 3.0;
             Knot { point: here + corner, handle_in: toward(before), handle_out: toward(after), radius }
         };
@@ -174,7 +175,8 @@ impl Stems {
             let next = knot(i, radius);
             if i > 0 {
                 let before = tree.knots[tree.knots.len() - 1];
-                along += Cubic::new(before.point, before.handle_out, next.handle_in, next.point).length(CHORDS);
+                along +=
+                    Cubic::new(before.point, before.handle_out, next.handle_in, next.point).length(CHORDS);
                 self.passed[self.nodes[i] as usize] = (next.point, along);
             }
             tree.knots.push(next);

@@ -60,7 +60,8 @@ mod tests {
     #[test]
     fn radii_follow_the_length_behind() {
         // The worked example: paths 7-3-6-0, 5-4-1-0 and 2-0 of a plane graph.
-        let plane = [(0.0, 0.0), (2.1, 1.0), (4.0, 0.4), (1.0, 3.2), (3.1, 3.6), (5.2, 2.9), (-1.2, 1.9), (1.8, 5.1)];
+        let plane =
+            [(0.0, 0.0), (2.1, 1.0), (4.0, 0.4), (1.0, 3.2), (3.1, 3.6), (5.2, 2.9), (-1.2, 1.9), (1.8, 5.1)];
         let order = [0, 6, 3, 7, 1, 4, 5, 2];
         let toward = [0, 0, 0, 6, 1, 4, 0, 3];
         let place = |node: usize| order.iter().position(|&o| o == node).unwrap() as u32;

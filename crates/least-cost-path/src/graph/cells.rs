@@ -52,8 +52,7 @@ impl Cells {
             cell[axis].saturating_sub(reach)..=(cell[axis] + reach).min(self.dims[axis] - 1)
         };
         let (first, last) = (*range(0).start(), *range(0).end());
-        range(2).flat_map(move |z| {
-            range(1).map(move |y| (self.number([first, y, z]), self.number([last, y, z])))
-        })
+        range(2)
+            .flat_map(move |z| range(1).map(move |y| (self.number([first, y, z]), self.number([last, y, z]))))
     }
 }

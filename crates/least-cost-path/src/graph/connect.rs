@@ -75,8 +75,7 @@ mod tests {
 
     #[test]
     fn sets_are_linked_where_they_are_nearest() {
-        let points: Vec<DVec3> =
-            [0.0, 1.0, 5.0, 6.0, 20.0].iter().map(|&x| dvec3(x, 0.0, 0.0)).collect();
+        let points: Vec<DVec3> = [0.0, 1.0, 5.0, 6.0, 20.0].iter().map(|&x| dvec3(x, 0.0, 0.0)).collect();
         let mut edges = vec![(0, 1), (2, 3)];
         Connector::default().connect(&points, &mut edges);
         assert_eq!(edges, [(0, 1), (2, 3), (1, 2), (3, 4)]);

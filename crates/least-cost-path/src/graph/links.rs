@@ -27,7 +27,9 @@ impl Sectors {
     /// The sector of `d`, from 0; zero counts as positive.
     fn of(self, d: DVec3) -> usize {
         match self {
-            Self::Octants => usize::from(d.x < 0.0) | usize::from(d.y < 0.0) << 1 | usize::from(d.z < 0.0) << 2,
+            Self::Octants => {
+                usize::from(d.x < 0.0) | usize::from(d.y < 0.0) << 1 | usize::from(d.z < 0.0) << 2
+            }
             Self::CubeFaces => {
                 let a = d.abs();
                 let (axis, value) = if a.x >= a.y && a.x >= a.z {
@@ -174,7 +176,10 @@ impl Linker {
                     let that = self.order[other];
                     let its = nodes.clusters[that as usize];
                     let is_allowed = its == cluster || its == 0 || cluster == 0;
-                    if that > this && is_allowed && self.points[other].distance_squared(*p) <= longest * longest {
+                    if that > this
+                        && is_allowed
+                        && self.points[other].distance_squared(*p) <= longest * longest
+                    {
                         self.edges.push((this, that));
                     }
                 }
@@ -260,10 +265,12 @@ mod tests {
     #[test]
     fn cells_and_pairs_find_the_same_links() {
         let key = pleach_tree::Key::root(3);
-        let many: Vec<[f64; 3]> = (0..3000).map(|i| [key.unit(0, i), key.unit(1, i), 3.0 * key.unit(2, i)]).collect();
+        let many: Vec<[f64; 3]> =
+            (0..3000).map(|i| [key.unit(0, i), key.unit(1, i), 3.0 * key.unit(2, i)]).collect();
         let nodes = nodes(&many);
         let longest = 0.2;
-        for linking in [Linking::Yao(Sectors::Octants), Linking::Yao(Sectors::CubeFaces), Linking::Threshold] {
+        for linking in [Linking::Yao(Sectors::Octants), Linking::Yao(Sectors::CubeFaces), Linking::Threshold]
+        {
             let mut linker = Linker::default();
             linker.link(&nodes, linking, longest, false);
             let mut edges = linker.edges.clone();
@@ -277,7 +284,11 @@ mod tests {
                         Linking::Threshold if p.distance(q) <= longest => expected.push(pair),
                         Linking::Yao(sectors) if p.distance_squared(q) <= longest * longest => {
                             let best = &mut best[sectors.of(q - p)];
-                            *best = if p.distance_squared(q) < best.0 { (p.distance_squared(q), j as u32) } else { *best };
+                            *best = if p.distance_squared(q) < best.0 {
+                                (p.distance_squared(q), j as u32)
+                            } else {
+                                *best
+                            };
                         }
                         _ => {}
                     }

@@ -154,7 +154,8 @@ impl Graph {
         }
         // Where nothing lies in the shell, one branch grows as far as it can.
         let far = |i: usize| self.nodes.points[i].distance_squared(self.nodes.points[0]);
-        let farthest = (1..self.nodes.points.len()).max_by(|&a, &b| far(a).total_cmp(&far(b)).then(b.cmp(&a)));
+        let farthest =
+            (1..self.nodes.points.len()).max_by(|&a, &b| far(a).total_cmp(&far(b)).then(b.cmp(&a)));
         if self.wanted.is_empty() && count > 0 {
             self.wanted.extend(farthest.map(|i| i as u32));
         }
@@ -244,7 +245,8 @@ mod tests {
         for seed in 0..100 {
             let ends = Ends::Random { count: 1000, shell: 1.0 };
             let key = Key::root(seed);
-            work += graph.grow(&volume, DVec3::Z, (100, ends), &rules(linking, link), key, &mut Paths::default());
+            work +=
+                graph.grow(&volume, DVec3::Z, (100, ends), &rules(linking, link), key, &mut Paths::default());
         }
         work
     }
@@ -267,7 +269,8 @@ mod tests {
         let mut paths = Paths::default();
         let ends = Ends::Random { count: 12, shell: 1.0 };
         let rules = rules(Linking::Yao(Sectors::Octants), 2.1);
-        let work = Graph::default().grow(&portion(0.0), DVec3::Z, (300, ends), &rules, Key::root(1), &mut paths);
+        let work =
+            Graph::default().grow(&portion(0.0), DVec3::Z, (300, ends), &rules, Key::root(1), &mut paths);
         assert_eq!((work.endpoints, paths.ends.len()), (12, 12));
         for (i, (_, next)) in paths.points.iter().enumerate() {
             assert!(*next == ROOT || (*next as usize) < i, "the way to the root comes first");

@@ -41,7 +41,14 @@ pub(crate) struct Thrown {
 impl Nodes {
     /// Throws until there are `count` nodes, the root among them, `spacing` times their mean spacing
     /// apart; fewer where they do not fit.
-    pub(crate) fn throw(&mut self, volume: &Volume, root: DVec3, count: usize, spacing: f64, key: Key) -> Thrown {
+    pub(crate) fn throw(
+        &mut self,
+        volume: &Volume,
+        root: DVec3,
+        count: usize,
+        spacing: f64,
+        key: Key,
+    ) -> Thrown {
         self.points.clear();
         self.parts.clear();
         self.chain.clear();
@@ -56,7 +63,11 @@ impl Nodes {
         let least = spacing * mean_spacing;
         let few = count < FEW;
         let (low, high) = volume.bounds();
-        let cells = if few { Cells::default() } else { Cells::new(low, high, least.max(0.3 * mean_spacing), 8 * count) };
+        let cells = if few {
+            Cells::default()
+        } else {
+            Cells::new(low, high, least.max(0.3 * mean_spacing), 8 * count)
+        };
         if !few {
             self.heads.clear();
             self.heads.resize(cells.len(), u32::MAX);

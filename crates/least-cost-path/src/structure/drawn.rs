@@ -33,7 +33,10 @@ impl Drawn {
             Value::List(points) => curve(node, points),
             Value::Table(entries) => match entries.as_slice() {
                 [only] if only.key == "radii" => radii(&only.node),
-                _ => Err((node.span.clone(), Problem::Missing { expected: "`radii` and nothing else".to_owned() })),
+                _ => Err((
+                    node.span.clone(),
+                    Problem::Missing { expected: "`radii` and nothing else".to_owned() },
+                )),
             },
             other => Err(wrong(node, "an SVG path, an array of points or a table", other)),
         };
@@ -113,8 +116,8 @@ fn curve(node: &Node, points: &[Node]) -> Result<Drawn, Fault> {
 
 /// A curve as SVG draws it: y downwards, the axis at x = 0.
 fn svg(node: &Node, text: &str) -> Result<Drawn, Fault> {
-    let path = BezPath::from_svg(text)
-        .map_err(|error| refused(node, &format!("is not an SVG path: {error}")))?;
+    let path =
+        BezPath::from_svg(text).map_err(|error| refused(node, &format!("is not an SVG path: {error}")))?;
     if !path.is_finite() {
         return Err(refused(node, "is an SVG path with numbers that are not finite"));
     }

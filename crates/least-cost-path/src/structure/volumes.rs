@@ -46,7 +46,10 @@ pub(crate) const SHAPES: &[Shape] = &[
             size("radius", "radius of its base"),
         ],
     },
-    Shape { name: "sphere", keys: &[point("center", "its middle, in crown radii"), size("radius", "its radius")] },
+    Shape {
+        name: "sphere",
+        keys: &[point("center", "its middle, in crown radii"), size("radius", "its radius")],
+    },
     Shape {
         name: "ellipsoid",
         keys: &[
@@ -81,7 +84,9 @@ impl Volumes {
             return None;
         };
         if items.is_empty() || items.len() > MAX_PARTS {
-            refuse(Problem::Syntax { message: format!("has {} parts, expected 1 to {MAX_PARTS}", items.len()) });
+            refuse(Problem::Syntax {
+                message: format!("has {} parts, expected 1 to {MAX_PARTS}", items.len()),
+            });
             return None;
         }
         let mut pieces = Vec::new();
@@ -148,7 +153,8 @@ impl Volumes {
 impl Piece {
     fn read(doc: &SpeciesDoc, name: &str, node: &Node) -> Result<Self, Issue> {
         let Value::Table(entries) = &node.value else {
-            let problem = Problem::WrongType { expected: "a table with a shape", found: node.value.type_name() };
+            let problem =
+                Problem::WrongType { expected: "a table with a shape", found: node.value.type_name() };
             return Err(doc.issue(node.span.clone(), name, problem));
         };
         let get = |key: &str| {

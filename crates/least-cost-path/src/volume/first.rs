@@ -74,7 +74,9 @@ fn refine(parts: &mut Vec<Part>, crown: &Part, fork: DVec3, n: &Numbers, key: Ke
     let mut points: Vec<DVec3> = Vec::new();
     for throw in 0..50 * wanted as u32 {
         let dart = key.child(CLUSTER, throw);
-        let Some(p) = crown.solid.point([dart.unit(0, 0), dart.unit(0, 1), dart.unit(0, 2)]) else { continue };
+        let Some(p) = crown.solid.point([dart.unit(0, 0), dart.unit(0, 1), dart.unit(0, 2)]) else {
+            continue;
+        };
         let p = crown.origin + crown.frame * p;
         if p.z > 0.0 && points.iter().all(|other| other.distance(p) > 0.7 * spacing) {
             points.push(p);

@@ -117,7 +117,11 @@ impl Volume {
             let probe = |i: u32| {
                 // A sequence that fills a cube evenly, by powers of the root of x⁴ = x + 1.
                 let at = |root: f64| ((f64::from(i) + 0.5) * root).fract();
-                part.solid.point([at(0.819_172_513_396_164_4), at(0.671_043_606_703_789_2), at(0.549_700_477_901_97)])
+                part.solid.point([
+                    at(0.819_172_513_396_164_4),
+                    at(0.671_043_606_703_789_2),
+                    at(0.549_700_477_901_97),
+                ])
             };
             let probes = (0..PROBES).filter_map(probe);
             let (hits, all) = probes.fold((0_u32, 0_u32), |(hits, all), p| {

@@ -78,9 +78,7 @@ impl Solid {
                 (0.0..=*height).contains(&p.z) && across.sqrt() <= radius * (1.0 - p.z / height)
             }
             Self::Ellipsoid { across: r, along } => across / (r * r) + (p.z / along).powi(2) <= 1.0,
-            Self::Turned { outline, radius, height } => {
-                outline.holds(p / dvec3(*radius, *radius, *height))
-            }
+            Self::Turned { outline, radius, height } => outline.holds(p / dvec3(*radius, *radius, *height)),
         }
     }
 
@@ -111,7 +109,9 @@ impl Solid {
     pub(crate) fn bounds(&self) -> (DVec3, DVec3) {
         let around = |r: f64, low: f64, high: f64| (dvec3(-r, -r, low), dvec3(r, r, high));
         match self {
-            Self::Cylinder { radius, height } | Self::Cone { radius, height } => around(*radius, 0.0, *height),
+            Self::Cylinder { radius, height } | Self::Cone { radius, height } => {
+                around(*radius, 0.0, *height)
+            }
             Self::Portion { radius, cos } => {
                 let across = if *cos > 0.0 { (1.0 - cos * cos).max(0.0).sqrt() } else { 1.0 };
                 around(radius * across, radius * cos.min(0.0), *radius)
@@ -181,7 +181,8 @@ mod tests {
             let thrown: Vec<DVec3> = thrown.collect();
             let (low, high) = solid.bounds();
             assert!(thrown.iter().all(|p| solid.holds(*p * (1.0 - 1e-12))), "{solid:?}");
-            let boxed = (0..n).map(|i| low + dvec3(key.unit(3, i), key.unit(4, i), key.unit(5, i)) * (high - low));
+            let boxed =
+                (0..n).map(|i| low + dvec3(key.unit(3, i), key.unit(4, i), key.unit(5, i)) * (high - low));
             let boxed: Vec<DVec3> = boxed.filter(|p| solid.holds(*p)).collect();
             let share = |points: &[DVec3]| {
                 points.iter().filter(|p| p.z < middle && p.truncate().length() < 0.5).count() as f64
@@ -195,9 +196,12 @@ mod tests {
     fn shells_hold_the_published_shares() {
         let ball = Solid::Portion { radius: 2.0, cos: 0.0 };
         let key = Key::root(7);
-        let points: Vec<DVec3> =
-            (0..20_000).filter_map(|i| ball.point([key.unit(0, i), key.unit(1, i), key.unit(2, i)])).collect();
-        for (shell, share, mean) in [(0.1, 0.271, 0.951_753), (0.2, 0.488, 0.907_377), (0.5, 0.875, 0.803_571)] {
+        let points: Vec<DVec3> = (0..20_000)
+            .filter_map(|i| ball.point([key.unit(0, i), key.unit(1, i), key.unit(2, i)]))
+            .collect();
+        for (shell, share, mean) in
+            [(0.1, 0.271, 0.951_753), (0.2, 0.488, 0.907_377), (0.5, 0.875, 0.803_571)]
+        {
             let inside: Vec<f64> =
                 points.iter().filter(|p| ball.in_shell(**p, shell)).map(|p| p.length() / 2.0).collect();
             assert!((inside.len() as f64 / points.len() as f64 - share).abs() < 0.015, "{shell}");

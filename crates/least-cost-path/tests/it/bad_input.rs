@@ -16,7 +16,10 @@ fn top(species: &Species) -> f64 {
 fn curves_that_cannot_be_drawn_are_told_with_their_place() {
     for (text, message) in [
         ("outline = \"\"", "t:1:11: `outline` is an empty SVG path"),
-        ("outline = \"M 3 4\"", "t:1:11: `outline` encloses nothing: it needs a height, and a distance from its axis"),
+        (
+            "outline = \"M 3 4\"",
+            "t:1:11: `outline` encloses nothing: it needs a height, and a distance from its axis",
+        ),
         ("outline = \"M 0 0 L 0 9\"", "encloses nothing"),
         ("outline = \"M 0 0 L 9 0\"", "encloses nothing"),
         ("outline = \"M 0 0 L NaN 3\"", "is not an SVG path"),
@@ -56,11 +59,20 @@ fn volumes_are_checked_part_by_part() {
         ("volumes = []", "`volumes` has 0 parts, expected 1 to 200"),
         ("volumes = 1", "`volumes` is a number, expected an array of tables"),
         ("volumes = [1]", "`volumes[0]` is a number, expected a table with a shape"),
-        ("volumes = [{ shape = \"cube\" }]", "`cube`, which is not one of stem, cylinder, cone, sphere, ellipsoid"),
+        (
+            "volumes = [{ shape = \"cube\" }]",
+            "`cube`, which is not one of stem, cylinder, cone, sphere, ellipsoid",
+        ),
         ("volumes = [{ shape = \"sphere\", radius = 1 }]", "`volumes[0].center` is missing"),
-        ("volumes = [{ shape = \"sphere\", center = [0, 0, nan], radius = 1 }]", "t:1:48: `volumes[0].center` is NaN"),
+        (
+            "volumes = [{ shape = \"sphere\", center = [0, 0, nan], radius = 1 }]",
+            "t:1:48: `volumes[0].center` is NaN",
+        ),
         ("volumes = [{ shape = \"sphere\", center = [0, 0, 1], radius = -1 }]", "out of range"),
-        ("volumes = [{ shape = \"sphere\", center = [0, 0, 1], radius = 1, to = 2 }]", "`volumes[0].to` is not a known name"),
+        (
+            "volumes = [{ shape = \"sphere\", center = [0, 0, 1], radius = 1, to = 2 }]",
+            "`volumes[0].to` is not a known name",
+        ),
     ] {
         let error = read(text).map(|species| species.name).unwrap_err();
         assert!(error.contains(message), "{text}: {error}");

@@ -1,7 +1,9 @@
 //! Where a fit starts that takes its volume from a picture: `--volume-from`.
 
 use anyhow::Context;
-use pleach_fit::{Azimuth, Candidate, FitSettings, GoalSettings, GoalView, Guessing, Judging, Start, check_freedom};
+use pleach_fit::{
+    Azimuth, Candidate, FitSettings, GoalSettings, GoalView, Guessing, Judging, Start, check_freedom,
+};
 use pleach_least_cost_path::{SideView, species_around};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::{Bitmap, Frame, View};
@@ -66,8 +68,8 @@ impl Outlined {
                 vec![side_view(&goal.bitmap, &goal.frame(height), &View::FRONT, height)]
             }
         };
-        let (species, lists) =
-            species_around(&views, height).context("--volume-from: no outline is seen from the side in it")?;
+        let (species, lists) = species_around(&views, height)
+            .context("--volume-from: no outline is seen from the side in it")?;
         Ok(Self { species, lists })
     }
 
@@ -87,7 +89,8 @@ fn side_view(bitmap: &Bitmap, frame: &Frame, view: &View, height: f64) -> SideVi
         let pixel = |z: f64| frame.ground_row - z / frame.meters_per_pixel;
         let at = height * f64::from(i) / f64::from(ROWS - 1);
         let half = 0.5 * height / f64::from(ROWS - 1);
-        let (top, bottom) = (pixel(at + half).floor().max(0.0) as u32, pixel(at - half).ceil().max(0.0) as u32);
+        let (top, bottom) =
+            (pixel(at + half).floor().max(0.0) as u32, pixel(at - half).ceil().max(0.0) as u32);
         let rows = top..bottom.min(bitmap.height());
         let mut columns: Vec<u32> = rows.flat_map(|y| bitmap.ink_in_row(y)).collect();
         columns.sort_unstable();
