@@ -48,7 +48,7 @@ const EXAMPLES: &str = "Examples:
   pleach fit goal.png --robust 4  parameters of which every seed is like it
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit front.png --view 90=side.png --holdout-view 45=corner.png
-  pleach fit oak.png --volume-from goal  a crown that follows the outline
+  pleach fit goal.png --volume-from goal  a crown that follows the outline
   pleach fit front.png --view auto=other.png --free-frame  from who knows where
   pleach fit goal.png --out DIR --resume  go on after ctrl-C or a crash
   pleach fit goal.png --out DIR --continue --timeout 5m  search on
