@@ -6,7 +6,6 @@ use super::record::{self, Fixed};
 use super::spec::{Repetitions, Source};
 use super::within::{FileName, List, Whole};
 use super::{Journal, Kind, Outputs, Slice, Table, progress};
-use anyhow::ensure;
 use pleach_console::output;
 use pleach_least_cost_path::{LeastCostPath, LeastCostPathFamily, Work};
 use pleach_tree::{Foliage, Growth, SpeciesDoc, Tree, Workspace};
@@ -104,10 +103,7 @@ impl YaoSpec {
                 SpeciesDoc::parse("a model", &model.species(links))?.species(&LeastCostPathFamily)?;
             }
         }
-        let names: Vec<&str> = self.models.iter().map(|model| &*model.get_ref().name).collect();
-        let twice = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name));
-        ensure!(twice.is_none(), "two models are called {}", twice.map_or("", |(_, name)| name));
-        let _ = source;
+        source.all_differ(&self.models, |model| model.name.to_string(), "")?;
         Ok(self)
     }
 }
