@@ -38,6 +38,11 @@ fn needle() {
 }
 
 #[test]
+fn yao() {
+    check("yao", &["--repetitions", "1"]);
+}
+
+#[test]
 fn complexity() {
     check("complexity", &["--repetitions", "3"]);
 }

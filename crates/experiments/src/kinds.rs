@@ -6,6 +6,7 @@ use super::needle::NeedleSpec;
 use super::robustness::RobustnessSpec;
 use super::spec::{BlendSpec, FitsSpec, GrowthSpec, Kind, Source};
 use super::treefit::TreefitSpec;
+use super::yao::YaoSpec;
 
 /// What an experiment runs.
 #[derive(Clone, Debug)]
@@ -18,6 +19,7 @@ pub(super) enum Spec {
     Needle(NeedleSpec),
     Robustness(RobustnessSpec),
     Families(FamiliesSpec),
+    Yao(YaoSpec),
 }
 
 impl Spec {
@@ -32,6 +34,7 @@ impl Spec {
             Kind::Needle => Self::Needle(source.parse::<NeedleSpec>()?.checked(source)?),
             Kind::Families => Self::Families(source.parse::<FamiliesSpec>()?.checked(source)?),
             Kind::Robustness => Self::Robustness(source.parse::<RobustnessSpec>()?.checked(source)?),
+            Kind::Yao => Self::Yao(source.parse::<YaoSpec>()?.checked(source)?),
         })
     }
 }

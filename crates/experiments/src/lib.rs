@@ -21,6 +21,7 @@ mod stop;
 mod table;
 mod treefit;
 mod within;
+mod yao;
 
 use anyhow::bail;
 use journal::Journal;
@@ -89,6 +90,7 @@ impl Spec {
             Self::Likeness(spec) => spec,
             Self::Treefit(spec) => spec,
             Self::Needle(spec) => spec,
+            Self::Yao(spec) => spec,
             Self::Robustness(spec) => spec,
             Self::Families(spec) => spec,
         }

@@ -32,6 +32,8 @@ pub(super) enum Kind {
     Robustness,
     /// Which family of generators a goal is taken for.
     Families,
+    /// Graphs of least-cost paths and what they cost.
+    Yao,
 }
 
 impl Kind {
@@ -46,6 +48,7 @@ impl Kind {
             Self::Needle => "needle",
             Self::Robustness => "robustness",
             Self::Families => "families",
+            Self::Yao => "yao",
         }
     }
 }

@@ -139,7 +139,9 @@ impl Walk<'_> {
                 Command::Vertex => self.corner(),
                 command => self.pen.obey(command, values, &self.steps),
             }
-            if is_beyond(self.pen.turtle.position) {
+            // Leaves stand on the bark.
+            let is_sane = self.pen.radius(&self.steps).abs() < MAX_POSITION;
+            if !is_sane || is_beyond(self.pen.turtle.position) {
                 return Err(GrowFault::NotFinite);
             }
         }

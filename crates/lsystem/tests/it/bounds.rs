@@ -126,6 +126,9 @@ fn huge_numbers_end_in_an_error_or_in_a_finite_tree() {
     derived.grow(&pleach_tree::Limits::default(), Foliage::All, &mut tree).unwrap();
     assert_eq!(tree.leaves.len(), 8);
     tree.well_formed().unwrap();
+    let thick = LSystem::read("thick", "dialect: hewitt\naxiom: !(1e60) F(10, 8, 45, 137.5)\n").unwrap();
+    let derived = thick.derive(&Derivation::default()).unwrap();
+    assert!(derived.grow(&pleach_tree::Limits::default(), Foliage::All, &mut tree).is_err());
 }
 
 /// A mistake on a line as long as a book is told with its place and without the line.

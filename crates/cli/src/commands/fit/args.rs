@@ -1,10 +1,12 @@
 //! What `pleach fit` is told about the goal, the search and when to stop.
 
 use super::goal::MaskSource;
-use super::{options, start, views};
+use super::{options, outlined, start, views};
 use crate::commands::generator_choice::GeneratorChoice;
 use crate::input;
+use anyhow::ensure;
 use pleach_fit::Objective;
+use pleach_tree::Family as _;
 use std::num::NonZeroU32;
 use std::time::Duration;
 
@@ -70,6 +72,10 @@ pub(super) struct SearchArgs {
     /// for all of them. By default weber-penn, or that of the species in --from
     #[arg(long, value_name = "auto|NAME")]
     pub(super) generator: Option<GeneratorChoice>,
+    /// Start from a tree of least-cost paths in the outline of a picture: of the `goal`, with its further
+    /// views from known directions, or of a file
+    #[arg(long, value_name = "goal|FILE", conflicts_with_all = ["from", "evolve_rules"])]
+    pub(super) volume_from: Option<outlined::VolumeFrom>,
     /// Parameters that may change: a name, a slot such as length[1], a group, or level:N; repeatable.
     /// All by default; see `pleach params`
     #[arg(long, value_name = "PATTERN")]
@@ -125,7 +131,17 @@ impl SearchArgs {
     /// The generators that take part: those that `--generator` says, the one of the species in `--from`,
     /// or the default one.
     pub(super) fn generator(&self) -> anyhow::Result<GeneratorChoice> {
+        let outlined = pleach_least_cost_path::LeastCostPathFamily.name();
         Ok(match (&self.generator, &self.from) {
+            (Some(choice), _) if self.volume_from.is_some() => {
+                let family = GeneratorChoice::Family(outlined);
+                ensure!(
+                    *choice == family,
+                    "--volume-from makes a tree of the generator {outlined}, and --generator says {choice}"
+                );
+                family
+            }
+            (None, _) if self.volume_from.is_some() => GeneratorChoice::Family(outlined),
             (None, start::From::Auto | start::From::Random) if self.evolve_rules => start::varied_family()?,
             (Some(choice), _) => choice.clone(),
             (None, start::From::Species(name)) => {

@@ -8,6 +8,7 @@ mod judged;
 mod list;
 mod live;
 mod options;
+mod outlined;
 mod progress;
 mod report;
 mod request;
@@ -48,6 +49,7 @@ const EXAMPLES: &str = "Examples:
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit goal.png --evolve-rules --timeout 2m  a grammar from nothing
   pleach fit front.png --view 90=side.png --holdout-view 45=corner.png
+  pleach fit goal.png --volume-from goal  a crown that follows the outline
   pleach fit front.png --view auto=other.png --free-frame  from who knows where
   pleach fit goal.png --out DIR --resume  go on after ctrl-C or a crash
   pleach fit goal.png --out DIR --continue --timeout 5m  search on

@@ -3,6 +3,7 @@
 
 use super::args::GoalArgs;
 use super::goal::MaskSource;
+use super::outlined::VolumeFrom;
 use super::{Fit, views};
 use anyhow::Context;
 use pleach_fit::{FitSettings, TreeSeed};
@@ -43,6 +44,9 @@ impl Request {
         let from = PathBuf::from(fit.search.from.to_string());
         if from.is_file() {
             others.push(from);
+        }
+        if let Some(VolumeFrom::File(file)) = &fit.search.volume_from {
+            others.push(file.clone());
         }
         let name = |path: &Path| path.display().to_string();
         let inputs = others.iter().map(|path| Ok((name(path), file_sha256(path)?)));
@@ -101,7 +105,7 @@ fn options(
     let (search, budget) = (&fit.search, &settings.budget);
     let optional = |value: Option<String>| value.unwrap_or_else(|| "nothing".to_owned());
     let list = |patterns: &[String]| optional((!patterns.is_empty()).then(|| patterns.join(" ")));
-    Ok(BTreeMap::from([
+    let mut options = BTreeMap::from([
         ("height", goal.height.to_string()),
         ("size", goal.size.to_string()),
         ("mask", optional(goal.mask.as_ref().map(ToString::to_string))),
@@ -131,7 +135,11 @@ fn options(
         ("evaluations", optional(budget.evaluations.map(|count| count.to_string()))),
         ("generations", optional(budget.generations.map(|count| count.to_string()))),
         ("target-iou", optional(budget.target_iou.map(|iou| iou.to_string()))),
-    ]))
+    ]);
+    if let Some(from) = &search.volume_from {
+        options.insert("volume-from", from.to_string());
+    }
+    Ok(options)
 }
 
 /// The settings of what searches.

@@ -3,6 +3,7 @@
 use super::args::GoalArgs;
 use super::drawing::Drawing;
 use super::goal::Goals;
+use super::outlined::Outlined;
 use super::request::Request;
 use super::run_folder::{Mode, RunFolder};
 use super::summary::{self, Results, Summary};
@@ -55,13 +56,23 @@ impl Task {
     ) -> anyhow::Result<Ended> {
         // Whatever can be refused is refused before the folder is touched.
         let goals = Goals::load(&self.goal, &self.args, fit.verbose)?;
-        let problem = self.problem(fit, &goals.working)?;
+        let mut problem = self.problem(fit, &goals.working)?;
+        let outlined = match &fit.search.volume_from {
+            Some(volume) => Some(Outlined::new(volume, &problem.goals, self.args.height)?),
+            None => None,
+        };
         let mut search = asked_for.clone();
         if mode == Mode::Continue {
             extend(&mut search, self.folder.finished().as_ref());
         }
         let (from, generator) = (&fit.search.from, &fit.search.generator()?);
-        let settings = from.plan(generator, self.args.leaves(), &problem.start, &search)?;
+        let settings = match outlined {
+            Some(outlined) => {
+                problem.start = outlined.species.clone();
+                outlined.plan(&search)?
+            }
+            None => from.plan(generator, self.args.leaves(), &problem.start, &search)?,
+        };
         let request = self.request(fit, &goals.source, &search)?;
         let mut claim = self.folder.clone().claim(mode, &request)?;
 
@@ -73,7 +84,8 @@ impl Task {
             resume: claim.resumes(),
         };
         let (view, further) = views::sort(&self.args.view)?;
-        let leaves_detected = from.detects(self.args.leaves(), settings.search.rules.as_ref());
+        let rules = settings.search.rules.as_ref();
+        let leaves_detected = fit.search.volume_from.is_none() && from.detects(self.args.leaves(), rules);
         let drawing = |problem: &FitProblem, limits| Drawing {
             goals: &goals,
             args: &self.args,

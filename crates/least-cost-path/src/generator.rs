@@ -1,0 +1,101 @@
+//! The growth model.
+
+use crate::budget::Budget;
+use crate::family::NAME;
+use crate::graph::{Rules, Work};
+use crate::leaves;
+use crate::levels::Levels;
+use crate::numbers::{Given, Numbers, space};
+use crate::skeleton::Skeleton;
+use crate::stems::Stems;
+use crate::structure::Structure;
+use crate::volume;
+use pleach_tree::{
+    Blame, CheckedParams, Conflict, Foliage, Generator, GrowError, Growth, Key, ParamSpace, Slot, StemKind,
+    Tree, Workspace,
+};
+use std::sync::Arc;
+
+/// Trees of least-cost paths, with everything settled but the numbers.
+#[derive(Clone, Debug, Default)]
+pub struct LeastCostPath {
+    pub(crate) structure: Structure,
+}
+
+/// Memory that is kept from tree to tree.
+#[derive(Debug, Default)]
+struct Scratch {
+    levels: Levels,
+    skeleton: Skeleton,
+    stems: Stems,
+}
+
+impl LeastCostPath {
+    /// What the graphs of a tree take, beside growing it: for measurements.
+    ///
+    /// # Errors
+    /// As [`Generator::grow`].
+    pub fn grow_counted(
+        &self,
+        params: &CheckedParams,
+        growth: &Growth,
+        workspace: &mut Workspace,
+        tree: &mut Tree,
+    ) -> Result<Work, GrowError> {
+        let n = Numbers::read(params.values_in(space())?);
+        tree.clear();
+        let scratch: &mut Scratch = workspace.scratch();
+        let key = Key::root(growth.seed);
+        let rules = Rules::new(&n, growth.parallel);
+        let mut budget = Budget::new(growth.limits, &rules);
+        let first = match &self.structure.volumes {
+            Some(volumes) => volumes.volume(n.crown_radius),
+            None => volume::first(&n, self.structure.outline.as_ref().map(|drawn| &drawn.outline), key),
+        };
+        let Scratch { levels, skeleton, stems } = scratch;
+        levels.above(&n, &first, key, &rules, &mut budget, skeleton)?;
+        if skeleton.points.len() < 2 {
+            let blame = Blame(vec!["nodes".to_owned(), "shell".to_owned()]);
+            return Err(Conflict::NothingLeft { blame }.into());
+        }
+        stems.build(skeleton, &n, StemKind::Trunk, &growth.limits, tree)?;
+        if growth.foliage == Foliage::All {
+            leaves::put(&n, &stems.tips, &growth.limits, tree)?;
+        }
+        if n.root_depth > 0.0 {
+            levels.below(&n, key, &rules, &mut budget, skeleton)?;
+            stems.build(skeleton, &n, StemKind::Root, &growth.limits, tree)?;
+        }
+        Ok(budget.work)
+    }
+}
+
+impl Generator for LeastCostPath {
+    fn family(&self) -> &'static str {
+        NAME
+    }
+
+    fn space(&self) -> &Arc<ParamSpace> {
+        space()
+    }
+
+    fn structure(&self) -> String {
+        self.structure.to_toml()
+    }
+
+    fn is_active(&self, values: &[f64], slot: Slot) -> bool {
+        let given =
+            Given { volumes: self.structure.volumes.is_some(), outline: self.structure.outline.is_some() };
+        Numbers::read(values).is_active(given, slot)
+    }
+
+    fn grow(
+        &self,
+        params: &CheckedParams,
+        growth: &Growth,
+        workspace: &mut Workspace,
+        tree: &mut Tree,
+    ) -> Result<(), GrowError> {
+        self.grow_counted(params, growth, workspace, tree).map(|_| ())
+    }
+}
