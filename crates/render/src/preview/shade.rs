@@ -153,6 +153,7 @@ impl View<'_> {
         let young = match palette.pattern {
             BarkPattern::Ringed if level > 0 => Vec3::from(linear(palette.leaf)) * 0.9,
             BarkPattern::Banded => vec3(0.115, 0.075, 0.055),
+            BarkPattern::Plain => bark,
             _ => bark * vec3(0.62, 0.52, 0.46),
         };
         let old = if palette.pattern == BarkPattern::Ringed && level > 0 {
