@@ -38,6 +38,11 @@ fn needle() {
 }
 
 #[test]
+fn stylised() {
+    check("stylised", &["--repetitions", "2"]);
+}
+
+#[test]
 fn complexity() {
     check("complexity", &["--repetitions", "3"]);
 }

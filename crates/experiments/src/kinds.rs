@@ -4,6 +4,7 @@ use super::likeness::LikenessSpec;
 use super::needle::NeedleSpec;
 use super::robustness::RobustnessSpec;
 use super::spec::{BlendSpec, FitsSpec, GrowthSpec, Kind, Source};
+use super::stylised::StylisedSpec;
 use super::treefit::TreefitSpec;
 
 /// What an experiment runs.
@@ -16,6 +17,7 @@ pub(super) enum Spec {
     Treefit(TreefitSpec),
     Needle(NeedleSpec),
     Robustness(RobustnessSpec),
+    Stylised(StylisedSpec),
 }
 
 impl Spec {
@@ -29,6 +31,7 @@ impl Spec {
             Kind::Treefit => Self::Treefit(source.parse::<TreefitSpec>()?.checked(source)?),
             Kind::Needle => Self::Needle(source.parse::<NeedleSpec>()?.checked(source)?),
             Kind::Robustness => Self::Robustness(source.parse::<RobustnessSpec>()?.checked(source)?),
+            Kind::Stylised => Self::Stylised(source.parse::<StylisedSpec>()?.checked(source)?),
         })
     }
 }

@@ -17,6 +17,7 @@ mod record;
 mod robustness;
 mod spec;
 mod stop;
+mod stylised;
 mod table;
 mod treefit;
 mod within;
@@ -89,6 +90,7 @@ impl Spec {
             Self::Treefit(spec) => spec,
             Self::Needle(spec) => spec,
             Self::Robustness(spec) => spec,
+            Self::Stylised(spec) => spec,
         }
     }
 }

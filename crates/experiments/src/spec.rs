@@ -30,6 +30,8 @@ pub(super) enum Kind {
     Needle,
     /// Spoilt input of every sort.
     Robustness,
+    /// Time, memory and vertices of stylised trees.
+    Stylised,
 }
 
 impl Kind {
@@ -43,6 +45,7 @@ impl Kind {
             Self::Treefit => "treefit",
             Self::Needle => "needle",
             Self::Robustness => "robustness",
+            Self::Stylised => "stylised",
         }
     }
 }

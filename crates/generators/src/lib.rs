@@ -12,11 +12,7 @@ use std::path::{Path, PathBuf};
 /// Every family of generators, the default one first.
 #[must_use]
 pub fn families() -> &'static [&'static dyn Family] {
-    &[
-        &pleach_weber_penn::WeberPennFamily,
-        &pleach_lsystem::LSystemFamily,
-        &pleach_stylised::StylisedFamily,
-    ]
+    &[&pleach_weber_penn::WeberPennFamily, &pleach_lsystem::LSystemFamily, &pleach_stylised::StylisedFamily]
 }
 
 /// The family of species files that name none, and of fits that are not told another.

@@ -35,6 +35,9 @@ pub(crate) struct Silhouette {
     /// Draw stems only
     #[arg(long)]
     no_leaves: bool,
+    /// Draw roots too, where the generator grows any
+    #[arg(long)]
+    roots: bool,
     /// The PNG to write, or `-` for standard output; without it the picture is drawn in the terminal
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -52,17 +55,12 @@ impl Silhouette {
             .grow_with(&growth)
             .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
 
+        let parts = Parts::with_foliage(!self.no_leaves);
+        let parts = if self.roots { parts | Parts::ROOTS } else { parts };
         let draw = |width: u32, height: u32| {
-            let frame =
-                Frame::automatic(&tree, &self.view, Parts::with_foliage(!self.no_leaves), width, height);
+            let frame = Frame::automatic(&tree, &self.view, parts, width, height);
             let mut bitmap = Bitmap::default();
-            Rasterizer::new().draw(
-                &tree,
-                &self.view,
-                &frame,
-                Parts::with_foliage(!self.no_leaves),
-                &mut bitmap,
-            );
+            Rasterizer::new().draw(&tree, &self.view, &frame, parts, &mut bitmap);
             bitmap
         };
         let Some(path) = &self.out else {

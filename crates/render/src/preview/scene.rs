@@ -20,20 +20,23 @@ pub(super) struct Scene {
     pub(super) crown: Crown,
     pub(super) low: Vec3,
     pub(super) high: Vec3,
+    /// Whether roots are drawn, whose ends are in the ground.
+    pub(super) has_roots: bool,
     /// The middle of the leaves, and how far they reach on average.
     pub(super) heart: Vec3,
     pub(super) reach: f32,
 }
 
 impl Scene {
-    pub(super) fn new(tree: &Tree, palette: &Palette, size: u32) -> Self {
-        let bounds = Bounds::new(tree, Parts::LEAFY);
+    pub(super) fn new(tree: &Tree, palette: &Palette, size: u32, parts: Parts) -> Self {
+        let bounds = Bounds::new(tree, parts);
         let (low, high) = bounds.map_or((Vec3::ZERO, Vec3::ONE), |b| (b.min.as_vec3(), b.max.as_vec3()));
         let pixel = f64::from((high - low).max_element().max(1e-3)) / f64::from(size.max(1));
         let settings = MeshSettings {
             tolerance: (0.2 * pixel).clamp(2e-4, 0.02),
             min_sides: 5,
             leaves: LeafStyle::Outline,
+            parts,
             ..MeshSettings::default()
         };
         let mesher = Mesher::new(tree, settings);
@@ -50,6 +53,7 @@ impl Scene {
             crown: Crown::new(low, high, &areas(tree)),
             low,
             high,
+            has_roots: parts.contains(Parts::ROOTS),
             heart: (low + high) / 2.0,
             reach: 1.0,
         };

@@ -127,6 +127,9 @@ impl View<'_> {
             // Seen edge on: rounding has thrown the point off the triangle.
             at = center;
         }
+        if self.scene.has_roots && at.z < 0.0 && self.settings.ground != Ground::None {
+            return self.ground(ray) * self.margin(x, y);
+        }
         let whole = plane.length_squared().max(1e-20);
         let wb = (at - a).cross(c - a).dot(plane) / whole;
         let wc = (b - a).cross(at - a).dot(plane) / whole;
