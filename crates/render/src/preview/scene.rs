@@ -5,6 +5,7 @@ use glam::Vec3;
 use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, Mesher, Palette, Vertex, send};
 use pleach_tree::stats::Bounds;
 use pleach_tree::{Parts, Tree};
+use std::ops::Range;
 
 /// All parts in one run of corners and triangles.
 #[derive(Debug)]
@@ -15,6 +16,8 @@ pub(super) struct Scene {
     pub(super) triangles: Vec<[u32; 3]>,
     /// First triangle of each part, what it is, and how many triangles each of its leaves has.
     pub(super) parts: Vec<(u32, Material, u32)>,
+    /// The triangles of closed surfaces of foliage.
+    pub(super) blobs: Range<u32>,
     /// First corner of each stem, its radius at the base in metres, its level.
     pub(super) stems: Vec<(u32, f32, u16)>,
     pub(super) crown: Crown,
@@ -49,6 +52,7 @@ impl Scene {
             points: Vec::new(),
             triangles: Vec::new(),
             parts: Vec::new(),
+            blobs: 0..0,
             stems: stems(tree, &mesher),
             crown: Crown::new(low, high, &areas(tree)),
             low,
@@ -60,7 +64,14 @@ impl Scene {
         for (part, mut block) in mesh.parts {
             let first = scene.vertices.len() as u32;
             let placed = if part.material == Material::Blossom { &tree.blossoms } else { &tree.leaves };
-            let each = block.triangles.len() / placed.len().max(1);
+            // Blobs follow the leaves.
+            let of_blobs = if part.material == Material::Leaf { tree.blob_triangles.len() } else { 0 };
+            let of_leaves = block.triangles.len() - of_blobs;
+            let each = of_leaves / placed.len().max(1);
+            if of_blobs > 0 {
+                let first = (scene.triangles.len() + of_leaves) as u32;
+                scene.blobs = first..first + of_blobs as u32;
+            }
             scene.parts.push((scene.triangles.len() as u32, part.material, each.max(1) as u32));
             scene.triangles.extend(block.triangles.iter().map(|t| t.map(|i| i + first)));
             scene.vertices.append(&mut block.vertices);
