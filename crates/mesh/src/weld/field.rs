@@ -9,6 +9,8 @@ use rayon::prelude::*;
 /// Grid points farther from the surface than so many cells are not kept. A cell that the surface
 /// crosses has all its corners within √3.
 const BAND: f64 = 2.0;
+/// The same where there are fillets, whose distances change by up to 1.4 metres per metre.
+const FILLET_BAND: f64 = 3.0;
 /// Most grid points along a side: a place is three such numbers in 64 bits.
 pub(super) const MAX_ALONG: i32 = 1 << 20;
 /// Most grid points near the surface, those of pieces that overlap counted twice.
@@ -33,9 +35,14 @@ pub(super) fn unplace(place: u64) -> IVec3 {
     ivec3(part(0), part(21), part(42))
 }
 
+/// Cells around the surface of `cone` that are kept.
+fn band(cone: &Cone) -> f64 {
+    if cone.swell > 0.0 { FILLET_BAND } else { BAND }
+}
+
 impl Field {
     pub(super) fn new(cones: &[Cone], joints: &[Joint], cell: f64) -> Result<Self, WeldError> {
-        let boxes = cones.iter().map(|c| c.bounds((BAND + 1.0) * cell + c.swell));
+        let boxes = cones.iter().map(|c| c.bounds((band(c) + 1.0) * cell + c.swell));
         let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (low, high) = boxes.fold(start, |(l, h), (low, high)| (l.min(low), h.max(high)));
         // The grid stands still while trees grow: its lines are whole multiples of the cell.
@@ -75,7 +82,7 @@ impl Field {
 
     /// The rows of points around `cone` that may be kept.
     fn rows(&self, cone: &Cone) -> impl Iterator<Item = (IVec3, i32)> + use<> {
-        self.rows_between(cone.bounds(BAND * self.cell + cone.swell))
+        self.rows_between(cone.bounds(band(cone) * self.cell + cone.swell))
     }
 
     /// The first point of each row of a box, and the number of points.
@@ -95,7 +102,8 @@ impl Field {
                 let p = first + ivec3(x, 0, 0);
                 let distance = cone.distance(self.at(p));
                 // A fillet moves the surface outwards, where points are near it too.
-                if distance > -BAND * self.cell && distance < BAND * self.cell + cone.swell {
+                let band = band(cone) * self.cell;
+                if distance > -band && distance < band + cone.swell {
                     near.push(place(p));
                 }
             }
@@ -129,7 +137,9 @@ impl Field {
                 if self.places[i] >= end {
                     break;
                 }
-                if let Some(distance) = joint.distance(&sides, self.at(unplace(self.places[i]))) {
+                if let Some(distance) =
+                    joint.distance(&sides, self.at(unplace(self.places[i])), FILLET_BAND * self.cell)
+                {
                     self.distances[i] = self.distances[i].min(distance as f32);
                 }
             }

@@ -144,7 +144,7 @@ impl View<'_> {
                 let (u, v) = (mix(&|i| vertex(i).uv.x), mix(&|i| vertex(i).uv.y));
                 self.bark(at, normal, ray, self.scene.stem_of(corners[0]), u, v)
             }
-            Material::Leaf if self.scene.blobs.contains(&triangle) => self.blob(at, normal, ray),
+            Material::Leaf if self.scene.blobs.contains(&triangle) => self.blob(at, normal),
             _ => self.leaf(at, normal, ray, material, leaf),
         };
         if self.sun.is_some() { shown(light).extend(1.0) } else { light.extend(1.0) }
@@ -203,15 +203,15 @@ impl View<'_> {
     }
 
     /// A closed surface of foliage: one flat colour in soft light.
-    fn blob(&self, at: Vec3, normal: Vec3, ray: Vec3) -> Vec3 {
+    fn blob(&self, at: Vec3, normal: Vec3) -> Vec3 {
         let color = Vec3::from(linear(self.scene.palette.leaf));
-        let facing = if normal.dot(ray) > 0.0 { -normal } else { normal };
-        let sky = self.scene.crown.sky_at(at + facing * 0.05);
+        // Seen from outside only. A smooth normal at the rim may look away, and is still the right one.
+        let sky = self.scene.crown.sky_at(at + normal * 0.05);
         let Some(sun) = &self.sun else { return color * even(sky) };
         // Wrapped around the edge of the shadow: what is drawn as a ball of leaves is not as hard as one.
-        let wrapped = (facing.dot(sun.towards) * 0.7 + 0.3).max(0.0);
-        let shadow = sun.at(at + facing * 0.02, 2, 1.6);
-        color * (SUN * (wrapped * shadow) + self.sky_light(facing, sky))
+        let wrapped = (normal.dot(sun.towards) * 0.7 + 0.3).max(0.0);
+        let shadow = sun.at(at + normal * 0.02, 2, 1.6);
+        color * (SUN * (wrapped * shadow) + self.sky_light(normal, sky))
     }
 
     /// Light from above and from the ground on a face, where this part of the sky is open.
