@@ -123,7 +123,8 @@ fn cones(tree: &Tree, settings: &WeldSettings) -> Result<(Vec<Cone>, Vec<Range<u
             };
             for k in 0..pieces {
                 let ((from, r), (to, s)) = (at(k), at(k + 1));
-                let foot = foot && i == 0 && k == 0;
+                // A trunk without a length has no side to be cut off.
+                let foot = foot && i == 0 && k == 0 && from.distance(to) > 1e-9;
                 cones.push(Cone { from, to, radii: [r, s], foot, swell: 0.0 });
             }
         }
