@@ -133,6 +133,12 @@ fn cones(tree: &Tree, settings: &WeldSettings) -> Result<(Vec<Cone>, Vec<Range<u
         }
         pieces_of.push(first..cones.len());
     }
+    // A tree that is no longer than a point is a ball.
+    if let (true, Some(knot)) = (cones.is_empty() && !pieces_of.is_empty(), tree.knots.first()) {
+        let radius = knot.radius.max(cell);
+        let at = knot.point;
+        cones.push(Cone { from: at, to: at, radii: [radius; 2], foot: false, swell: 0.0 });
+    }
     Ok((cones, pieces_of))
 }
 

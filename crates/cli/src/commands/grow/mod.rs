@@ -31,7 +31,7 @@ const EXAMPLES: &str = "Examples:
   pleach grow acer --seeds 0..9 -o forest/      nine skeletons and drawings
   pleach grow acer --seeds 0..9 -o forest/ --format glb
   pleach grow acer -o - --format ply > tree.ply
-  pleach grow stylised_oak --roots --weld 30 --fillet 2 -o oak.glb    one soft skin
+  pleach grow stylised_oak --weld 30 --fillet 2 -o oak.glb   one soft skin
 
 A .png from here is a flat drawing in two colours; `pleach render` makes shaded pictures, with bark, \
 light, seasons and views.
