@@ -163,7 +163,7 @@ fn roots_are_welded_where_they_are_asked_for() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig::with_cases(500))]
     /// Stylised trees of any numbers, the ends of their ranges more often than others, each with all of its
     /// roots: the settings for which the modifier that Lorite (2021) used left holes.
     #[test]
