@@ -43,6 +43,11 @@ fn yao() {
 }
 
 #[test]
+fn stylised() {
+    check("stylised", &["--repetitions", "2"]);
+}
+
+#[test]
 fn complexity() {
     check("complexity", &["--repetitions", "3"]);
 }

@@ -5,6 +5,7 @@ use super::likeness::LikenessSpec;
 use super::needle::NeedleSpec;
 use super::robustness::RobustnessSpec;
 use super::spec::{BlendSpec, FitsSpec, GrowthSpec, Kind, Source};
+use super::stylised::StylisedSpec;
 use super::treefit::TreefitSpec;
 use super::yao::YaoSpec;
 
@@ -20,6 +21,7 @@ pub(super) enum Spec {
     Robustness(RobustnessSpec),
     Families(FamiliesSpec),
     Yao(YaoSpec),
+    Stylised(StylisedSpec),
 }
 
 impl Spec {
@@ -35,6 +37,7 @@ impl Spec {
             Kind::Families => Self::Families(source.parse::<FamiliesSpec>()?.checked(source)?),
             Kind::Robustness => Self::Robustness(source.parse::<RobustnessSpec>()?.checked(source)?),
             Kind::Yao => Self::Yao(source.parse::<YaoSpec>()?.checked(source)?),
+            Kind::Stylised => Self::Stylised(source.parse::<StylisedSpec>()?.checked(source)?),
         })
     }
 }

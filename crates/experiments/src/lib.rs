@@ -18,6 +18,7 @@ mod record;
 mod robustness;
 mod spec;
 mod stop;
+mod stylised;
 mod table;
 mod treefit;
 mod within;
@@ -93,6 +94,7 @@ impl Spec {
             Self::Yao(spec) => spec,
             Self::Robustness(spec) => spec,
             Self::Families(spec) => spec,
+            Self::Stylised(spec) => spec,
         }
     }
 }

@@ -34,6 +34,8 @@ pub(super) enum Kind {
     Families,
     /// Graphs of least-cost paths and what they cost.
     Yao,
+    /// Time, memory and vertices of stylised trees.
+    Stylised,
 }
 
 impl Kind {
@@ -49,6 +51,7 @@ impl Kind {
             Self::Robustness => "robustness",
             Self::Families => "families",
             Self::Yao => "yao",
+            Self::Stylised => "stylised",
         }
     }
 }

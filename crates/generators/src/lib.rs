@@ -17,6 +17,7 @@ pub fn families() -> &'static [&'static dyn Family] {
         &pleach_lsystem::LSystemFamily,
         &pleach_fractal::FractalFamily,
         &pleach_least_cost_path::LeastCostPathFamily,
+        &pleach_stylised::StylisedFamily,
     ]
 }
 

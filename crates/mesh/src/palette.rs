@@ -55,6 +55,9 @@ impl Palette {
     pub fn apply_season(&self, tree: &mut Tree) {
         if !self.leaves {
             tree.leaves.clear();
+            tree.blobs.clear();
+            tree.blob_vertices.clear();
+            tree.blob_triangles.clear();
         }
         if !self.blossoms {
             tree.blossoms.clear();

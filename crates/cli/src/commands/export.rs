@@ -7,6 +7,7 @@ use crate::files::{self, Out};
 use anyhow::{Context, bail};
 use pleach_mesh::forest;
 use pleach_mesh::lod::{self, Level};
+use pleach_mesh::weld::WeldSettings;
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{obj, ply, stl, usda};
 use pleach_mesh::{
@@ -15,7 +16,7 @@ use pleach_mesh::{
 };
 use pleach_render::{Billboards, billboard, leaf_picture, png_file};
 use pleach_tree::species::Season;
-use pleach_tree::{Species, Tree};
+use pleach_tree::{Parts, Species, Tree};
 use serde_json::{Map, Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -71,6 +72,13 @@ pub(crate) struct MeshArgs {
     /// is thinner becomes as thick as a cell
     #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "wind", "forest", "tolerance"])]
     pub(super) weld: Option<f64>,
+    /// Round the corners where welded stems meet: width of the fillet over the radius of the thinner
+    /// stem, 0 to 4 [default: 0]
+    #[arg(long, value_name = "RATIO", value_parser = fillet, requires = "weld")]
+    fillet: Option<f64>,
+    /// Draw roots too, where the generator grows any
+    #[arg(long, conflicts_with = "forest")]
+    roots: bool,
     /// A last level of detail: N crossing cards that show the tree, 1 to 8, in a .glb
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(billboard::MAX_SIDES)))]
     pub(super) billboard: Option<u32>,
@@ -114,6 +122,11 @@ fn cell(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "millimetres from 1 to 1000".to_owned())
 }
 
+fn fillet(text: &str) -> Result<f64, String> {
+    let max = WeldSettings::MAX_FILLET;
+    text.parse().ok().filter(|f| (0.0..=max).contains(f)).ok_or_else(|| format!("a ratio from 0 to {max}"))
+}
+
 /// `40x30m`, `40x30` or `40`.
 fn field(text: &str) -> Result<(f64, f64), String> {
     let sides = text.trim_end_matches('m');
@@ -136,6 +149,11 @@ impl MeshArgs {
         self.leaves == Some(Leaves::None)
     }
 
+    /// What of a tree is drawn.
+    pub(super) fn parts(&self) -> Parts {
+        if self.roots { Parts::ALL } else { Parts::LEAFY }
+    }
+
     fn levels(&self) -> u32 {
         self.lod.unwrap_or(1)
     }
@@ -151,6 +169,7 @@ impl MeshArgs {
             tolerance: self.tolerance.unwrap_or(TOLERANCE) / 1000.0,
             leaves,
             wind: self.wind,
+            parts: self.parts(),
             ..MeshSettings::default()
         }
     }
@@ -175,7 +194,12 @@ impl MeshArgs {
     /// Writes a tree as a mesh.
     pub(super) fn write(&self, format: Format, export: &Export<'_>) -> anyhow::Result<()> {
         self.check_alone(export.path, format)?;
-        let bark = self.weld.map(|cell| weld::surface(export.tree, cell / 1000.0)).transpose()?;
+        let welded = |cell: f64| {
+            let fillet = self.fillet.unwrap_or(0.0);
+            let settings = WeldSettings { fillet, parts: self.parts(), ..WeldSettings::new(cell / 1000.0) };
+            weld::surface(export.tree, &settings)
+        };
+        let bark = self.weld.map(welded).transpose()?;
         let bark = bark.as_ref();
         match format {
             Format::Glb => self.write_glb(export, bark),

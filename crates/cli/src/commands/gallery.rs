@@ -6,7 +6,7 @@ use pleach_mesh::Palette;
 use pleach_render::preview::Background;
 use pleach_render::{Picture, Preview, PreviewSettings};
 use pleach_tree::species::{self, Season};
-use pleach_tree::{Species, Tree, TreeStats};
+use pleach_tree::{Parts, Species, Tree, TreeStats};
 
 const INK: Color = Color::opaque([40, 44, 40]);
 const GRAY: Color = Color::opaque([120, 124, 120]);
@@ -20,6 +20,7 @@ fn across(count: usize) -> u32 {
 pub(super) fn sheet(
     names: &[&str],
     size: u32,
+    parts: Parts,
     grow: impl Fn(&Species) -> anyhow::Result<Tree>,
     settings: &PreviewSettings,
 ) -> anyhow::Result<Picture> {
@@ -44,7 +45,7 @@ pub(super) fn sheet(
         for (k, season) in [(0, None), (1, Some(Season::Winter))] {
             let palette = Palette::new(&species, season);
             palette.apply_season(&mut tree);
-            let picture = Preview::new(&tree, &palette, size).picture(&settings);
+            let picture = Preview::with_parts(&tree, &palette, size, parts).picture(&settings);
             pictures.push((x + k * size, y, picture));
         }
     }

@@ -12,7 +12,7 @@ use pleach_render::preview::{Background, Ground};
 use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_silhouette::View;
 use pleach_tree::species::{Color, Season};
-use pleach_tree::{Foliage, Growth, Species, Tree};
+use pleach_tree::{Foliage, Growth, Parts, Species, Tree};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -65,6 +65,9 @@ pub(crate) struct Render {
     /// Draw stems only
     #[arg(long)]
     no_leaves: bool,
+    /// Draw roots too, where the generator grows any
+    #[arg(long)]
+    roots: bool,
     /// What is behind the tree: studio, transparent, or a colour such as #dde6ee
     #[arg(long, value_name = "WHAT", default_value = "studio", value_parser = background)]
     background: Background,
@@ -116,7 +119,7 @@ impl Render {
         palette.leaves &= !self.no_leaves;
         palette.blossoms &= !self.no_leaves;
         palette.apply_season(&mut tree);
-        let preview = Preview::new(&tree, &palette, self.size);
+        let preview = Preview::with_parts(&tree, &palette, self.size, self.parts());
         let name = |what: &str| format!("{}-{seed}{what}.png", species.name);
         let place = |name: String| match (&self.out, file) {
             (_, Some(file)) => Ok(file.to_owned()),
@@ -148,7 +151,7 @@ impl Render {
             Some(generator) => generator.names(),
             None => pleach_generators::HEWITT_2017.to_vec(),
         };
-        let sheet = gallery::sheet(&names, self.size, grow, &self.settings(0.0))?;
+        let sheet = gallery::sheet(&names, self.size, self.parts(), grow, &self.settings(0.0))?;
         files::write_out(&path, |mut out| Ok(png_file::write_indexed(&mut out, &sheet)?))?;
         output::wrote(&path);
         Ok(())
@@ -170,6 +173,10 @@ impl Render {
         let foliage = if self.no_leaves { Foliage::None } else { Foliage::All };
         let growth = Growth { parallel: true, foliage, limits: self.limits.limits(), ..Growth::seed(seed) };
         species.grow_with(&growth).with_context(|| format!("{} does not grow from seed {seed}", species.name))
+    }
+
+    fn parts(&self) -> Parts {
+        if self.roots { Parts::ALL } else { Parts::LEAFY }
     }
 
     fn settings(&self, turn: f64) -> PreviewSettings {

@@ -42,6 +42,9 @@ pub(crate) struct Silhouette {
     /// Draw stems only
     #[arg(long)]
     no_leaves: bool,
+    /// Draw roots too, where the generator grows any
+    #[arg(long)]
+    roots: bool,
     /// The PNG to write, or `-` for standard output; without it the picture is drawn in the terminal
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -60,6 +63,7 @@ impl Silhouette {
             .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
 
         let parts = Parts::with_foliage(!self.no_leaves);
+        let parts = if self.roots { parts | Parts::ROOTS } else { parts };
         let draw = |size: u32| {
             if self.four_views {
                 return four_views(&tree, parts, size);

@@ -11,6 +11,8 @@ pub(super) struct Cone {
     pub(super) radii: [f64; 2],
     /// Whether the end at `from` is cut off flat, as the foot of a trunk is.
     pub(super) foot: bool,
+    /// How far fillets at its joints raise the surface at most, in metres.
+    pub(super) swell: f64,
 }
 
 impl Cone {
@@ -60,7 +62,7 @@ mod tests {
         let pairs = [(0.5, 0.2), (0.2, 0.5), (0.3, 0.3), (0.9, 0.05), (2.5, 0.1)];
         for (a, b) in pairs {
             let (from, to) = (dvec3(0.3, -0.2, 0.1), dvec3(0.9, 0.7, 1.4));
-            let cone = Cone { from, to, radii: [a, b], foot: false };
+            let cone = Cone { from, to, radii: [a, b], foot: false, swell: 0.0 };
             for i in 0..300 {
                 let f = |step: f64| 4.0 * ((f64::from(i) * step).fract() - 0.5);
                 let p = dvec3(f(0.618_034), f(0.754_878), f(0.569_84));

@@ -6,6 +6,7 @@
 
 mod cone;
 mod field;
+mod joint;
 mod tetrahedra;
 
 use crate::block::{Block, Vertex};
@@ -13,8 +14,10 @@ use crate::tube::Rings;
 use cone::Cone;
 use field::Field;
 use glam::{Vec3, vec2};
+use joint::Joint;
 use pleach_tree::stats::Bounds;
 use pleach_tree::{Parts, StemKind, Tree};
+use std::ops::Range;
 use tetrahedra::Surface;
 
 /// Why a tree could not be welded.
@@ -34,21 +37,46 @@ pub enum WeldError {
     },
 }
 
-/// The stems of `tree` as one closed surface, found on a grid of cells with sides of `cell` metres;
-/// nothing for a tree without stems. Texture coordinates are 0 and the height in metres: a surface
-/// without seams cannot be unrolled.
+/// How stems are welded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeldSettings {
+    /// Side of a cell in metres, positive: the level of detail.
+    pub cell: f64,
+    /// Width of the fillet where two stems meet, over the radius of the thinner one, 0 to
+    /// [`WeldSettings::MAX_FILLET`]; 0 leaves the corner as it is.
+    pub fillet: f64,
+    /// Which stems are welded.
+    pub parts: Parts,
+}
+
+impl WeldSettings {
+    /// Wider fillets are not made.
+    pub const MAX_FILLET: f64 = 4.0;
+
+    /// Cells of `cell` metres, no fillets, no roots.
+    #[must_use]
+    pub const fn new(cell: f64) -> Self {
+        Self { cell, fillet: 0.0, parts: Parts::BARE }
+    }
+}
+
+/// The stems of `tree` as one closed surface, found on a grid; nothing for a tree without stems. Texture
+/// coordinates are 0 and the height in metres: a surface without seams cannot be unrolled.
 ///
 /// # Errors
 /// See [`WeldError`].
-pub fn surface(tree: &Tree, cell: f64) -> Result<Block, WeldError> {
+pub fn surface(tree: &Tree, settings: &WeldSettings) -> Result<Block, WeldError> {
+    let cell = settings.cell;
     if !(cell.is_finite() && cell > 0.0) {
         return Err(WeldError::NotPositive { cell });
     }
-    let cones = cones(tree, cell)?;
+    let (mut cones, pieces) = cones(tree, settings)?;
     if cones.is_empty() {
         return Ok(Block::default());
     }
-    let Surface { corners, triangles } = Surface::new(&Field::new(&cones, cell)?);
+    let fillet = settings.fillet.clamp(0.0, WeldSettings::MAX_FILLET);
+    let joints = Joint::find(tree, &pieces, &mut cones, fillet);
+    let Surface { corners, triangles } = Surface::new(&Field::new(&cones, &joints, cell)?);
     let mut normals = vec![Vec3::ZERO; corners.len()];
     for t in &triangles {
         let [a, b, c] = t.map(|i| corners[i as usize]);
@@ -66,15 +94,21 @@ pub fn surface(tree: &Tree, cell: f64) -> Result<Block, WeldError> {
 /// More pieces of stems are not welded.
 const MAX_PIECES: usize = 2_000_000;
 
-/// The stems in short pieces.
-fn cones(tree: &Tree, cell: f64) -> Result<Vec<Cone>, WeldError> {
-    let mut cones = Vec::new();
-    let extent = Bounds::new(tree, Parts::BARE).map_or(0.0, |b| (b.max - b.min).max_element());
+/// The stems in short pieces, and which pieces are each stem's.
+fn cones(tree: &Tree, settings: &WeldSettings) -> Result<(Vec<Cone>, Vec<Range<usize>>), WeldError> {
+    let &WeldSettings { cell, parts, .. } = settings;
+    let (mut cones, mut pieces_of) = (Vec::new(), Vec::new());
+    let extent = Bounds::new(tree, parts).map_or(0.0, |b| (b.max - b.min).max_element());
     if extent > cell * f64::from(field::MAX_ALONG) {
         return Err(WeldError::TooFine { cell });
     }
     let mut rings = Rings::default();
-    for stem in tree.stems.iter().filter(|stem| Parts::BARE.has_stem(stem.kind)) {
+    for stem in &tree.stems {
+        let first = cones.len();
+        if !parts.has_stem(stem.kind) {
+            pieces_of.push(first..first);
+            continue;
+        }
         rings.sample(tree, stem, 0.25 * cell);
         let foot = stem.parent.is_none() && stem.kind != StemKind::Fork;
         for (i, pair) in rings.rings.windows(2).enumerate() {
@@ -89,111 +123,24 @@ fn cones(tree: &Tree, cell: f64) -> Result<Vec<Cone>, WeldError> {
             };
             for k in 0..pieces {
                 let ((from, r), (to, s)) = (at(k), at(k + 1));
-                cones.push(Cone { from, to, radii: [r, s], foot: foot && i == 0 && k == 0 });
+                // A trunk without a length has no side to be cut off.
+                let foot = foot && i == 0 && k == 0 && from.distance(to) > 1e-9;
+                cones.push(Cone { from, to, radii: [r, s], foot, swell: 0.0 });
             }
         }
         if cones.len() > MAX_PIECES {
             return Err(WeldError::TooFine { cell });
         }
+        pieces_of.push(first..cones.len());
     }
-    Ok(cones)
+    // A tree that is no longer than a point is a ball.
+    if let (true, Some(knot)) = (cones.is_empty() && !pieces_of.is_empty(), tree.knots.first()) {
+        let radius = knot.radius.max(cell);
+        let at = knot.point;
+        cones.push(Cone { from: at, to: at, radii: [radius; 2], foot: false, swell: 0.0 });
+    }
+    Ok((cones, pieces_of))
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    /// Number of faces of every edge, by its two corners.
-    fn check_closed(block: &Block) {
-        let mut edges: Vec<(u32, u32)> =
-            block.triangles.iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]).collect();
-        edges.sort_unstable();
-        // Each edge once in each direction: two faces, wound alike.
-        for pair in edges.windows(2) {
-            assert_ne!(pair[0], pair[1], "an edge has two faces on one side");
-        }
-        for &(a, b) in &edges {
-            assert!(edges.binary_search(&(b, a)).is_ok(), "an edge has one face");
-        }
-    }
-
-    fn pieces(block: &Block) -> usize {
-        let mut parent: Vec<u32> = (0..block.vertices.len() as u32).collect();
-        fn root(parent: &mut [u32], mut i: u32) -> u32 {
-            while parent[i as usize] != i {
-                parent[i as usize] = parent[parent[i as usize] as usize];
-                i = parent[i as usize];
-            }
-            i
-        }
-        for &[a, b, c] in &block.triangles {
-            let top = root(&mut parent, a);
-            for other in [b, c] {
-                let other = root(&mut parent, other);
-                parent[other as usize] = top;
-            }
-        }
-        (0..parent.len()).filter(|i| parent[*i] == *i as u32).count()
-    }
-
-    /// Volume by the divergence theorem; positive where faces look outwards.
-    fn volume(block: &Block) -> f64 {
-        let corner = |i: u32| block.vertices[i as usize].position.as_dvec3();
-        block.triangles.iter().map(|t| corner(t[0]).dot(corner(t[1]).cross(corner(t[2]))) / 6.0).sum()
-    }
-
-    #[test]
-    fn an_acer_is_one_closed_piece_with_normals_outwards() {
-        let tree = pleach_generators::preset("acer").unwrap().grow_bare(1).unwrap();
-        let block = surface(&tree, 0.02).unwrap();
-        check_closed(&block);
-        assert!(block.triangles.len() > 10_000);
-        assert!(volume(&block) > 0.0);
-        // What floats is an air bubble between twigs that touch, if anything.
-        assert!(pieces(&block) < 12, "{} pieces", pieces(&block));
-        for v in &block.vertices {
-            assert!(v.position.is_finite() && (v.normal.length() - 1.0).abs() < 1e-4);
-        }
-        assert_eq!(block, surface(&tree, 0.02).unwrap());
-    }
-
-    #[test]
-    fn a_palm_keeps_the_volume_of_its_trunk() {
-        let mut tree = pleach_generators::preset("palm").unwrap().grow_bare(1).unwrap();
-        tree.stems.truncate(1);
-        let wanted: f64 = {
-            let mut rings = Rings::default();
-            rings.sample(&tree, &tree.stems[0], 0.001);
-            let slice = |i: usize| {
-                let (a, b) = (&rings.rings[i], &rings.rings[i + 1]);
-                let (r, s) = (a.radius, b.radius);
-                a.center.distance(b.center) * std::f64::consts::PI * (r * r + r * s + s * s) / 3.0
-            };
-            (0..rings.rings.len() - 1).map(slice).sum()
-        };
-        let found = volume(&surface(&tree, 0.02).unwrap());
-        assert!((found / wanted - 1.0).abs() < 0.05, "{found} {wanted}");
-    }
-
-    #[test]
-    fn cells_that_make_no_sense_are_refused() {
-        let tree = pleach_generators::preset("acer").unwrap().grow_bare(1).unwrap();
-        assert!(matches!(surface(&tree, 0.0), Err(WeldError::NotPositive { .. })));
-        assert!(matches!(surface(&tree, f64::NAN), Err(WeldError::NotPositive { .. })));
-        assert!(matches!(surface(&tree, 1e-9), Err(WeldError::TooFine { .. })));
-        assert_eq!(surface(&Tree::default(), 0.01).unwrap(), Block::default());
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(12))]
-        #[test]
-        fn every_edge_has_two_faces(seed in 0_u64..1000, species in 0_usize..4, cell in 0.02_f64..0.2) {
-            let name = ["acer", "palm", "hill_cherry", "lombardy_poplar"][species];
-            let tree = pleach_generators::preset(name).unwrap().grow_bare(seed).unwrap();
-            let block = surface(&tree, cell).unwrap();
-            check_closed(&block);
-            prop_assert!(!block.triangles.is_empty() && volume(&block) > 0.0);
-        }
-    }
-}
+mod tests;

@@ -34,6 +34,7 @@ pub(crate) fn shade(pattern: BarkPattern, u: f32, v: f32, radius: f32) -> f32 {
             let around = (TAU * radius / 0.06).round().max(3.0);
             0.88 + 0.24 * noise(u * around, v * 9.0, around as i32)
         }
+        BarkPattern::Plain => 1.0,
     }
 }
 
@@ -68,8 +69,7 @@ mod tests {
 
     #[test]
     fn markings_meet_at_the_seam_and_stay_in_range() {
-        use BarkPattern::{Banded, Furrowed, Ringed, Smooth};
-        for pattern in [Banded, Furrowed, Ringed, Smooth] {
+        for pattern in BarkPattern::ALL {
             for i in 0..500 {
                 let (v, radius) = (i as f32 * 0.013, 0.01 + (i % 40) as f32 * 0.01);
                 let [left, right] = [0.0, 1.0 - 1e-6].map(|u| shade(pattern, u, v, radius));

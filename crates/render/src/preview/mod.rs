@@ -18,7 +18,7 @@ use crate::picture::Picture;
 pub(crate) use flat::Frame;
 use glam::Vec3;
 use pleach_mesh::Palette;
-use pleach_tree::Tree;
+use pleach_tree::{Parts, Tree};
 use scene::Scene;
 pub use settings::{Background, Ground, PreviewSettings};
 
@@ -37,10 +37,16 @@ pub struct Preview {
 }
 
 impl Preview {
-    /// Meshes `tree` for pictures of about `size` pixels in height.
+    /// Meshes `tree`, roots left out, for pictures of about `size` pixels in height.
     #[must_use]
     pub fn new(tree: &Tree, palette: &Palette, size: u32) -> Self {
-        Self { scene: Scene::new(tree, palette, size) }
+        Self::with_parts(tree, palette, size, Parts::LEAFY)
+    }
+
+    /// Meshes `parts` of `tree` for pictures of about `size` pixels in height.
+    #[must_use]
+    pub fn with_parts(tree: &Tree, palette: &Palette, size: u32, parts: Parts) -> Self {
+        Self { scene: Scene::new(tree, palette, size, parts) }
     }
 
     /// The smallest and largest coordinates of what is drawn, in metres.

@@ -5,6 +5,7 @@ use glam::Vec3;
 use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, Mesher, Palette, Vertex, send};
 use pleach_tree::stats::Bounds;
 use pleach_tree::{Parts, Tree};
+use std::ops::Range;
 
 /// All parts in one run of corners and triangles.
 #[derive(Debug)]
@@ -15,25 +16,30 @@ pub(super) struct Scene {
     pub(super) triangles: Vec<[u32; 3]>,
     /// First triangle of each part, what it is, and how many triangles each of its leaves has.
     pub(super) parts: Vec<(u32, Material, u32)>,
+    /// The triangles of closed surfaces of foliage.
+    pub(super) blobs: Range<u32>,
     /// First corner of each stem, its radius at the base in metres, its level.
     pub(super) stems: Vec<(u32, f32, u16)>,
     pub(super) crown: Crown,
     pub(super) low: Vec3,
     pub(super) high: Vec3,
+    /// Whether roots are drawn, whose ends are in the ground.
+    pub(super) has_roots: bool,
     /// The middle of the leaves, and how far they reach on average.
     pub(super) heart: Vec3,
     pub(super) reach: f32,
 }
 
 impl Scene {
-    pub(super) fn new(tree: &Tree, palette: &Palette, size: u32) -> Self {
-        let bounds = Bounds::new(tree, Parts::LEAFY);
+    pub(super) fn new(tree: &Tree, palette: &Palette, size: u32, parts: Parts) -> Self {
+        let bounds = Bounds::new(tree, parts);
         let (low, high) = bounds.map_or((Vec3::ZERO, Vec3::ONE), |b| (b.min.as_vec3(), b.max.as_vec3()));
         let pixel = f64::from((high - low).max_element().max(1e-3)) / f64::from(size.max(1));
         let settings = MeshSettings {
             tolerance: (0.2 * pixel).clamp(2e-4, 0.02),
             min_sides: 5,
             leaves: LeafStyle::Outline,
+            parts,
             ..MeshSettings::default()
         };
         let mesher = Mesher::new(tree, settings);
@@ -46,17 +52,26 @@ impl Scene {
             points: Vec::new(),
             triangles: Vec::new(),
             parts: Vec::new(),
+            blobs: 0..0,
             stems: stems(tree, &mesher),
             crown: Crown::new(low, high, &areas(tree)),
             low,
             high,
+            has_roots: parts.contains(Parts::ROOTS),
             heart: (low + high) / 2.0,
             reach: 1.0,
         };
         for (part, mut block) in mesh.parts {
             let first = scene.vertices.len() as u32;
             let placed = if part.material == Material::Blossom { &tree.blossoms } else { &tree.leaves };
-            let each = block.triangles.len() / placed.len().max(1);
+            // Blobs follow the leaves.
+            let of_blobs = if part.material == Material::Leaf { tree.blob_triangles.len() } else { 0 };
+            let of_leaves = block.triangles.len() - of_blobs;
+            let each = of_leaves / placed.len().max(1);
+            if of_blobs > 0 {
+                let first = (scene.triangles.len() + of_leaves) as u32;
+                scene.blobs = first..first + of_blobs as u32;
+            }
             scene.parts.push((scene.triangles.len() as u32, part.material, each.max(1) as u32));
             scene.triangles.extend(block.triangles.iter().map(|t| t.map(|i| i + first)));
             scene.vertices.append(&mut block.vertices);

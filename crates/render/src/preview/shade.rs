@@ -127,6 +127,9 @@ impl View<'_> {
             // Seen edge on: rounding has thrown the point off the triangle.
             at = center;
         }
+        if self.scene.has_roots && at.z < 0.0 && self.settings.ground != Ground::None {
+            return self.ground(ray) * self.margin(x, y);
+        }
         let whole = plane.length_squared().max(1e-20);
         let wb = (at - a).cross(c - a).dot(plane) / whole;
         let wc = (b - a).cross(at - a).dot(plane) / whole;
@@ -141,6 +144,7 @@ impl View<'_> {
                 let (u, v) = (mix(&|i| vertex(i).uv.x), mix(&|i| vertex(i).uv.y));
                 self.bark(at, normal, ray, self.scene.stem_of(corners[0]), u, v)
             }
+            Material::Leaf if self.scene.blobs.contains(&triangle) => self.blob(at, normal),
             _ => self.leaf(at, normal, ray, material, leaf),
         };
         if self.sun.is_some() { shown(light).extend(1.0) } else { light.extend(1.0) }
@@ -153,6 +157,7 @@ impl View<'_> {
         let young = match palette.pattern {
             BarkPattern::Ringed if level > 0 => Vec3::from(linear(palette.leaf)) * 0.9,
             BarkPattern::Banded => vec3(0.115, 0.075, 0.055),
+            BarkPattern::Plain => bark,
             _ => bark * vec3(0.62, 0.52, 0.46),
         };
         let old = if palette.pattern == BarkPattern::Ringed && level > 0 {
@@ -195,6 +200,18 @@ impl View<'_> {
         varied * (SUN * (reflected * shadow) + self.sky_light(rounded, sky))
             + varied * thin * SUN * (through * shadow)
             + SUN * gloss * 0.5
+    }
+
+    /// A closed surface of foliage: one flat colour in soft light.
+    fn blob(&self, at: Vec3, normal: Vec3) -> Vec3 {
+        let color = Vec3::from(linear(self.scene.palette.leaf));
+        // Seen from outside only. A smooth normal at the rim may look away, and is still the right one.
+        let sky = self.scene.crown.sky_at(at + normal * 0.05);
+        let Some(sun) = &self.sun else { return color * even(sky) };
+        // Wrapped around the edge of the shadow: what is drawn as a ball of leaves is not as hard as one.
+        let wrapped = (normal.dot(sun.towards) * 0.7 + 0.3).max(0.0);
+        let shadow = sun.at(at + normal * 0.02, 2, 1.6);
+        color * (SUN * (wrapped * shadow) + self.sky_light(normal, sky))
     }
 
     /// Light from above and from the ground on a face, where this part of the sky is open.

@@ -10,7 +10,7 @@ use anyhow::{Context, bail};
 use formats::{Format, Goes};
 use indicatif::{ProgressBar, ProgressStyle};
 use pleach_silhouette::{Frame, View, picture};
-use pleach_tree::{Foliage, Growth, Parts, Species, Tree, Workspace};
+use pleach_tree::{Foliage, Growth, Species, Tree, Workspace};
 use rayon::prelude::*;
 use statistics::Report;
 use std::ops::Range;
@@ -31,6 +31,7 @@ const EXAMPLES: &str = "Examples:
   pleach grow acer --seeds 0..9 -o forest/      nine skeletons and drawings
   pleach grow acer --seeds 0..9 -o forest/ --format glb
   pleach grow acer -o - --format ply > tree.ply
+  pleach grow stylised_oak --weld 30 --fillet 2 -o oak.glb   one soft skin
 
 A .png from here is a flat drawing in two colours; `pleach render` makes shaded pictures, with bark, \
 light, seasons and views.
@@ -251,8 +252,9 @@ impl Grow {
     /// Bark and foliage in two colours, seen from the front.
     fn picture(&self, path: &Path, tree: &Tree) -> anyhow::Result<()> {
         let size = self.size.unwrap_or(SIZE);
-        let frame = Frame::automatic(tree, &View::FRONT, Parts::LEAFY, size, size);
-        let picture = picture::two_colors(tree, &View::FRONT, &frame, Parts::LEAFY);
+        let parts = self.mesh.parts();
+        let frame = Frame::automatic(tree, &View::FRONT, parts, size, size);
+        let picture = picture::two_colors(tree, &View::FRONT, &frame, parts);
         files::write_out(path, |mut out| Ok(picture.write_png(&mut out)?))
     }
 }

@@ -52,15 +52,22 @@ pub enum BarkPattern {
     Ringed,
     /// Nearly even.
     Smooth,
+    /// One flat colour on trunks and twigs alike, for stylised trees.
+    Plain,
 }
 
 impl BarkPattern {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Furrowed, Self::Banded, Self::Ringed, Self::Smooth];
+    pub const ALL: [Self; 5] = [Self::Furrowed, Self::Banded, Self::Ringed, Self::Smooth, Self::Plain];
 
     /// Their names, in the same order.
-    pub const NAMES: [&'static str; 4] =
-        [Self::ALL[0].name(), Self::ALL[1].name(), Self::ALL[2].name(), Self::ALL[3].name()];
+    pub const NAMES: [&'static str; 5] = [
+        Self::ALL[0].name(),
+        Self::ALL[1].name(),
+        Self::ALL[2].name(),
+        Self::ALL[3].name(),
+        Self::ALL[4].name(),
+    ];
 
     /// The name in files.
     #[must_use]
@@ -70,6 +77,7 @@ impl BarkPattern {
             Self::Banded => "banded",
             Self::Ringed => "ringed",
             Self::Smooth => "smooth",
+            Self::Plain => "plain",
         }
     }
 

@@ -1,0 +1,38 @@
+//! Which draw is whose: the modules of a tree, by which their parts are addressed.
+
+use glam::{DQuat, DVec3, dvec3};
+use pleach_tree::Key;
+use pleach_tree::random::Purpose;
+use pleach_tree::trig::sin_cos;
+use std::f64::consts::TAU;
+
+/// What a part's key is for: its module.
+pub(crate) const TRUNKS: Purpose = 1;
+pub(crate) const ROOTS: Purpose = 2;
+pub(crate) const SEGMENTS: Purpose = 3;
+pub(crate) const BRANCHES: Purpose = 4;
+pub(crate) const FOLIAGE: Purpose = 5;
+pub(crate) const SPHERES: Purpose = 6;
+
+/// Three uniform numbers in [−1, 1).
+pub(crate) fn signed3(key: Key, purpose: Purpose, index: u32) -> DVec3 {
+    let at = |i: u32| key.signed(purpose, 3 * index + i);
+    dvec3(at(0), at(1), at(2))
+}
+
+/// A direction, all alike.
+pub(crate) fn direction(key: Key, purpose: Purpose) -> DVec3 {
+    let z = key.signed(purpose, 0);
+    let (sin, cos) = sin_cos(TAU * key.unit(purpose, 1));
+    let level = (1.0 - z * z).max(0.0).sqrt();
+    dvec3(level * cos, level * sin, z)
+}
+
+/// A rotation, all alike (Shoemake 1992).
+pub(crate) fn rotation(key: Key, purpose: Purpose) -> DQuat {
+    let u = key.unit(purpose, 0);
+    let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
+    let (sin_v, cos_v) = sin_cos(TAU * key.unit(purpose, 1));
+    let (sin_w, cos_w) = sin_cos(TAU * key.unit(purpose, 2));
+    DQuat::from_xyzw(a * sin_v, a * cos_v, b * sin_w, b * cos_w).normalize()
+}

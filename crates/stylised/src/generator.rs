@@ -1,0 +1,61 @@
+//! Stylised trees as a generator.
+
+use crate::foliage;
+use crate::params::{Numbers, SPACE, is_active};
+use crate::skeleton::Skeleton;
+use crate::write::{Budget, Writer};
+use pleach_tree::{
+    CheckedParams, Foliage, Generator, GrowError, Growth, Key, ParamSpace, Slot, Tree, Workspace,
+};
+use std::sync::Arc;
+
+/// The family's name in species files.
+pub(crate) const NAME: &str = "stylised";
+
+/// The growth model, which is nothing but its numbers.
+#[derive(Debug)]
+pub(crate) struct Stylised;
+
+/// Memory that is reused from tree to tree.
+#[derive(Debug, Default)]
+struct Scratch {
+    skeleton: Skeleton,
+    foliage: foliage::Scratch,
+}
+
+impl Generator for Stylised {
+    fn family(&self) -> &'static str {
+        NAME
+    }
+
+    fn space(&self) -> &Arc<ParamSpace> {
+        &SPACE
+    }
+
+    fn is_active(&self, values: &[f64], slot: Slot) -> bool {
+        is_active(values, slot)
+    }
+
+    fn grow(
+        &self,
+        params: &CheckedParams,
+        growth: &Growth,
+        workspace: &mut Workspace,
+        tree: &mut Tree,
+    ) -> Result<(), GrowError> {
+        let numbers = Numbers::new(params)?;
+        tree.clear();
+        let Scratch { skeleton, foliage: scratch } = workspace.scratch();
+        let key = Key::root(growth.seed);
+        // A skeleton has a few hundred vertices at most: only foliage is counted in detail.
+        let mut budget = Budget::new(&growth.limits);
+        skeleton.grow(&numbers, key);
+        budget.spend(skeleton.knots.len() as u64, "branch_quantity")?;
+        let mut writer = Writer { tree, limits: &growth.limits, scale: numbers.scale };
+        writer.skeleton(skeleton)?;
+        if growth.foliage == Foliage::All {
+            foliage::grow(scratch, &numbers, skeleton, key, &mut budget, &mut writer)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,108 @@
+//! From units of the sliders to a tree in metres, within the limits.
+
+use crate::skeleton::{Chain, Skeleton};
+use glam::{DVec3, Vec3};
+use pleach_tree::{Blame, Blob, GrowError, Knot, Limits, Stem, Tree};
+
+/// Steps of work that are left.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Budget {
+    limit: u64,
+    spent: u64,
+}
+
+impl Budget {
+    pub(crate) const fn new(limits: &Limits) -> Self {
+        Self { limit: limits.work, spent: 0 }
+    }
+
+    /// Takes `steps` for `parameter`.
+    ///
+    /// # Errors
+    /// If there are not so many left.
+    pub(crate) fn spend(&mut self, steps: u64, parameter: &str) -> Result<(), GrowError> {
+        self.spent = self.spent.saturating_add(steps);
+        if self.spent > self.limit {
+            return Err(GrowError::TooMuchWork { limit: self.limit, blame: blame(parameter) });
+        }
+        Ok(())
+    }
+}
+
+fn blame(parameter: &str) -> Blame {
+    Blame(vec![parameter.to_owned()])
+}
+
+/// Writes a tree.
+pub(crate) struct Writer<'a> {
+    pub(crate) tree: &'a mut Tree,
+    pub(crate) limits: &'a Limits,
+    /// Metres for one unit of the sliders.
+    pub(crate) scale: f64,
+}
+
+impl Writer<'_> {
+    /// Writes all stems.
+    ///
+    /// # Errors
+    /// If a limit is passed.
+    pub(crate) fn skeleton(&mut self, skeleton: &Skeleton) -> Result<(), GrowError> {
+        skeleton.chains.iter().try_for_each(|chain| self.stem(chain, skeleton.knots_of(chain)))
+    }
+
+    fn stem(&mut self, chain: &Chain, knots: &[Knot]) -> Result<(), GrowError> {
+        let blame = || blame("branch_quantity");
+        if self.tree.stems.len() >= self.limits.stems {
+            return Err(GrowError::TooManyStems { limit: self.limits.stems, blame: blame() });
+        }
+        if self.tree.knots.len() + knots.len() > self.limits.knots {
+            return Err(GrowError::TooManyKnots { limit: self.limits.knots, blame: blame() });
+        }
+        self.tree.stems.push(Stem {
+            parent: chain.parent,
+            level: chain.level,
+            kind: chain.kind,
+            offset: chain.offset * self.scale,
+            first_knot: self.tree.knots.len() as u32,
+            knot_count: knots.len() as u32,
+        });
+        let scale = self.scale;
+        self.tree.knots.extend(knots.iter().map(|knot| Knot {
+            point: knot.point * scale,
+            handle_in: knot.handle_in * scale,
+            handle_out: knot.handle_out * scale,
+            radius: knot.radius * scale,
+        }));
+        Ok(())
+    }
+
+    /// Writes a closed surface that stem number `stem` carries.
+    ///
+    /// # Errors
+    /// If a limit is passed; a surface counts as a leaf.
+    pub(crate) fn blob(
+        &mut self,
+        stem: u32,
+        vertices: &[DVec3],
+        triangles: &[[u32; 3]],
+    ) -> Result<(), GrowError> {
+        if self.tree.blobs.len() >= self.limits.leaves {
+            return Err(GrowError::TooManyLeaves {
+                limit: self.limits.leaves,
+                blame: blame("leaves_quantity"),
+            });
+        }
+        let tree = &mut *self.tree;
+        tree.blobs.push(Blob {
+            stem,
+            first_vertex: tree.blob_vertices.len() as u32,
+            vertex_count: vertices.len() as u32,
+            first_triangle: tree.blob_triangles.len() as u32,
+            triangle_count: triangles.len() as u32,
+        });
+        let scale = self.scale;
+        tree.blob_vertices.extend(vertices.iter().map(|v| -> Vec3 { (*v * scale).as_vec3() }));
+        tree.blob_triangles.extend_from_slice(triangles);
+        Ok(())
+    }
+}
