@@ -56,7 +56,7 @@ fn threads_change_nothing_and_seeds_do() {
     let dir = Dir::new();
     goal(&dir);
     let run = |out: &str, more: &[&str]| {
-        let _ = dir.run([fit(out, &["--evaluations", "900"]), more.to_vec()].concat()).ok();
+        let _ = dir.run([fit(out, &["--evaluations", "700"]), more.to_vec()].concat()).ok();
         results(&dir.path(out))
     };
     let one = run("one", &["--threads", "1"]);
@@ -68,7 +68,7 @@ fn threads_change_nothing_and_seeds_do() {
 fn a_grammar_that_is_given_is_where_it_starts() {
     let dir = Dir::new();
     goal(&dir);
-    let args = ["--from", "grammar_pine", "--evaluations", "400"];
+    let args = ["--from", "grammar_pine", "--evaluations", "60"];
     let _ = dir.run(fit("run", &args)).ok();
     let species = String::from_utf8(read(&dir.path("run/best.toml"))).unwrap();
     // Its parameters are those of the start.
@@ -81,7 +81,7 @@ fn a_grammar_that_is_given_is_where_it_starts() {
 fn a_killed_search_goes_on_to_the_same_bits() {
     let dir = Dir::new();
     goal(&dir);
-    let long = ["--evaluations", "4000", "--checkpoint-every", "50ms"];
+    let long = ["--evaluations", "2000", "--checkpoint-every", "50ms"];
     let _ = dir.run(fit("whole", &long)).ok();
     let mut child =
         dir.command(fit("parts", &long)).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
@@ -96,7 +96,7 @@ fn a_killed_search_goes_on_to_the_same_bits() {
     let _ = child.wait();
     assert!(checkpoint.exists(), "the search was long enough to be killed");
     // An ordinary fit is another search.
-    dir.run(["fit", "goal.png", "--out", "parts", "--size", "64", "--evaluations", "4000", "--resume"])
+    dir.run(["fit", "goal.png", "--out", "parts", "--size", "64", "--evaluations", "2000", "--resume"])
         .fails(1, &["another run"]);
     let _ = dir.run([fit("parts", &long), vec!["--resume"]].concat()).ok();
     assert!(results(&dir.path("whole")) == results(&dir.path("parts")));

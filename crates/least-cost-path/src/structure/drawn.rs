@@ -96,6 +96,9 @@ fn radius(node: &Node) -> Result<f64, Fault> {
     Ok(value)
 }
 
+/// Largest coordinate of an SVG path.
+const MAX_COORDINATE: f64 = 1e9;
+
 /// A curve through points, each a radius and a height.
 fn curve(node: &Node, points: &[Node]) -> Result<Drawn, Fault> {
     let point = |node: &Node| match &node.value {
@@ -124,7 +127,12 @@ fn svg(node: &Node, text: &str) -> Result<Drawn, Fault> {
     if path.elements().is_empty() {
         return Err(refused(node, "is an empty SVG path"));
     }
-    let bounds = path.bounding_box();
+    let bounds = path.control_box();
+    let reach = [bounds.x0, bounds.x1, bounds.y0, bounds.y1].map(f64::abs).into_iter().fold(0.0, f64::max);
+    // Pieces of the curve are counted in proportion to what its control points span.
+    if reach > MAX_COORDINATE {
+        return Err(refused(node, "is an SVG path with coordinates beyond a thousand million"));
+    }
     let size = bounds.width().max(bounds.height());
     let mut pieces: Vec<[[f64; 2]; 2]> = Vec::new();
     let (mut start, mut last) = (Point::ZERO, Point::ZERO);

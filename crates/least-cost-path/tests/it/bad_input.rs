@@ -22,6 +22,7 @@ fn curves_that_cannot_be_drawn_are_told_with_their_place() {
         ),
         ("outline = \"M 0 0 L 0 9\"", "encloses nothing"),
         ("outline = \"M 0 0 L 9 0\"", "encloses nothing"),
+        ("outline = \"M 30 0 C 80 -20 -1e308 -175 0 -180\"", "coordinates beyond a thousand million"),
         ("outline = \"M 0 0 L NaN 3\"", "is not an SVG path"),
         ("outline = \"M 0 0 L 1e999 3\"", "finite"),
         ("outline = \"hello\"", "is not an SVG path"),

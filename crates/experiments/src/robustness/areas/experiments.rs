@@ -11,7 +11,7 @@ use std::path::{Component, Path};
 const LANE: u32 = 5;
 
 /// One of each kind.
-const TEXTS: [&str; 8] = [
+const TEXTS: [&str; 10] = [
     include_str!("../templates/fits.toml"),
     include_str!("../templates/growth.toml"),
     include_str!("../templates/blend.toml"),
@@ -19,6 +19,8 @@ const TEXTS: [&str; 8] = [
     include_str!("../templates/treefit.toml"),
     include_str!("../templates/needle.toml"),
     include_str!("../templates/families.toml"),
+    include_str!("../templates/yao.toml"),
+    include_str!("../templates/stylised.toml"),
     include_str!("../templates/robustness.toml"),
 ];
 
