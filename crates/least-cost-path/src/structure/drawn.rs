@@ -1,7 +1,7 @@
 //! A drawn outline in a species file: an SVG path, points, or radii by height and direction.
 
 use crate::volume::outline::{Outline, sampled};
-use kurbo::{BezPath, PathEl, Point, Shape};
+use kurbo::{BezPath, PathEl, Point};
 use pleach_tree::param::Problem;
 use pleach_tree::species::{Issue, Node, SpeciesDoc, Value};
 use std::ops::Range;

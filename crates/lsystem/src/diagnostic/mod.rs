@@ -40,8 +40,10 @@ pub struct Report {
 
 /// Problems beyond which nobody reads on.
 const MAX_SHOWN: usize = 20;
-/// Places on lines with more bytes are not drawn: they would say nothing on a screen.
+/// Of lines with more bytes only what is around a place is drawn: all would say nothing on a screen.
 const MAX_LINE: usize = 1000;
+/// Characters before and after such a place.
+const AROUND: usize = 40;
 
 impl Report {
     pub(crate) fn new(origin: &str, text: &str, mut diagnostics: Vec<Diagnostic>) -> Self {
@@ -61,6 +63,25 @@ impl Report {
         (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
     }
 
+    /// The place of a byte with a few characters around it, for lines that are too long to be drawn.
+    fn cut_out(&self, start: usize) -> String {
+        let (line, column) = self.place(start);
+        let is_boundary = |&at: &usize| self.text.is_char_boundary(at);
+        let start = (0..=start).rev().find(is_boundary).unwrap_or(0);
+        let shown = |c: char| if c.is_control() { '\u{b7}' } else { c };
+        let before: String =
+            self.text[..start].chars().rev().take_while(|&c| c != '\n').take(AROUND).map(shown).collect();
+        let before: String = before.chars().rev().collect();
+        let after: String =
+            self.text[start..].chars().take_while(|&c| c != '\n').take(AROUND).map(shown).collect();
+        let number = line.to_string();
+        let (margin, indent) = (" ".repeat(number.len()), " ".repeat(before.chars().count()));
+        format!(
+            "{margin}--> {}:{line}:{column}\n{margin} |\n{number} | {before}{after}\n{margin} | {indent}^\n",
+            self.origin
+        )
+    }
+
     /// The drawings, with colours or without.
     #[must_use]
     pub fn draw(&self, colored: bool) -> String {
@@ -75,9 +96,8 @@ impl Report {
             let end = span.end.clamp(start, self.text.len());
             let level = if fault.is_warning() { Level::WARNING } else { Level::ERROR };
             if longest_line(&text, start, end) > MAX_LINE {
-                let (line, column) = self.place(start);
                 let word = if fault.is_warning() { "warning" } else { "error" };
-                drawing.push_str(&format!("{word}: {title}\n --> {}:{line}:{column}\n", self.origin));
+                drawing.push_str(&format!("{word}: {title}\n{}", self.cut_out(start)));
                 continue;
             }
             let place = Snippet::source(text.as_str())

@@ -131,11 +131,15 @@ fn huge_numbers_end_in_an_error_or_in_a_finite_tree() {
     assert!(derived.grow(&pleach_tree::Limits::default(), Foliage::All, &mut tree).is_err());
 }
 
-/// A mistake on a line as long as a book is told with its place and without the line.
+/// Of a line as long as a book, a mistake shows what is around it.
 #[test]
-fn long_lines_are_not_drawn() {
+fn long_lines_are_cut() {
     let text = format!("axiom: F\n# {}\nF -> F({}1 +)\n", "x".repeat(50_000), "1+".repeat(20_000));
     let report = LSystem::read("long", &text).unwrap_err();
     let drawing = report.to_string();
     assert!(drawing.len() < 2000 && drawing.contains("--> long:3:"), "{drawing}");
+    let lines: Vec<&str> = drawing.lines().collect();
+    let caret = lines.iter().position(|line| line.ends_with('^')).unwrap();
+    let under = lines[caret].chars().count() - 1;
+    assert_eq!(lines[caret - 1].chars().nth(under), Some(')'), "{drawing}");
 }
