@@ -157,13 +157,20 @@ fn cut_short(line: &str) -> String {
     match line.split(' ').nth(1) {
         Some("fit") => {
             set("--evaluations", "20");
-            set("--from", "palm");
+            // These say themselves where the search begins.
+            if !["--evolve-rules", "--volume-from"].iter().any(|option| line.contains(option)) {
+                set("--from", "palm");
+            }
             if !line.contains("--resume") && !line.contains("--continue") {
                 words.insert(2, "--overwrite".to_owned());
             }
         }
         Some("render") => {
             set("--size", "32");
+            // All species are drawn by the example that draws each for itself.
+            if line.contains("--generator all") {
+                set("--generator", "fractal");
+            }
             if line.contains("--turntable") {
                 set("--turntable", "3");
             }
