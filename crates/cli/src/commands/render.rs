@@ -45,7 +45,7 @@ pub(crate) struct Render {
     #[arg(long, conflicts_with_all = ["species", "season", "no_leaves", "turntable", "background", "ground"])]
     gallery: bool,
     /// In a gallery: the species of this generator instead, or of `all`
-    #[arg(long, value_name = "NAME", requires = "gallery")]
+    #[arg(long, value_name = "NAME", requires = "gallery", conflicts_with = "species")]
     generator: Option<GeneratorChoice>,
     /// Seed of the tree; the species file's own, or 1, by default
     #[arg(long, value_name = "N", value_parser = input::seed)]

@@ -172,11 +172,13 @@ fn drawn(derived: &Derived<'_>, case: u64) -> Verdict {
 mod tests {
     use super::*;
 
+    /// What people write; the grammar that a search has found is left out.
     const MANUAL: &str = include_str!("../../../../../../docs/grammars.md");
 
     #[test]
     fn listings_are_those_of_the_manual() {
-        let listings: Vec<&str> = MANUAL
+        let written = MANUAL.split("## Evolving rules").next().unwrap_or_default();
+        let listings: Vec<&str> = written
             .split("```lsystem\n")
             .skip(1)
             .map(|part| part.split("```").next().unwrap_or_default())
