@@ -124,7 +124,7 @@ fn other_runs_versions_and_missing_files_say_so() {
         let error = Checkpoint::<Hewitt>::read(&path, &sample.fingerprint).unwrap_err();
         assert!(matches!(&error, CheckpointError::OtherFormat { found, .. } if found == format), "{error}");
         let error = error.to_string();
-        assert!(error.contains("reads format 4") && error.contains("or start over"), "{error}");
+        assert!(error.contains("reads format 5") && error.contains("or start over"), "{error}");
     }
     let nowhere = folder.path().join("no/such/folder");
     assert!(matches!(sample.write(&nowhere), Err(CheckpointError::Io { .. })));
