@@ -3,7 +3,7 @@
 use crate::classics::grammar;
 use crate::facts::system;
 use crate::table::rows;
-use pleach_lsystem::{Derivation, GrowFault, LSystem};
+use pleach_lsystem::{Derivation, GrowFault, LSystem, LSystemFamily};
 use pleach_tree::{Foliage, Limits, StemKind, Tree};
 
 fn grown(text: &str) -> Tree {
@@ -43,7 +43,9 @@ fn the_books_trees_have_their_sizes() {
         let number = |i: usize| row[i].parse::<f64>().ok();
         let name = format!("abop_{}_{}", row[2], &row[0][3..]);
         let system = system(&name);
-        let mut params: Vec<f64> = system.params().iter().map(|p| p.default).collect();
+        let species = pleach_tree::species::preset(&LSystemFamily, &name).unwrap();
+        let own = species.params.values();
+        let mut params = own.to_vec();
         let set = |params: &mut Vec<f64>, name: &str, value| {
             if let Some(i) = system.params().iter().position(|p| p.name.text == name) {
                 params[i] = value;
@@ -54,7 +56,7 @@ fn the_books_trees_have_their_sizes() {
             if !tropism {
                 set(&mut params, "e", 0.0);
             } else if let Some(i) = system.params().iter().position(|p| p.name.text == "e") {
-                params[i] = system.params()[i].default;
+                params[i] = own[i];
             } else {
                 continue;
             }
