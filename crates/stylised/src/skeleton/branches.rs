@@ -106,11 +106,11 @@ fn branch(skeleton: &mut Skeleton, numbers: &Numbers, trunk: u32, node: &Node, k
     let radius = (RADIUS * numbers.branch_width).min(0.9 * node.place.radius);
     let radii = TAPER.map(|taper| taper * radius);
     let mut points = [node.place.point; 4];
-    for i in 1..4 {
-        let part = i as f64 / 3.0;
-        let offset = signed3(key, of_branch::OFFSET, i as u32) * (0.15 * length * randomness);
+    for (i, point) in (0_u32..).zip(&mut points).skip(1) {
+        let part = f64::from(i) / 3.0;
+        let offset = signed3(key, of_branch::OFFSET, i) * (0.15 * length * randomness);
         let risen = 0.6 * numbers.tropism * length * part * part;
-        points[i] += along * (length * part) + offset + DVec3::Z * risen;
+        *point += along * (length * part) + offset + DVec3::Z * risen;
     }
     smooth(&mut points, randomness);
     for (point, radius) in points.iter_mut().zip(radii).skip(1) {

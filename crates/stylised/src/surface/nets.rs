@@ -46,8 +46,8 @@ impl Mesh {
         let strides = grid.strides();
         for index in 0..grid.inside.len() {
             // The last samples along a side are outside, and so are their neighbors across it.
-            for axis in 0..3 {
-                let Some(&beyond) = grid.inside.get(index + strides[axis]) else { continue };
+            for (axis, stride) in strides.into_iter().enumerate() {
+                let Some(&beyond) = grid.inside.get(index + stride) else { continue };
                 if grid.inside[index] != beyond {
                     self.quad(grid, index, axis, beyond);
                 }
@@ -217,8 +217,8 @@ mod tests {
             let mut halves = mesh.triangles.iter();
             let strides = grid.strides();
             for index in 0..grid.inside.len() {
-                for axis in 0..3 {
-                    let Some(&beyond) = grid.inside.get(index + strides[axis]) else { continue };
+                for (axis, stride) in strides.into_iter().enumerate() {
+                    let Some(&beyond) = grid.inside.get(index + stride) else { continue };
                     if grid.inside[index] == beyond {
                         continue;
                     }

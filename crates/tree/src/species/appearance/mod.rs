@@ -339,7 +339,10 @@ mod tests {
         let (_, issues) = read("[appearance]\nevergreen = \"yes\"\nbark_pattern = \"bandd\"\nbark = true");
         assert_eq!(issues.len(), 3, "{issues:?}");
         said(&issues, ["t.toml:2:13", "is a string, expected true or false"]);
-        said(&issues, ["t.toml:3:16", "one of furrowed, banded, ringed, smooth, did you mean `banded`?"]);
+        said(
+            &issues,
+            ["t.toml:3:16", "one of furrowed, banded, ringed, smooth, plain, did you mean `banded`?"],
+        );
         said(&issues, ["t.toml:4:8", "is a boolean, expected a string"]);
     }
 }
