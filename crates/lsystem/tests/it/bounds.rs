@@ -141,5 +141,5 @@ fn long_lines_are_cut() {
     let lines: Vec<&str> = drawing.lines().collect();
     let caret = lines.iter().position(|line| line.ends_with('^')).unwrap();
     let under = lines[caret].chars().count() - 1;
-    assert_eq!(lines[caret - 1].chars().nth(under), Some(')'), "{drawing}");
+    assert_eq!(lines[caret - 1].chars().nth(under), Some('1'), "{drawing}");
 }
