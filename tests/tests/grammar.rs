@@ -67,7 +67,7 @@ fn bad_grammars_are_refused_quickly() {
         ("axiom: F\nF -(-1)-> F -2-> G", "2:5", &["is -1", "allowed is 0 to 1", "^^"]),
         ("param a = 5 in 0..1\naxiom: F", "1:7", &["`a` is 5", "allowed is 0 to 1", "^"]),
         (doubling, "3:1", &["more than 20000000 symbols", "`F`", "^^^^^^^"]),
-        (nan, "3:16", &["is NaN, which is not finite", "`F(x)`", "^^"]),
+        (nan, "3:11", &["is NaN, which is not finite", "`F(x)`", "^^^^"]),
         ("axiom: F(1/(2-2))", "1:10", &["division by zero", "^^^"]),
     ];
     for (text, place, told) in cases {

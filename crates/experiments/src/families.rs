@@ -1,5 +1,6 @@
 //! Whether a first guess names the family of generators that a goal is of.
 
+use super::pictured::pictured;
 use super::record::{self, Fixed};
 use super::spec::{Seed, Source, species_files};
 use super::within::{List, SpeciesName};
@@ -9,9 +10,9 @@ use pleach_console::output;
 use pleach_fit::{
     Candidate, FitProblem, FitSettings, GoalView, GuessLibrary, GuessSettings, RaceSettings, Runner,
 };
+use pleach_silhouette::View;
 use pleach_silhouette::picture::sheet;
-use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Parts};
+use pleach_tree::Foliage;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -36,8 +37,6 @@ struct Named {
     wall_s: Fixed<1>,
 }
 
-/// Side of every goal in pixels.
-const SIZE: u32 = 256;
 const SHEET: &str = "goals.png";
 /// Goals across the sheet.
 const COLUMNS: usize = 10;
@@ -145,14 +144,9 @@ fn confusion(rows: &[Named]) -> String {
     output::table(&lines, &(1..lines[0].len()).collect::<Vec<_>>())
 }
 
-/// The picture of a tree in the frame that suits it.
+/// The picture of a tree.
 fn goal(species: &str, bare: bool, seed: u64) -> anyhow::Result<GoalView> {
-    let tree = pleach_generators::species(species)?.grow(seed)?;
-    let parts = Parts::with_foliage(!bare);
-    let frame = Frame::automatic(&tree, &View::FRONT, parts, SIZE, SIZE);
-    let mut goal = Bitmap::default();
-    Rasterizer::new().draw(&tree, &View::FRONT, &frame, parts, &mut goal);
-    Ok(GoalView::new(goal, View::FRONT, frame))
+    Ok(pictured(&pleach_generators::species(species)?.grow(seed)?, View::FRONT, !bare))
 }
 
 impl FamiliesSpec {

@@ -13,6 +13,7 @@ mod likeness;
 mod list;
 mod needle;
 mod outputs;
+mod pictured;
 mod plot;
 mod record;
 mod robustness;

@@ -2,11 +2,12 @@
 //! and the species.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use pleach_fractal::{FractalFamily, preset};
+use pleach_fractal::FractalFamily;
+use pleach_tree::species::preset;
 use pleach_tree::{Family, Growth, Species, Tree, Workspace};
 
 fn grow(c: &mut Criterion) {
-    let fan = preset("coffey_fan").expect("a built-in species");
+    let fan = preset(&FractalFamily, "coffey_fan").expect("a built-in species");
     let space = fan.generator.space();
     let set = |set: &[(&str, f64)]| {
         let mut values = fan.params.values().to_vec();
@@ -21,7 +22,7 @@ fn grow(c: &mut Criterion) {
         ("ternary_9_space".to_owned(), set(&[("generations", 9.0), ("dimensions", 2.0)])),
     ];
     let names = FractalFamily.presets().iter().map(|(name, _)| *name);
-    cases.extend(names.filter_map(|name| Some((name.to_owned(), preset(name)?))));
+    cases.extend(names.filter_map(|name| Some((name.to_owned(), preset(&FractalFamily, name)?))));
     for (name, species) in cases {
         let (mut workspace, mut tree, mut seed) = (Workspace::default(), Tree::default(), 0);
         c.bench_function(&name, |b| {

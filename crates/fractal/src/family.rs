@@ -2,7 +2,7 @@
 
 use crate::generator::{Fractal, NAME};
 use pleach_tree::species::Issue;
-use pleach_tree::{Family, Generator, Species, SpeciesDoc};
+use pleach_tree::{Family, Generator, SpeciesDoc, species_files};
 use std::sync::Arc;
 
 /// Reads species files of fractal trees.
@@ -35,17 +35,8 @@ impl Family for FractalFamily {
     }
 }
 
-/// Declares the species files.
-macro_rules! presets {
-    ($($name:literal,)*) => {
-        /// Name and text of each species file.
-        const PRESETS: &[(&str, &str)] =
-            &[$(($name, include_str!(concat!("../species/", $name, ".toml"))),)*];
-    };
-}
-
-// In the order of the paper's figures.
-presets! {
+/// Name and text of each species file, in the order of the paper's figures.
+const PRESETS: &[(&str, &str)] = species_files![
     "coffey_umbrella",
     "coffey_fan",
     "coffey_turned_crown",
@@ -56,10 +47,4 @@ presets! {
     "coffey_whorls",
     "coffey_young_tree",
     "coffey_old_tree",
-}
-
-/// A species that comes with pleach.
-#[must_use]
-pub fn preset(name: &str) -> Option<Species> {
-    pleach_tree::species::preset(&FractalFamily, name)
-}
+];

@@ -23,5 +23,5 @@ pub mod noise;
 mod params;
 mod purpose;
 
-pub use family::{FractalFamily, preset};
+pub use family::FractalFamily;
 pub use generator::Fractal;

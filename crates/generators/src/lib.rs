@@ -21,6 +21,29 @@ pub fn families() -> &'static [&'static dyn Family] {
     ]
 }
 
+/// The family of this name.
+///
+/// # Errors
+/// A name that no family has.
+pub fn family(name: &str) -> Result<&'static dyn Family, UnknownFamily> {
+    let known = families().iter().copied().find(|family| family.name() == name);
+    known.ok_or_else(|| UnknownFamily { name: name.to_owned() })
+}
+
+/// A word that names no family of generators.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("unknown generator `{}`, known are {}", pleach_tree::param::shown(.name), family_names().join(", "))]
+pub struct UnknownFamily {
+    /// The word.
+    pub name: String,
+}
+
+/// The names of all families, the default one first.
+#[must_use]
+pub fn family_names() -> Vec<&'static str> {
+    families().iter().map(|family| family.name()).collect()
+}
+
 /// The family of species files that name none, and of fits that are not told another.
 #[must_use]
 pub fn default_family() -> &'static dyn Family {
@@ -157,16 +180,16 @@ pub fn read_text(origin: &str, text: &str) -> Result<Species, SpeciesError> {
     let doc = SpeciesDoc::parse(origin, text)?;
     let wrong = |issue| doc.wrong(vec![issue]);
     let name = doc.text("generator").map_err(wrong)?.unwrap_or_else(|| default_family().name());
-    let Some(family) = families().iter().find(|family| family.name() == name) else {
+    let Ok(family) = family(name) else {
         let span = doc.get("generator").map_or(0..0, |node| node.span.clone());
         let problem = Problem::UnknownChoice {
             value: name.to_owned(),
-            known: families().iter().map(|f| f.name().to_owned()).collect(),
+            known: family_names().into_iter().map(str::to_owned).collect(),
             nearest: None,
         };
         return Err(wrong(doc.issue(span, "generator", problem)));
     };
-    doc.species(*family)
+    doc.species(family)
 }
 
 #[cfg(test)]

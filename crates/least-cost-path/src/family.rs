@@ -3,7 +3,7 @@
 use crate::generator::LeastCostPath;
 use crate::structure::{Drawn, OUTLINE, SHAPES, Structure, VOLUMES, Volumes};
 use pleach_tree::species::{Form, Issue, Key};
-use pleach_tree::{Family, Generator, SpeciesDoc};
+use pleach_tree::{Family, Generator, SpeciesDoc, species_files};
 use std::sync::Arc;
 
 /// The family's name in species files.
@@ -59,16 +59,8 @@ impl Family for LeastCostPathFamily {
     }
 }
 
-/// Declares the species files.
-macro_rules! presets {
-    ($($name:literal,)*) => {
-        /// Name and text of each species file.
-        const PRESETS: &[(&str, &str)] =
-            &[$(($name, include_str!(concat!("../species/", $name, ".toml"))),)*];
-    };
-}
-
-presets! {
+/// Name and text of each species file.
+const PRESETS: &[(&str, &str)] = species_files![
     "fan_elm",
     "vase_elm",
     "weeping_crown",
@@ -92,4 +84,4 @@ presets! {
     "leafy_conifer",
     "leafy_oak",
     "leafy_willow",
-}
+];

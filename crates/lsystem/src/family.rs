@@ -7,7 +7,7 @@ use crate::syntax::Span;
 use crate::system::LSystem;
 use pleach_tree::param::Problem;
 use pleach_tree::species::{Form, Issue, KEYS, Key, Value};
-use pleach_tree::{Family, Generator, SpeciesDoc};
+use pleach_tree::{Family, Generator, SpeciesDoc, species_files};
 use std::sync::Arc;
 
 /// The key of the grammar.
@@ -100,16 +100,8 @@ impl Family for LSystemFamily {
 /// Mistakes of one grammar beyond which nobody reads on.
 const MAX_TOLD: usize = 20;
 
-/// Declares the species files.
-macro_rules! presets {
-    ($($name:literal,)*) => {
-        /// Name and text of each species file.
-        pub const PRESETS: &[(&str, &str)] =
-            &[$(($name, include_str!(concat!("../species/", $name, ".toml"))),)*];
-    };
-}
-
-presets! {
+/// Name and text of each species file.
+const PRESETS: &[(&str, &str)] = species_files![
     "hewitt_palm",
     "hewitt_lombardy_poplar",
     "hewitt_quaking_aspen",
@@ -145,4 +137,4 @@ presets! {
     "abop_dragon",
     "abop_koch_island",
     "abop_row_of_trees",
-}
+];

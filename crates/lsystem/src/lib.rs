@@ -17,7 +17,7 @@ mod turtle;
 
 pub use derive::{DeriveError, Limits};
 pub use diagnostic::{Diagnostic, Fault, Report};
-pub use family::{LSystemFamily, PRESETS};
+pub use family::LSystemFamily;
 pub use generator::GrammarGenerator;
 pub use header::Header;
 pub use parse::MAX_BYTES;

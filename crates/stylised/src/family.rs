@@ -2,7 +2,7 @@
 
 use crate::generator::{NAME, Stylised};
 use pleach_tree::species::Issue;
-use pleach_tree::{Family, Generator, SpeciesDoc};
+use pleach_tree::{Family, Generator, SpeciesDoc, species_files};
 use std::sync::Arc;
 
 /// Reads species files of stylised trees.
@@ -31,16 +31,8 @@ impl Family for StylisedFamily {
     }
 }
 
-/// Declares the species files.
-macro_rules! presets {
-    ($($name:literal,)*) => {
-        /// Name and text of each species file.
-        const PRESETS: &[(&str, &str)] =
-            &[$(($name, include_str!(concat!("../species/", $name, ".toml"))),)*];
-    };
-}
-
-presets! {
+/// Name and text of each species file.
+const PRESETS: &[(&str, &str)] = species_files![
     "stylised_oak",
     "stylised_round",
     "stylised_birch",
@@ -54,4 +46,4 @@ presets! {
     "stylised_spruce",
     "stylised_palm",
     "stylised_bush",
-}
+];

@@ -23,97 +23,85 @@ pub(crate) enum FoliageKind {
 
 const FOLIAGE_KINDS: [&str; 3] = ["blob", "cone", "palm"];
 
-/// Checked numbers by their names. Lengths and widths are in units of the sliders.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Numbers {
-    pub(crate) scale: f64,
-    pub(crate) trunk_width_base: f64,
-    pub(crate) trunk_width_end: f64,
-    pub(crate) trunk_width: f64,
-    pub(crate) trunk_height: f64,
-    pub(crate) trunk_randomness: f64,
-    pub(crate) leaves_quantity: f64,
-    pub(crate) leaves_size: f64,
-    pub(crate) leaves_randomness: f64,
-    pub(crate) tropism: f64,
-    pub(crate) branch_quantity: f64,
-    pub(crate) branch_length: f64,
-    pub(crate) branch_randomness: f64,
-    pub(crate) branch_width: f64,
-    pub(crate) root_quantity: f64,
-    pub(crate) root_length: f64,
-    pub(crate) root_width: f64,
-    pub(crate) root_randomness: f64,
-    pub(crate) trunks: u32,
-    pub(crate) dead_branches: f64,
-    pub(crate) foliage: FoliageKind,
-    pub(crate) subdivision: u32,
+/// A number of a species as the model takes it.
+trait Number {
+    fn from_value(value: f64) -> Self;
+}
+
+impl Number for f64 {
+    fn from_value(value: f64) -> Self {
+        value
+    }
+}
+
+impl Number for u32 {
+    fn from_value(value: f64) -> Self {
+        value as Self
+    }
+}
+
+impl Number for FoliageKind {
+    fn from_value(value: f64) -> Self {
+        match value as u32 {
+            0 => Self::Blob,
+            1 => Self::Cone,
+            _ => Self::Palm,
+        }
+    }
+}
+
+/// Declares the numbers by their names, in the order of the declarations.
+macro_rules! numbers {
+    ($($name:ident: $type:ty,)*) => {
+        /// Checked numbers by their names. Lengths and widths are in units of the sliders.
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) struct Numbers {
+            $(pub(crate) $name: $type,)*
+        }
+
+        impl Numbers {
+            /// `values`, one for each slot, by their names.
+            fn from_values(values: &[f64]) -> Self {
+                let mut rest = values.iter().copied();
+                let mut next = || rest.next().unwrap_or_default();
+                Self { $($name: Number::from_value(next()),)* }
+            }
+        }
+
+        #[cfg(test)]
+        const NAMES: &[&str] = &[$(stringify!($name)),*];
+    };
+}
+
+numbers! {
+    scale: f64,
+    trunk_width_base: f64,
+    trunk_width_end: f64,
+    trunk_width: f64,
+    trunk_height: f64,
+    trunk_randomness: f64,
+    leaves_quantity: f64,
+    leaves_size: f64,
+    leaves_randomness: f64,
+    tropism: f64,
+    branch_quantity: f64,
+    branch_length: f64,
+    branch_randomness: f64,
+    branch_width: f64,
+    root_quantity: f64,
+    root_length: f64,
+    root_width: f64,
+    root_randomness: f64,
+    trunks: u32,
+    dead_branches: f64,
+    foliage: FoliageKind,
+    subdivision: u32,
 }
 
 impl Numbers {
     /// The numbers of `params`.
     pub(crate) fn new(params: &CheckedParams) -> Result<Self, ForeignParams> {
         Ok(Self::from_values(params.values_in(&SPACE)?))
-    }
-
-    /// `values`, one for each slot, by their names.
-    fn from_values(values: &[f64]) -> Self {
-        let &[
-            scale,
-            trunk_width_base,
-            trunk_width_end,
-            trunk_width,
-            trunk_height,
-            trunk_randomness,
-            leaves_quantity,
-            leaves_size,
-            leaves_randomness,
-            tropism,
-            branch_quantity,
-            branch_length,
-            branch_randomness,
-            branch_width,
-            root_quantity,
-            root_length,
-            root_width,
-            root_randomness,
-            trunks,
-            dead_branches,
-            foliage,
-            subdivision,
-        ] = values
-        else {
-            unreachable!("there is one number for each slot")
-        };
-        let foliage = match foliage as u32 {
-            0 => FoliageKind::Blob,
-            1 => FoliageKind::Cone,
-            _ => FoliageKind::Palm,
-        };
-        Self {
-            scale,
-            trunk_width_base,
-            trunk_width_end,
-            trunk_width,
-            trunk_height,
-            trunk_randomness,
-            leaves_quantity,
-            leaves_size,
-            leaves_randomness,
-            tropism,
-            branch_quantity,
-            branch_length,
-            branch_randomness,
-            branch_width,
-            root_quantity,
-            root_length,
-            root_width,
-            root_randomness,
-            trunks: trunks as u32,
-            dead_branches,
-            foliage,
-            subdivision: subdivision as u32,
-        }
     }
 }
 
@@ -272,6 +260,8 @@ mod tests {
 
     #[test]
     fn numbers_are_read_by_their_names() {
+        let declared: Vec<&str> = SPACE.params().iter().map(|param| param.name.as_ref()).collect();
+        assert_eq!(declared, NAMES);
         let mut values = SPACE.defaults();
         for (name, value) in [("tropism", -0.25), ("root_randomness", 0.75), ("subdivision", 3.0)] {
             let (slot, _) = SPACE.find(name).unwrap();

@@ -64,10 +64,7 @@ macro_rules! species {
         pub const $set: &[&str] = &[$($of_set),*];
 
         /// Name and text of each file.
-        const PRESETS: &[(&str, &str)] = &[
-            $(($of_set, include_str!(concat!("../species/", $of_set, ".toml"))),)*
-            $(($other, include_str!(concat!("../species/", $other, ".toml"))),)*
-        ];
+        const PRESETS: &[(&str, &str)] = pleach_tree::species_files![$($of_set,)* $($other,)*];
     };
 }
 

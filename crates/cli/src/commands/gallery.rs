@@ -18,14 +18,14 @@ fn across(count: usize) -> u32 {
 
 /// Draws the sheet, `size` pixels per tree.
 pub(super) fn sheet(
-    names: &[&str],
+    all: &[Species],
     size: u32,
     parts: Parts,
     grow: impl Fn(&Species) -> anyhow::Result<Tree>,
     settings: &PreviewSettings,
 ) -> anyhow::Result<Picture> {
-    let columns = across(names.len());
-    let rows = (names.len() as u32).div_ceil(columns);
+    let columns = across(all.len());
+    let rows = (all.len() as u32).div_ceil(columns);
     let (gap, label) = (size / 6, size / 5);
     let (across, down) = (2 * size + gap, size + label + gap / 2);
     let mut page = Scene::new(columns * across + gap, rows * down + gap);
@@ -36,14 +36,19 @@ pub(super) fn sheet(
         ..*settings
     };
     let mut pictures = Vec::new();
-    for (i, name) in (0..).zip(names.iter().copied()) {
-        let species = pleach_generators::species(name)?;
-        let mut tree = grow(&species)?;
+    for (i, species) in (0..).zip(all) {
+        let mut tree = grow(species)?;
         let (x, y) = (gap + i % columns * across, gap / 2 + i / columns * down);
         let height = TreeStats::new(&tree).height_m;
-        caption(&mut page, name, height, (f64::from(x + size), f64::from(y + size)), f64::from(size));
+        caption(
+            &mut page,
+            &species.name,
+            height,
+            (f64::from(x + size), f64::from(y + size)),
+            f64::from(size),
+        );
         for (k, season) in [(0, None), (1, Some(Season::Winter))] {
-            let palette = Palette::new(&species, season);
+            let palette = Palette::new(species, season);
             palette.apply_season(&mut tree);
             let picture = Preview::with_parts(&tree, &palette, size, parts).picture(&settings);
             pictures.push((x + k * size, y, picture));

@@ -33,7 +33,7 @@ pub(super) struct MapArgs {
     #[arg(long)]
     all: bool,
     /// The built-in species of this generator, so far as they have the same parameters
-    #[arg(long, value_name = "NAME", value_parser = family, conflicts_with_all = ["all", "only"])]
+    #[arg(long, value_name = "NAME", value_parser = pleach_generators::family, conflicts_with_all = ["all", "only"])]
     generator: Option<&'static dyn Family>,
     /// Only these built-in species
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', conflicts_with = "all")]
@@ -133,14 +133,6 @@ impl MapArgs {
         }
         Ok(pleach_generators::HEWITT_2017.iter().filter_map(|name| pleach_generators::preset(name)).collect())
     }
-}
-
-fn family(name: &str) -> Result<&'static dyn Family, String> {
-    let families = pleach_generators::families();
-    families.iter().copied().find(|family| family.name() == name).ok_or_else(|| {
-        let names: Vec<&str> = families.iter().map(|family| family.name()).collect();
-        format!("unknown generator `{name}`, known are {}", names.join(", "))
-    })
 }
 
 /// The species of `family` that have the same parameters. Where not all have, as those of different

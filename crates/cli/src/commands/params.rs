@@ -1,7 +1,7 @@
 //! `pleach params`: the declared parameters, and what else a species file may say.
 
 use crate::output;
-use anyhow::bail;
+use anyhow::{Context, bail};
 use pleach_tree::param::Shape;
 use pleach_tree::param::nearest;
 use pleach_tree::species::{self, Form, Key};
@@ -60,15 +60,9 @@ fn file_keys(own: &[Key]) -> Vec<FileKey> {
 
 impl Params {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
-        let families = pleach_generators::families();
-        let family = families.iter().find(|f| f.name() == self.generator);
-        let first = family.and_then(|f| f.presets().first());
-        let (Some(family), Some(species)) =
-            (family, first.and_then(|(name, _)| pleach_generators::preset(name)))
-        else {
-            let known: Vec<&str> = families.iter().map(|f| f.name()).collect();
-            bail!("unknown generator `{}`, known are {}", self.generator, known.join(", "));
-        };
+        let family = pleach_generators::family(&self.generator)?;
+        let first = pleach_generators::presets(family).into_iter().next();
+        let species = first.context("a generator has species that are built in")?;
         let space = species.generator.space();
         let keys = file_keys(family.keys());
         match &self.name {

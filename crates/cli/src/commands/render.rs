@@ -147,11 +147,14 @@ impl Render {
             (None, None) => PathBuf::from("gallery.png"),
         };
         let grow = |species: &Species| self.grow(species, self.seed.or(species.tree_seed).unwrap_or(1));
-        let names = match &self.generator {
-            Some(generator) => generator.names(),
-            None => pleach_generators::HEWITT_2017.to_vec(),
+        let species: Vec<Species> = match &self.generator {
+            Some(generator) => generator.known().collect(),
+            None => pleach_generators::HEWITT_2017
+                .iter()
+                .filter_map(|name| pleach_generators::preset(name))
+                .collect(),
         };
-        let sheet = gallery::sheet(&names, self.size, self.parts(), grow, &self.settings(0.0))?;
+        let sheet = gallery::sheet(&species, self.size, self.parts(), grow, &self.settings(0.0))?;
         files::write_out(&path, |mut out| Ok(png_file::write_indexed(&mut out, &sheet)?))?;
         output::wrote(&path);
         Ok(())

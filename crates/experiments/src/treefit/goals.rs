@@ -1,13 +1,14 @@
 //! The goals, with all that is known of the trees that they show.
 
 use super::spec::{Degraded, FileGoal, GoalSpec, OwnGoal};
-use super::{FRESH, SIZE, stop};
+use super::{FRESH, stop};
+use crate::pictured::{SIZE, pictured};
 use anyhow::Context;
 use pleach_fit::{FitProblem, Genome, GoalView, Objective, fresh_seeds};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::score::likeness::Likeness;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Growth, Key, Limits, Parts, Species, Tree};
+use pleach_tree::{Foliage, Growth, Key, Limits, Species};
 use std::path::Path;
 
 /// A goal with what is known of it.
@@ -105,14 +106,6 @@ const LIKE_SEED: u64 = 11;
 fn problem(goals: Vec<GoalView>, foliage: bool) -> anyhow::Result<FitProblem> {
     let start = pleach_generators::preset("quaking_aspen").context("the default species is built in")?;
     Ok(FitProblem { start, goals, foliage: if foliage { Foliage::All } else { Foliage::None } })
-}
-
-/// A picture of a whole tree in the frame that suits it.
-fn pictured(tree: &Tree, view: View, foliage: bool) -> GoalView {
-    let frame = Frame::automatic(tree, &view, Parts::with_foliage(foliage), SIZE, SIZE);
-    let mut goal = Bitmap::default();
-    Rasterizer::new().draw(tree, &view, &frame, Parts::with_foliage(foliage), &mut goal);
-    GoalView::new(goal, view, frame)
 }
 
 /// How trees of other seeds of the true parameters do, against the whole picture.

@@ -21,8 +21,6 @@ use pleach_tree::species::Appearance;
 use spec::{GoalSpec, MethodSpec};
 use std::path::{Path, PathBuf};
 
-/// Side of every goal in pixels.
-const SIZE: u32 = 256;
 /// Trees of other seeds that a result, and the truth, is judged by.
 const FRESH: usize = 16;
 

@@ -2,7 +2,8 @@
 
 use super::goals::{self, Problem};
 use super::spec::TreefitSpec;
-use super::{Outputs, SIZE, fit_file, guess_file};
+use super::{Outputs, fit_file, guess_file};
+use crate::pictured::SIZE;
 use anyhow::Context;
 use pleach_silhouette::{Bitmap, picture};
 use std::path::Path;

@@ -4,7 +4,6 @@ use crate::spec::{Evaluations, OTHER_NAME, Repetitions, Seed, Source, stem};
 use crate::within::{Azimuth, FileName, List, Meters, Real, Seconds, SpeciesName, Word};
 use pleach_fit::{Objective, Optimizer};
 use pleach_tree::Family;
-use pleach_tree::param::shown;
 use serde::Deserialize;
 use serde::de::{Error, IgnoredAny};
 use std::path::PathBuf;
@@ -73,13 +72,7 @@ impl FromStr for FamilyName {
     type Err = String;
 
     fn from_str(given: &str) -> Result<Self, Self::Err> {
-        let families = pleach_generators::families();
-        let names = || families.iter().map(|family| family.name()).collect::<Vec<_>>().join(", ");
-        families
-            .iter()
-            .find(|family| family.name() == given)
-            .map(|family| Self(*family))
-            .ok_or_else(|| format!("unknown generator `{}`, known are {}", shown(given), names()))
+        pleach_generators::family(given).map(Self).map_err(|error| error.to_string())
     }
 }
 

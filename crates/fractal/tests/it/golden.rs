@@ -2,8 +2,9 @@
 //!
 //! `PLEACH_BLESS=1 cargo test -p pleach-fractal golden` writes them anew.
 
-use pleach_fractal::{FractalFamily, preset};
+use pleach_fractal::FractalFamily;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::species::preset;
 use pleach_tree::{Family, Parts};
 use std::path::Path;
 
@@ -11,7 +12,7 @@ use std::path::Path;
 const SIZE: u32 = 96;
 
 fn drawn(name: &str) -> String {
-    let tree = preset(name).unwrap().grow(1).unwrap();
+    let tree = preset(&FractalFamily, name).unwrap().grow(1).unwrap();
     let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIZE, SIZE);
     let mut bitmap = Bitmap::default();
     Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut bitmap);

@@ -7,13 +7,14 @@ mod conformance;
 mod figures;
 mod golden;
 
-use pleach_fractal::preset;
+use pleach_fractal::FractalFamily;
 use pleach_tree::param::SlotError;
+use pleach_tree::species::preset;
 use pleach_tree::{GrowError, Species, Tree};
 
 /// A species with some numbers changed.
 fn with(name: &str, set: &[(&str, f64)]) -> Result<Species, SlotError> {
-    let species = preset(name).unwrap();
+    let species = preset(&FractalFamily, name).unwrap();
     let space = species.generator.space();
     let mut values = species.params.values().to_vec();
     set.iter().for_each(|(name, value)| values[space.find(name).unwrap().0] = *value);

@@ -92,8 +92,17 @@ impl<'a> Machine<'a> {
         if value.is_finite() {
             return Ok(value);
         }
-        let span = self.program.spans[code.start as usize].to(self.program.spans[code.end as usize - 1]);
-        Err(Trouble::NotFinite(span, value))
+        Err(Trouble::NotFinite(self.span(code), value))
+    }
+
+    /// All of an expression: what its operations came from, the last of which stands for the whole, but for
+    /// those that end in a jump.
+    #[cold]
+    fn span(&self, code: Code) -> Span {
+        let spans = &self.program.spans[code.start as usize..code.end as usize];
+        spans
+            .iter()
+            .fold(spans[0], |all, one| Span { start: all.start.min(one.start), end: all.end.max(one.end) })
     }
 
     fn run(&mut self, code: Code) -> Result<f64, Trouble> {

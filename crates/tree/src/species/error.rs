@@ -66,9 +66,9 @@ impl SpeciesError {
                 drawing.push('\n');
             }
             drawing.push_str(&issue.to_string());
-            if let Some(lines) = excerpt(&self.text, &issue.span, issue.help.as_deref(), colored) {
+            if !self.text.is_empty() {
                 drawing.push('\n');
-                drawing.push_str(&lines);
+                drawing.push_str(&excerpt(&self.text, &issue.span, issue.help.as_deref(), colored));
             }
         }
         drawing.push_str(&self.more());

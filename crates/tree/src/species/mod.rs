@@ -15,7 +15,7 @@
 mod appearance;
 mod doc;
 mod error;
-mod excerpt;
+pub mod excerpt;
 mod family;
 mod key;
 mod name;

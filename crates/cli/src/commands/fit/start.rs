@@ -2,13 +2,13 @@
 
 use crate::commands::generator_choice::GeneratorChoice;
 use crate::input;
-use anyhow::{Context, ensure};
+use anyhow::{Context, bail, ensure};
 use pleach_fit::{
     Candidate, FirstGuess, FitSettings, GoalSettings, GuessSettings, Guessing, Judging, RulesSettings,
     Runner, Start, check_freedom,
 };
 use pleach_tree::species::Appearance;
-use pleach_tree::{Family, Foliage, Species, SpeciesDoc};
+use pleach_tree::{Foliage, Species, SpeciesDoc};
 use serde::Serialize;
 use std::str::FromStr;
 
@@ -131,20 +131,17 @@ pub(super) fn varied_family() -> anyhow::Result<GeneratorChoice> {
 impl From {
     /// The species that a search over rules starts from: that of `--from`, or one without rules.
     pub(super) fn varied(&self, generator: &GeneratorChoice) -> anyhow::Result<Species> {
-        let species = if let Self::Species(_) = self {
-            self.species(generator)?
-        } else {
-            let blank = |family: &&'static dyn Family| Some((*family, family.blank()?));
-            let mut families = pleach_generators::families().iter().filter_map(blank);
-            let (family, text) = families
-                .find(|(family, _)| *generator == GeneratorChoice::Family(family.name()))
-                .with_context(|| no_rules(&generator.to_string()))?;
-            SpeciesDoc::parse("blank", text)?.species(family)?
+        let family = match (self, generator) {
+            (Self::Species(_), _) => self.species(generator)?.generator.family(),
+            (_, GeneratorChoice::Family(name)) => name,
+            (_, GeneratorChoice::Auto) => bail!(no_rules("auto")),
         };
-        let family = species.generator.family();
-        let is_varied =
-            pleach_generators::families().iter().any(|f| f.name() == family && f.blank().is_some());
-        ensure!(is_varied, no_rules(family));
+        let family = pleach_generators::family(family)?;
+        let blank = family.blank().with_context(|| no_rules(family.name()))?;
+        let species = match self {
+            Self::Species(_) => self.species(generator)?,
+            _ => SpeciesDoc::parse("blank", blank)?.species(family)?,
+        };
         ensure!(
             species.generator.variation().is_some(),
             "the grammar of {} is longer than --evolve-rules takes",
