@@ -3,6 +3,7 @@
 //! | file in `tests/` | what belongs there |
 //! | --- | --- |
 //! | `grow.rs`, `silhouette.rs`, `fit.rs`, … | one file per command, run as a user would |
+//! | `interruption.rs` | fits that are killed or asked to stop, and go on |
 //! | `run_folder.rs` | what a fit does to the files that are there |
 //! | `pictures.rs` | pictures from pipes, in odd formats, broken off, not of a tree |
 //! | `grow_formats.rs`, `help.rs`, `shell.rs` | options of every format, help texts, standard output and shells |
@@ -35,6 +36,44 @@ pub fn program() -> &'static Path {
         let profile = here.ancestors().nth(2).expect("a test lies in target/PROFILE/deps");
         profile.join(format!("pleach{}", std::env::consts::EXE_SUFFIX))
     })
+}
+
+/// A goal of the folder `targets`.
+///
+/// # Panics
+/// If the folder is not where it should be.
+#[must_use]
+pub fn target(name: &str) -> String {
+    root().join("targets").join(name).to_str().expect("a path of UTF-8").to_owned()
+}
+
+/// The bytes of a file.
+///
+/// # Panics
+/// If it cannot be read.
+#[must_use]
+#[track_caller]
+pub fn read(path: &Path) -> Vec<u8> {
+    std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// What of a fit must be the same bits: the species, its picture, and the history without its time
+/// column.
+///
+/// # Panics
+/// If `folder` does not hold a finished fit.
+#[must_use]
+#[track_caller]
+pub fn results(folder: &Path) -> (Vec<u8>, Vec<u8>, Vec<String>) {
+    let history = String::from_utf8(read(&folder.join("history.csv"))).expect("a table of UTF-8");
+    let rows = history.lines().map(|line| line.rsplit_once(',').expect("columns").0.to_owned()).collect();
+    (read(&folder.join("best.toml")), read(&folder.join("best.png")), rows)
+}
+
+/// The arguments of a small fit: acer grows in a millisecond.
+#[must_use]
+pub fn small<'a>(goal: &'a str, out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&["fit", goal, "--out", out, "--size", "64", "--from", "acer"], more].concat()
 }
 
 /// A fresh directory in which the program is run; removed at the end.

@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_tests::Dir;
-use std::path::Path;
+use pleach_tests::{Dir, read, results};
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
@@ -14,17 +13,6 @@ fn goal(dir: &Dir) {
 
 fn fit<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&["fit", "goal.png", "--out", out, "--size", "64", "--evolve-rules"], more].concat()
-}
-
-fn read(path: &Path) -> Vec<u8> {
-    std::fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
-
-/// What must be the same bits: the species, its picture, and the history without its time column.
-fn results(folder: &Path) -> (Vec<u8>, Vec<u8>, Vec<String>) {
-    let history = String::from_utf8(read(&folder.join("history.csv"))).unwrap();
-    let rows = history.lines().map(|l| l.rsplit_once(',').unwrap().0.to_owned()).collect();
-    (read(&folder.join("best.toml")), read(&folder.join("best.png")), rows)
 }
 
 #[test]

@@ -2,13 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_tests::{Dir, root};
-use std::path::Path;
+use pleach_tests::{Dir, read, root};
 use std::time::{Duration, Instant};
-
-fn read(path: &Path) -> Vec<u8> {
-    std::fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
 
 /// Fits of three random lists each.
 fn fits(goals: &[&str]) -> String {

@@ -2,17 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_tests::Dir;
+use pleach_tests::{Dir, small, target};
 use serde_json::Value;
-
-fn goal(name: &str) -> String {
-    pleach_tests::root().join("targets").join(name).to_str().unwrap().to_owned()
-}
-
-/// A small fit: acer grows in a millisecond.
-fn small<'a>(goal: &'a str, out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    [&["fit", goal, "--out", out, "--size", "64", "--from", "acer"], more].concat()
-}
 
 fn summary(dir: &Dir, run: &str) -> Value {
     serde_json::from_slice(&std::fs::read(dir.path(run).join("summary.json")).unwrap()).unwrap()
@@ -21,7 +12,7 @@ fn summary(dir: &Dir, run: &str) -> Value {
 #[test]
 fn a_fit_says_whether_it_is_good_and_what_to_do_next() {
     let dir = Dir::new();
-    let goal = goal("acer.png");
+    let goal = target("acer.png");
     let report = dir.run(small(&goal, "my run", &["--evaluations", "200"])).ok();
     let summary = summary(&dir, "my run");
     let number = |at: &str| summary.pointer(at).and_then(Value::as_f64).unwrap_or_else(|| panic!("{at}"));
@@ -63,7 +54,7 @@ fn a_fit_says_whether_it_is_good_and_what_to_do_next() {
 #[test]
 fn the_history_has_likeness_whatever_is_made_small() {
     let dir = Dir::new();
-    let goal = goal("acer.png");
+    let goal = target("acer.png");
     for objective in ["balance", "iou"] {
         let more = ["--evaluations", "240", "--objective", objective];
         let _ = dir.run(small(&goal, objective, &more)).ok();
@@ -81,7 +72,7 @@ fn the_history_has_likeness_whatever_is_made_small() {
 #[test]
 fn a_wrong_request_is_told_before_anything_is_done() {
     let dir = Dir::new();
-    let goal = goal("acer.png");
+    let goal = target("acer.png");
     let fit =
         |more: &[&str]| dir.run([&["fit", &goal, "--out", "run", "--evaluations", "10"], more].concat());
     fit(&["--free", "brances"]).fails(1, &["`brances`", "did you mean `branches`"]);

@@ -6,6 +6,7 @@
 
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_stylised::StylisedFamily;
+use pleach_tree::conformance::assert_golden;
 use pleach_tree::species::preset;
 use pleach_tree::{Family, Parts};
 use std::path::Path;
@@ -25,12 +26,6 @@ fn drawn(name: &str) -> String {
 fn species_look_as_they_did() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
     for (name, _) in StylisedFamily.presets() {
-        let path = folder.join(format!("{name}.txt"));
-        let found = drawn(name);
-        if std::env::var_os("PLEACH_BLESS").is_some() {
-            std::fs::write(&path, &found).unwrap();
-        }
-        let expected = std::fs::read_to_string(&path).unwrap();
-        assert!(found == expected, "{name} looks otherwise:\n{found}\nexpected\n{expected}");
+        assert_golden(&folder.join(format!("{name}.txt")), &drawn(name));
     }
 }

@@ -1,16 +1,19 @@
 //! One fit of one goal.
 
 use super::goals::{self, Problem};
-use super::spec::{From, MethodSpec};
+use super::spec::{From, GeneratorName, MethodSpec};
 use super::{FRESH, Fit, stop};
 use crate::record::Fixed;
+use anyhow::Context;
 use pleach_fit::{
     Budget, Candidate, Control, FirstGuess, FitProblem, FitSettings, FreshSeeds, GoalSettings, GoalView,
-    GuessSettings, Guessing, Objective, TreeSeed, first_guess, fit_goal, fresh_seeds,
+    GuessSettings, Guessing, Objective, Start, TreeSeed, first_guess, fit_goal, fresh_seeds,
 };
+use pleach_least_cost_path::{SideView, species_around};
+use pleach_silhouette::outline;
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::score::likeness::Likeness;
-use pleach_tree::{Family, Limits, Species};
+use pleach_tree::{Limits, Species};
 use std::time::{Duration, Instant};
 
 /// Seed of the trees that are fitted; own goals are of other seeds.
@@ -25,10 +28,13 @@ pub(super) struct Attempt {
 }
 
 /// First guesses of one goal: several methods start from the same.
+#[derive(Default)]
 pub(super) struct Guesses {
-    family: &'static dyn Family,
-    known: Vec<(Objective, TreeSeed, u64, Guessed)>,
+    known: Vec<(Asked, Guessed)>,
 }
+
+/// What a first guess depends on: generators, objective, tree seed, seed.
+type Asked = (GeneratorName, Objective, TreeSeed, u64);
 
 struct Guessed {
     found: FirstGuess,
@@ -36,36 +42,44 @@ struct Guessed {
 }
 
 impl Guesses {
-    /// No guess yet, of which each is of a species of `family`.
-    pub(super) const fn new(family: &'static dyn Family) -> Self {
-        Self { family, known: Vec::new() }
-    }
-
-    fn of(&mut self, problem: &FitProblem, settings: &FitSettings) -> anyhow::Result<&Guessed> {
-        let FitSettings { objective, tree_seed, seed, .. } = *settings;
-        let is_same = |known: &(Objective, TreeSeed, u64, Guessed)| {
-            (known.0, known.1, known.2) == (objective, tree_seed, seed)
-        };
-        let at = match self.known.iter().position(is_same) {
+    fn of(
+        &mut self,
+        problem: &FitProblem,
+        settings: &FitSettings,
+        generator: GeneratorName,
+    ) -> anyhow::Result<&Guessed> {
+        let asked = (generator, settings.objective, settings.tree_seed, settings.seed);
+        let at = match self.known.iter().position(|(known, _)| *known == asked) {
             Some(at) => at,
             None => {
                 let started = Instant::now();
-                let known = pleach_generators::presets(self.family);
                 let found = first_guess(
                     problem,
                     settings,
-                    &known.into_iter().map(Candidate::from).collect::<Vec<_>>(),
+                    &generator.presets().map(Candidate::from).collect::<Vec<_>>(),
                     &GuessSettings::default(),
                     stop::flag(),
                     |_, _| (),
                 )?;
                 let guessed = Guessed { found, seconds: started.elapsed() };
-                self.known.push((objective, tree_seed, seed, guessed));
+                self.known.push((asked, guessed));
                 self.known.len() - 1
             }
         };
-        Ok(&self.known[at].3)
+        Ok(&self.known[at].1)
     }
+}
+
+/// Rows that an outline is read in.
+const ROWS: u32 = 48;
+
+/// A tree of least-cost paths in the outline of `goal`, and the lists of numbers to start from.
+fn outlined(goal: &GoalView) -> anyhow::Result<(Species, Vec<Vec<f64>>)> {
+    let (_, top, _, _) = goal.goal.ink_box().context("the goal is empty")?;
+    let height = (goal.frame.ground_row - f64::from(top)) * goal.frame.meters_per_pixel;
+    let rows = outline(&goal.goal, &goal.frame, height, ROWS);
+    let side = SideView { azimuth: goal.view.azimuth, rows };
+    species_around(&[side], height).context("the goal has no outline")
 }
 
 pub(super) fn fit(
@@ -79,7 +93,7 @@ pub(super) fn fit(
         timeout: method.seconds.map(|seconds| Duration::try_from_secs_f64(*seconds)).transpose()?,
         ..Budget::default()
     };
-    let search = FitSettings {
+    let mut search = FitSettings {
         optimizer: method.optimizer.value.clone(),
         budget,
         seed,
@@ -87,18 +101,26 @@ pub(super) fn fit(
         objective: method.objective.as_ref().map(|word| word.value).unwrap_or_default(),
         ..FitSettings::default()
     };
+    let begun = Instant::now();
+    let mut asked = problem.fit.clone();
     let (guess, before) = match method.from {
         From::Auto => {
-            let Guessed { found, seconds } = guesses.of(&problem.fit, &search)?;
+            let Guessed { found, seconds } = guesses.of(&problem.fit, &search, method.generator())?;
             (Guessing::Known(Box::new(found.clone())), *seconds)
         }
         From::Random => (Guessing::Off, Duration::ZERO),
+        From::Outline => {
+            let (species, lists) = outlined(&problem.fit.goals[0])?;
+            asked.start = species;
+            search.start = Start::Lists(lists);
+            (Guessing::Off, begun.elapsed())
+        }
     };
     let started = Instant::now();
     let clock = || before + started.elapsed();
     // Judged below, by the whole picture where the goal is spoilt.
     let settings = GoalSettings { search, guess, candidates: Vec::new(), judging: None };
-    let fitted = fit_goal(&problem.fit, &settings, Control::new(&clock, stop::flag()))?;
+    let fitted = fit_goal(&asked, &settings, Control::new(&clock, stop::flag()))?;
     let seconds = clock().as_secs_f64();
     let best = fitted.species()?;
     let start = Species { tree_seed: Some(TREE_SEED), ..fitted.problem.start.clone() };

@@ -24,8 +24,12 @@ use std::path::{Path, PathBuf};
 /// Trees of other seeds that a result, and the truth, is judged by.
 const FRESH: usize = 16;
 
-fn fit_file(goal: &str) -> String {
-    format!("fits/{goal}.toml")
+/// The file of a fit by the `place`th of the methods that are kept.
+fn fit_file(goal: &str, kept: &[&MethodSpec], place: usize) -> String {
+    match place {
+        0 => format!("fits/{goal}.toml"),
+        _ => format!("fits/{goal}-{}.toml", kept[place].generator().name()),
+    }
 }
 
 fn guess_file(goal: &str) -> String {
@@ -38,7 +42,12 @@ impl Kind for TreefitSpec {
     }
 
     fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>) {
-        let fits = self.goals().flat_map(|goal| [fit_file(&goal.name()), guess_file(&goal.name())]);
+        let kept = self.kept();
+        let fits = self.goals().flat_map(|goal| {
+            let name = goal.name();
+            let fits = (0..kept.len()).map(|place| fit_file(&name, &kept, place));
+            fits.chain([guess_file(&name)]).collect::<Vec<_>>()
+        });
         let read = self.goals().flat_map(|goal| match goal {
             GoalSpec::File(goal) => {
                 std::iter::once(&goal.file).chain(&goal.others).map(|file| folder.join(file)).collect()
@@ -74,9 +83,8 @@ impl Kind for TreefitSpec {
             let is_of =
                 |row: &Fit| (&row.goal, &row.method, row.repetition) == (&name, &method.name, repetition);
             let make = || {
-                let is_first = repetition == 1 && method.name == self.first_method().name;
-                let row = self.fitted(folder, goal, method, repetition, &mut current, keeps && is_first)?;
-                Ok(vec![row])
+                let keeps = keeps && repetition == 1;
+                Ok(vec![self.fitted(folder, goal, method, repetition, &mut current, keeps)?])
             };
             journal.job(is_of, make)?;
             bar.inc(1);
@@ -106,7 +114,7 @@ impl TreefitSpec {
         Ok(others.map(|(row, _)| row).collect())
     }
 
-    /// The row of a fit; what was found is written as well if it `is_kept`.
+    /// The row of a fit; what was found is written as well if this run `keeps` it.
     fn fitted(
         &self,
         folder: &Path,
@@ -114,19 +122,21 @@ impl TreefitSpec {
         method: &MethodSpec,
         repetition: u64,
         current: &mut Option<(Problem, Guesses)>,
-        is_kept: bool,
+        keeps: bool,
     ) -> anyhow::Result<Fit> {
         let name = goal.name();
         let (problem, guesses) = match current.take().filter(|(problem, _)| problem.name == name) {
             Some(same) => current.insert(same),
-            None => current.insert((Problem::with_ceiling(folder, goal)?, Guesses::new(self.family()))),
+            None => current.insert((Problem::with_ceiling(folder, goal)?, Guesses::default())),
         };
         let result = attempt::fit(problem, guesses, method, repetition)
             .with_context(|| format!("{name}, {}, repetition {repetition}", method.name))?;
-        if is_kept && !stop::is_raised() {
+        let kept = self.kept();
+        let place = kept.iter().position(|other| other.name == method.name);
+        if let Some(place) = place.filter(|_| keeps && !stop::is_raised()) {
             files::make_folder(&folder.join("fits"))?;
-            write_species(&folder.join(fit_file(&name)), &name, &result.best)?;
-            if let Some(guess) = &result.guess {
+            write_species(&folder.join(fit_file(&name, &kept, place)), &name, &result.best)?;
+            if let Some(guess) = result.guess.as_ref().filter(|_| place == 0) {
                 write_species(&folder.join(guess_file(&name)), &name, guess)?;
             }
         }

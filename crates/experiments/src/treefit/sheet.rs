@@ -8,13 +8,15 @@ use anyhow::Context;
 use pleach_silhouette::{Bitmap, picture};
 use std::path::Path;
 
-/// Pictures in a row: two goals.
-const COLUMNS: usize = 8;
+/// Goals in a row where one generator is fitted.
+const ACROSS: usize = 2;
 
 pub(super) const SHEET: &str = "sheet.png";
 
 /// Goal, first guess, fit, and a tree of the fit with another seed, from the species files of the fits.
+/// Where several generators are fitted, the goal and the fit of each.
 pub(super) fn draw(folder: &Path, spec: &TreefitSpec, outputs: &Outputs) -> anyhow::Result<()> {
+    let kept = spec.kept();
     let mut cells = Vec::new();
     for goal in spec.goals() {
         let problem = Problem::of(folder, goal)?;
@@ -22,20 +24,28 @@ pub(super) fn draw(folder: &Path, spec: &TreefitSpec, outputs: &Outputs) -> anyh
         let small = |bitmap: &Bitmap| bitmap.downscaled(0.5);
         let drawn = |file: String, further: u64| -> anyhow::Result<Bitmap> {
             let path = folder.join(file);
+            // Searches from random lists have no guess, and not every method fits every goal.
+            if !path.exists() {
+                return Ok(small(&Bitmap::new(SIZE, SIZE)));
+            }
             let species = pleach_generators::species(&path.to_string_lossy())?;
             let seed = species.tree_seed.with_context(|| format!("{} has no seed", path.display()))?;
             Ok(small(&goals::draw(&species, seed + further, problem.fit.foliage, view)?))
         };
         let name = &problem.name;
         cells.push((name.clone(), small(&view.goal)));
-        let guess = guess_file(name);
-        // Searches from random lists have none.
-        let guess =
-            if folder.join(&guess).exists() { drawn(guess, 0)? } else { small(&Bitmap::new(SIZE, SIZE)) };
-        cells.push(("first guess".to_owned(), guess));
-        cells.push(("fit".to_owned(), drawn(fit_file(name), 0)?));
-        cells.push(("another seed".to_owned(), drawn(fit_file(name), 1)?));
+        if kept.len() > 1 {
+            for (place, method) in kept.iter().enumerate() {
+                let fit = drawn(fit_file(name, &kept, place), 0)?;
+                cells.push((method.generator().name().to_owned(), fit));
+            }
+            continue;
+        }
+        let fit = fit_file(name, &kept, 0);
+        cells.push(("first guess".to_owned(), drawn(guess_file(name), 0)?));
+        cells.push(("fit".to_owned(), drawn(fit.clone(), 0)?));
+        cells.push(("another seed".to_owned(), drawn(fit, 1)?));
     }
-    let picture = picture::sheet(&cells, COLUMNS);
-    outputs.picture(SHEET, &picture)
+    let columns = if kept.len() > 1 { kept.len() + 1 } else { 4 * ACROSS };
+    outputs.picture(SHEET, &picture::sheet(&cells, columns))
 }

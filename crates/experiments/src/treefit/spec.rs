@@ -3,7 +3,7 @@
 use crate::spec::{Evaluations, OTHER_NAME, Repetitions, Seed, Source, stem};
 use crate::within::{Azimuth, FileName, List, Meters, Real, Seconds, SpeciesName, Word};
 use pleach_fit::{Objective, Optimizer};
-use pleach_tree::Family;
+use pleach_tree::{Family as _, Species};
 use serde::Deserialize;
 use serde::de::{Error, IgnoredAny};
 use std::path::PathBuf;
@@ -17,8 +17,6 @@ pub(in super::super) struct TreefitSpec {
     _kind: IgnoredAny,
     #[serde(rename = "question")]
     _question: Option<String>,
-    /// The family of generators that is fitted; the default one if it is not said.
-    generator: Option<Word<FamilyName>>,
     /// The goals.
     pub(super) goals: List<Spanned<GoalSpec>>,
     /// Ways to fit them.
@@ -39,13 +37,12 @@ impl TreefitSpec {
             if evaluations.is_none() && seconds.is_none() {
                 return Err(source.wrong(method.span(), "a method without `evaluations` or `seconds`"));
             }
+            let MethodSpec { from, generator, .. } = method.get_ref();
+            if *from != From::Auto && generator.is_some() {
+                return Err(source.wrong(method.span(), "`generator` is for `from = \"auto\"`"));
+            }
         }
         Ok(self)
-    }
-
-    /// The family of generators that is fitted.
-    pub(super) fn family(&self) -> &'static dyn Family {
-        self.generator.as_ref().map_or_else(pleach_generators::default_family, |word| word.value.0)
     }
 
     /// The goals in order.
@@ -58,21 +55,58 @@ impl TreefitSpec {
         self.methods.iter().map(Spanned::get_ref)
     }
 
-    /// The method that the files in `fits` are of.
+    /// The method that the report tells names of.
     pub(super) fn first_method(&self) -> &MethodSpec {
         self.methods[0].get_ref()
     }
+
+    /// The methods whose results are kept in `fits`: the first, and the first of each other generator.
+    pub(super) fn kept(&self) -> Vec<&MethodSpec> {
+        let mut kept: Vec<&MethodSpec> = Vec::new();
+        for method in self.methods() {
+            if kept.iter().all(|other| other.generator() != method.generator()) {
+                kept.push(method);
+            }
+        }
+        kept
+    }
 }
 
-/// A family of generators by its name.
-#[derive(Clone, Copy, Debug)]
-struct FamilyName(&'static dyn Family);
+/// The generators whose trees a fit may be of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum GeneratorName {
+    /// All of them: a race decides.
+    Auto,
+    /// Those of one family.
+    Family(&'static str),
+}
 
-impl FromStr for FamilyName {
+impl FromStr for GeneratorName {
     type Err = String;
 
     fn from_str(given: &str) -> Result<Self, Self::Err> {
-        pleach_generators::family(given).map(Self).map_err(|error| error.to_string())
+        if given == "auto" {
+            return Ok(Self::Auto);
+        }
+        let family = pleach_generators::family(given);
+        family.map(|family| Self::Family(family.name())).map_err(|error| format!("{error}, and auto for all"))
+    }
+}
+
+impl GeneratorName {
+    /// What it is called in files.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Family(name) => name,
+        }
+    }
+
+    /// The species that come with it.
+    pub(super) fn presets(self) -> impl Iterator<Item = Species> {
+        let families = pleach_generators::families().iter();
+        let taken = families.filter(move |family| self == Self::Auto || self == Self::Family(family.name()));
+        taken.flat_map(|family| pleach_generators::presets(*family))
     }
 }
 
@@ -278,6 +312,8 @@ pub(super) struct MethodSpec {
     pub(super) optimizer: Word<Optimizer>,
     /// Where it starts.
     pub(super) from: From,
+    /// The generators that it fits; the default one if it is not said.
+    generator: Option<Word<GeneratorName>>,
     /// Evaluations of a fit.
     pub(super) evaluations: Option<Evaluations>,
     /// Seconds of a fit, its first guess included; such rows depend on the machine.
@@ -301,9 +337,20 @@ pub(super) enum From {
     Auto,
     /// From random lists.
     Random,
+    /// From a volume in the goal's outline.
+    Outline,
 }
 
 impl MethodSpec {
+    /// The generators that it fits.
+    pub(super) fn generator(&self) -> GeneratorName {
+        let default = || match self.from {
+            From::Outline => pleach_least_cost_path::LeastCostPathFamily.name(),
+            From::Auto | From::Random => pleach_generators::default_family().name(),
+        };
+        self.generator.as_ref().map_or_else(|| GeneratorName::Family(default()), |word| word.value)
+    }
+
     pub(super) fn fits(&self, kind: Kind) -> bool {
         self.goals.as_ref().is_none_or(|kinds| kinds.contains(&kind))
     }

@@ -1,6 +1,7 @@
 //! Trees of the known species, grown once and compared with many goals.
 
 use super::candidate::Candidate;
+use super::near::Near;
 use super::plate::{Plate, side_for};
 use super::settings::GuessSettings;
 use super::shown::Shown;
@@ -85,24 +86,27 @@ impl GuessLibrary {
         Self::default()
     }
 
-    /// The trees for the goals that are `shown`, with leaves and without as `wanted`; grown if they are
-    /// not there.
+    /// The trees for the goals that are `shown`, with leaves and without as `wanted`; those that `near`
+    /// is about are grown if they are not there.
     pub(super) fn entries(
         &mut self,
         shown: &Shown<'_>,
         guess: &GuessSettings,
         wanted: [bool; 2],
+        near: &Near,
         mut progress: impl FnMut(usize, usize),
     ) -> Result<&[Entry], FitError> {
         let list = tries(shown.settings, shown.candidates, guess)?;
         let key = Key::new(shown, guess, &list);
         let side = key.side;
-        let all = list.len();
+        let all = list.iter().filter(|attempt| near.has(attempt)).count();
         let mut entries = match self.shelf.take() {
             Some((known, entries)) if known == key => entries,
             _ => list.into_iter().map(|attempt| Entry { attempt, looks: [None, None] }).collect(),
         };
-        let there = |entry: &Entry| (0..2).all(|i| !wanted[i] || entry.looks[i].is_some());
+        let there = |entry: &Entry| {
+            !near.has(&entry.attempt) || (0..2).all(|i| !wanted[i] || entry.looks[i].is_some())
+        };
         if !entries.iter().all(there) {
             let mut done = 0;
             for batch in entries.chunks_mut(BATCH) {
@@ -110,11 +114,13 @@ impl GuessLibrary {
                     if there(entry) { None } else { grow(shown, &entry.attempt, wanted, side) }
                 })?;
                 for (entry, grown) in batch.iter_mut().zip(grown) {
-                    if let Some(looks) = grown {
-                        entry.looks = looks;
+                    for (looks, grown) in entry.looks.iter_mut().zip(grown.into_iter().flatten()) {
+                        if grown.is_some() {
+                            *looks = grown;
+                        }
                     }
+                    done += usize::from(near.has(&entry.attempt));
                 }
-                done += batch.len();
                 progress(done, all);
             }
         } else if all > 0 {
@@ -181,14 +187,18 @@ fn has_foliage(tree: &Tree) -> bool {
     !(tree.leaves.is_empty() && tree.blossoms.is_empty() && tree.blobs.is_empty())
 }
 
-/// Compares every entry, with leaves or without, with the goals that are `shown`; none for those that do
-/// not grow.
+/// Compares the entries that `near` is about, with leaves or without, with the goals that are `shown`;
+/// none for others, and for those that do not grow.
 pub(super) fn compare(
     shown: &Shown<'_>,
     entries: &[Entry],
     foliage: Foliage,
+    near: &Near,
 ) -> Result<Vec<Option<Resemblance>>, FitError> {
     cancellable::map(entries, shown.stop, |entry| {
+        if !near.has(&entry.attempt) {
+            return None;
+        }
         let looks = entry.looks[place(foliage)].as_ref()?;
         let candidate = entry.attempt.candidate;
         let evaluator = shown.models.evaluator(candidate);
@@ -231,5 +241,5 @@ pub(super) fn shown_once(
         .zip(looks)
         .map(|(attempt, looks)| Entry { attempt, looks: looks.unwrap_or([None, None]) })
         .collect();
-    Ok(compare(shown, &entries, foliage)?.into_iter().flatten().collect())
+    Ok(compare(shown, &entries, foliage, &Near::All)?.into_iter().flatten().collect())
 }

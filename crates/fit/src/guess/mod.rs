@@ -7,13 +7,15 @@
 //!
 //! Trees of all candidates are grown as they are and with their numbers varied, drawn finely, laid into
 //! the goal's frame at the goal's height, and compared by likeness, which knows a species by other trees
-//! than the goal's. The drawings serve all goals of a [`GuessLibrary`]. Nothing is stored between runs:
+//! than the goal's. Of many candidates one tree each is compared at first, and more of those that are
+//! near. The drawings serve all goals of a [`GuessLibrary`]. Nothing is stored between runs:
 //! growing a few hundred trees takes a second or two, and what is grown on the spot is never out of date.
 //!
 //! The same drawings tell whether the goal has leaves, and what its likeness to other trees is worth.
 
 mod candidate;
 mod library;
+mod near;
 mod plate;
 mod race;
 mod references;
@@ -39,6 +41,7 @@ use crate::settings::FitSettings;
 use crate::space::SpaceError;
 use candidate::Models;
 use library::{Entry, Resemblance, compare};
+use near::Near;
 use pleach_silhouette::Bitmap;
 use pleach_tree::{Foliage, Species};
 use shown::Shown;
@@ -143,8 +146,15 @@ impl GuessLibrary {
         let shown = Shown::new(&known, candidates, &looks, settings, stop);
         let both = guess.detect_leaves;
         let wanted = [Foliage::All, Foliage::None].map(|foliage| both || foliage == known.foliage);
-        let entries = self.entries(&shown, guess, wanted, &mut progress)?;
-        let (foliage, found) = leaves(&shown, entries, guess.detect_leaves)?;
+        let mut near = Near::at_first(&shown);
+        let mut entries = self.entries(&shown, guess, wanted, &near, &mut progress)?;
+        let (foliage, mut found) = leaves(&shown, entries, guess.detect_leaves, &near)?;
+        if near != Near::All {
+            near = Near::nearest(&shown, &ranked(&shown, (entries, &found), 0).0);
+            let wanted = [Foliage::All, Foliage::None].map(|one| one == foliage);
+            entries = self.entries(&shown, guess, wanted, &near, &mut progress)?;
+            found = compare(&shown, entries, foliage, &near)?;
+        }
         let keep = guess.keep.max(1);
         let (mut costs, alike) = ranked(&shown, (entries, &found), keep);
         // What looks alike may still stand beside the goal: the objective of the search decides.
@@ -197,8 +207,8 @@ impl GuessLibrary {
         let shown = Shown::new(&known, candidates, &looks, settings, stop);
         let few = GuessSettings { variants: 0, seeds: REFERENCE_SEEDS, ..GuessSettings::default() };
         let wanted = [Foliage::All, Foliage::None].map(|foliage| foliage == known.foliage);
-        let entries = self.entries(&shown, &few, wanted, |_, _| ())?;
-        let found = compare(&shown, entries, known.foliage)?;
+        let entries = self.entries(&shown, &few, wanted, &Near::All, |_, _| ())?;
+        let found = compare(&shown, entries, known.foliage, &Near::All)?;
         let (costs, _) = ranked(&shown, (entries, &found), 0);
         let named = first_of(&costs);
         let pictures = pictures_of(&shown, named, (entries, &found), known.foliage)?;
@@ -211,14 +221,15 @@ fn leaves(
     shown: &Shown<'_>,
     entries: &[Entry],
     detected: bool,
+    near: &Near,
 ) -> Result<(Foliage, Vec<Option<Resemblance>>), FitError> {
     let given = shown.problem.foliage;
-    let found = compare(shown, entries, given)?;
+    let found = compare(shown, entries, given, near)?;
     if !detected {
         return Ok((given, found));
     }
     let other = if given == Foliage::None { Foliage::All } else { Foliage::None };
-    let found_other = compare(shown, entries, other)?;
+    let found_other = compare(shown, entries, other, near)?;
     let [leafy, bare] = if given == Foliage::None { [&found_other, &found] } else { [&found, &found_other] };
     // Species that never have leaves say nothing for or against them.
     let counts: Vec<bool> = leafy.iter().map(|one| one.as_ref().is_some_and(|one| one.has_foliage)).collect();

@@ -53,7 +53,7 @@ pub(super) struct Contender {
 ///
 /// A search makes any generator cover a goal; which one has a species whose other trees look like it says
 /// more about where the goal comes from.
-const BY_LIKENESS: f64 = 1.0;
+const BY_LIKENESS: f64 = 3.0;
 
 impl Contender {
     /// The least cost so far.
@@ -106,8 +106,18 @@ pub(super) fn contenders(
     all
 }
 
+/// A contender that stands by so much worse than the best after the first round does not run the second.
+///
+/// From a fifth of the evaluations to all of them a standing falls by 0.1 at most, and the best one's falls
+/// as well.
+const HOPELESS: f64 = 0.1;
+/// Evaluations of the second round for one of the first.
+const ROUNDS: u64 = 5;
+
 /// Searches each of `all` for a while, the best of every family and others up to the number that
 /// `race` says, and sorts them by how they stand then. Those that do not run are dropped.
+///
+/// After a first short round only those run on that may still win.
 pub(super) fn race(
     problem: &FitProblem,
     shown: &Shown<'_>,
@@ -116,13 +126,20 @@ pub(super) fn race(
     mut progress: impl FnMut(usize, usize),
 ) -> Result<Vec<Contender>, FitError> {
     let mut all = entered(shown, race.runners, all);
-    let count = all.len();
-    for (number, one) in all.iter_mut().enumerate() {
-        cancellable::check(shown.stop)?;
-        one.found = search(problem, shown, race, one)?;
-        progress(number + 1, count);
+    let mut running = all.len();
+    for evaluations in [race.evaluations / ROUNDS, race.evaluations] {
+        for (number, one) in all[..running].iter_mut().enumerate() {
+            cancellable::check(shown.stop)?;
+            one.found = search(problem, shown, evaluations, one)?;
+            progress(number + 1, running);
+        }
+        all.sort_by(|a, b| a.standing().total_cmp(&b.standing()));
+        let most = all[0].standing() + HOPELESS;
+        running = all.iter().take_while(|one| one.standing() <= most).count();
+        if running < 2 {
+            break;
+        }
     }
-    all.sort_by(|a, b| a.standing().total_cmp(&b.standing()));
     Ok(all)
 }
 
@@ -147,13 +164,13 @@ fn entered(shown: &Shown<'_>, room: usize, mut all: Vec<Contender>) -> Vec<Conte
 fn search(
     problem: &FitProblem,
     shown: &Shown<'_>,
-    race: RaceSettings,
+    evaluations: u64,
     one: &Contender,
 ) -> Result<Option<Guess>, FitError> {
     let best = &one.lists[0];
     let start = with_values(&shown.candidates[one.candidate].species, best.values.clone());
     let problem = FitProblem { start: start.map_err(SpaceError::Start)?, ..problem.clone() };
-    let evaluations = shown.settings.budget.evaluations.map_or(race.evaluations, |n| n.min(race.evaluations));
+    let evaluations = shown.settings.budget.evaluations.map_or(evaluations, |n| n.min(evaluations)).max(1);
     let settings = FitSettings {
         start: Start::Lists(one.lists.iter().map(|guess| guess.values.clone()).collect()),
         budget: Budget::evaluations(evaluations),

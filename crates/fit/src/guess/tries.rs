@@ -19,6 +19,8 @@ pub(super) struct Try {
     pub(super) candidate: usize,
     /// Whether it is the candidate as it is, and not a variation.
     pub(super) is_species: bool,
+    /// Whether it is the first tree of the candidate as it is.
+    pub(super) is_first: bool,
     /// Whether its seed is one that the search will use.
     pub(super) may_start: bool,
     pub(super) genome: Genome,
@@ -38,7 +40,7 @@ pub(super) fn tries(
         for i in 0..guess.variants {
             let draws = Stream::at(settings.seed, VARIATION, number as u64, i);
             let genome = varied(&space, candidate.values(), first_seed(settings), guess.spread, draws);
-            list.push(Try { candidate: number, is_species: false, may_start: true, genome });
+            list.push(Try { candidate: number, is_species: false, is_first: false, may_start: true, genome });
         }
     }
     Ok(list)
@@ -85,7 +87,7 @@ fn of_species(
     let may_start = i == 0 || settings.tree_seed == TreeSeed::Any;
     let mut genome = space.individual(candidate.values(), first_seed(settings).wrapping_add(i));
     space.settle(&mut genome);
-    Try { candidate: number, is_species: true, may_start, genome }
+    Try { candidate: number, is_species: true, is_first: i == 0, may_start, genome }
 }
 
 const fn first_seed(settings: &FitSettings) -> u64 {

@@ -3,7 +3,9 @@
 
 use pleach_least_cost_path::LeastCostPathFamily;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::conformance::assert_golden;
 use pleach_tree::{Family, Parts, species};
+use std::path::Path;
 
 const SIZE: u32 = 40;
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/silhouettes.txt");
@@ -24,13 +26,5 @@ fn drawn() -> String {
 
 #[test]
 fn silhouettes_are_as_they_were() {
-    let drawn = drawn();
-    if std::env::var_os("PLEACH_BLESS").is_some() {
-        std::fs::write(FILE, &drawn).unwrap();
-    }
-    let expected = std::fs::read_to_string(FILE).unwrap_or_default();
-    for (found, expected) in drawn.split("\n\n").zip(expected.split("\n\n")) {
-        assert!(found == expected, "found\n{found}\nexpected\n{expected}");
-    }
-    assert_eq!(drawn.len(), expected.len());
+    assert_golden(Path::new(FILE), &drawn());
 }

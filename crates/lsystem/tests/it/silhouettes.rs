@@ -1,11 +1,14 @@
-//! Small silhouettes of grammars as pictures.
+//! Small silhouettes of grammars as pictures. `PLEACH_BLESS=1 cargo test --workspace --test it` writes them
+//! again.
 
 use pleach_lsystem::LSystemFamily;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::Parts;
+use pleach_tree::conformance::assert_golden;
 use std::fmt::Write as _;
+use std::path::Path;
 
-const PICTURES: &str = include_str!("../data/silhouettes.txt");
+const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/silhouettes.txt");
 /// Pixels of a side.
 const SIDE: u32 = 28;
 /// Finer pixels in a row of one: twigs are thinner than a pixel, which is ink if any of it is.
@@ -23,23 +26,15 @@ fn silhouette(name: &str) -> Bitmap {
     Bitmap::from_fn(SIDE, SIDE, is_ink)
 }
 
-/// Set `PLEACH_BLESS` to write the pictures again, and look at them.
+/// Of the grammars that the file names.
 #[test]
 fn silhouettes_are_as_they_were() {
-    let names: Vec<&str> = PICTURES.lines().filter_map(|line| line.strip_prefix("# ")).collect();
+    let known = std::fs::read_to_string(FILE).unwrap();
+    let names: Vec<&str> = known.lines().filter_map(|line| line.strip_prefix("# ")).collect();
     assert!(names.len() > 15, "{names:?}");
     let mut text = String::new();
     for name in names {
         let _ = write!(text, "# {name}\n{}", silhouette(name).to_ascii());
     }
-    if std::env::var_os("PLEACH_BLESS").is_some() {
-        std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/silhouettes.txt"), text).unwrap();
-        return;
-    }
-    let mut name = "";
-    for (found, expected) in text.lines().zip(PICTURES.lines()) {
-        name = expected.strip_prefix("# ").unwrap_or(name);
-        assert_eq!(found, expected, "{name} was drawn otherwise:\n{}", silhouette(name).to_ascii());
-    }
-    assert_eq!(text, PICTURES);
+    assert_golden(Path::new(FILE), &text);
 }

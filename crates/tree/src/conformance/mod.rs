@@ -8,9 +8,11 @@
 //! pleach_tree::conformance!(WeberPennFamily);
 //! ```
 //!
-//! It makes one test of each promise, which all species of the family have to keep.
+//! It makes one test of each promise, which all species of the family have to keep. [`assert_golden`] is for
+//! what a promise cannot say: that trees look as they did.
 
 mod files;
+mod golden;
 mod growth;
 mod numbers;
 
@@ -18,6 +20,7 @@ pub use files::{
     files_name_their_family, misplaced_names_are_told, models_are_told_apart_by_structure,
     one_mistake_is_one_issue, written_files_are_read_back,
 };
+pub use golden::assert_golden;
 pub use growth::{
     limits_are_errors, stems_do_not_depend_on_leaves, the_same_seed_is_the_same_tree, trees_are_well_formed,
     values_of_another_space_are_refused,
