@@ -148,6 +148,37 @@ fn the_family_is_chosen() {
 }
 
 #[test]
+fn a_volume_is_taken_from_the_goal_or_another_picture() {
+    let dir = Dir::new();
+    for (species, view, file) in [
+        ("black_oak", "0", "goal.png"),
+        ("black_oak", "90", "side.png"),
+        ("lombardy_poplar", "0", "other.png"),
+    ] {
+        let _ = dir.run(["silhouette", species, "--size", "96", "--view", view, "-o", file]).ok();
+    }
+    let fit = |out: &str, more: &[&str]| {
+        let args = ["fit", "goal.png", "--size", "64", "--evaluations", "30", "--out", out, "--json"];
+        dir.run([&args[..], more].concat())
+    };
+    let summary = fit("goal", &["--volume-from", "goal"]).json();
+    assert_eq!(summary["generator"], "least-cost-path");
+    let own = summary["iou"].as_f64().unwrap();
+    assert!(own > 0.5, "{summary}");
+    // Of two views the hull; a poplar's outline is none for an oak.
+    let _ = fit("hull", &["--volume-from", "goal", "--view", "90=side.png"]).json();
+    let foreign = fit("other", &["--volume-from", "other.png"]).json();
+    assert!(foreign["iou"].as_f64().unwrap() < own, "{foreign}");
+    assert!(results(&dir.path("goal")) != results(&dir.path("hull")));
+    let _ = fit("again", &["--volume-from", "goal", "--threads", "1"]).json();
+    assert!(results(&dir.path("goal")) == results(&dir.path("again")));
+    fit("x", &["--volume-from", "goal", "--generator", "fractal"])
+        .fails(1, &["--volume-from", "least-cost-path"]);
+    fit("x", &["--volume-from", "nowhere.png"]).fails(1, &["nowhere.png"]);
+    assert!(!dir.path("x").exists());
+}
+
+#[test]
 fn another_seed_is_another_search() {
     let dir = Dir::new();
     let goal = target("acer.png");

@@ -166,14 +166,17 @@ fn cut_short(line: &str) -> String {
             }
         }
         Some("render") => {
-            set("--size", "32");
-            // All species are drawn by the example that draws each for itself.
+            // All species are drawn by the first example that says so.
+            if line.contains(" all --no-leaves") {
+                words.iter_mut().filter(|word| *word == "all").for_each(|word| *word = "palm".to_owned());
+            }
             if line.contains("--generator all") {
                 set("--generator", "fractal");
             }
             if line.contains("--turntable") {
                 set("--turntable", "3");
             }
+            set("--size", "32");
         }
         Some("map") if line.contains("--grid") => set("--grid", "2x2"),
         _ => {}

@@ -28,7 +28,7 @@ const FRESH: usize = 16;
 fn fit_file(goal: &str, kept: &[&MethodSpec], place: usize) -> String {
     match place {
         0 => format!("fits/{goal}.toml"),
-        _ => format!("fits/{goal}-{}.toml", kept[place].generator().name()),
+        _ => format!("fits/{goal}-{}.toml", kept[place].sort()),
     }
 }
 

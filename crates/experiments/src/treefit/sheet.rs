@@ -37,7 +37,7 @@ pub(super) fn draw(folder: &Path, spec: &TreefitSpec, outputs: &Outputs) -> anyh
         if kept.len() > 1 {
             for (place, method) in kept.iter().enumerate() {
                 let fit = drawn(fit_file(name, &kept, place), 0)?;
-                cells.push((method.generator().name().to_owned(), fit));
+                cells.push((method.sort().to_owned(), fit));
             }
             continue;
         }

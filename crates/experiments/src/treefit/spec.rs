@@ -3,7 +3,7 @@
 use crate::spec::{Evaluations, OTHER_NAME, Repetitions, Seed, Source, stem};
 use crate::within::{Azimuth, FileName, List, Meters, Real, Seconds, SpeciesName, Word};
 use pleach_fit::{Objective, Optimizer};
-use pleach_tree::{Family as _, Species};
+use pleach_tree::Species;
 use serde::Deserialize;
 use serde::de::{Error, IgnoredAny};
 use std::path::PathBuf;
@@ -60,11 +60,11 @@ impl TreefitSpec {
         self.methods[0].get_ref()
     }
 
-    /// The methods whose results are kept in `fits`: the first, and the first of each other generator.
+    /// The methods whose results are kept in `fits`: the first, and the first of each other sort.
     pub(super) fn kept(&self) -> Vec<&MethodSpec> {
         let mut kept: Vec<&MethodSpec> = Vec::new();
         for method in self.methods() {
-            if kept.iter().all(|other| other.generator() != method.generator()) {
+            if kept.iter().all(|other| other.sort() != method.sort()) {
                 kept.push(method);
             }
         }
@@ -344,11 +344,16 @@ pub(super) enum From {
 impl MethodSpec {
     /// The generators that it fits.
     pub(super) fn generator(&self) -> GeneratorName {
-        let default = || match self.from {
-            From::Outline => pleach_least_cost_path::LeastCostPathFamily.name(),
-            From::Auto | From::Random => pleach_generators::default_family().name(),
-        };
-        self.generator.as_ref().map_or_else(|| GeneratorName::Family(default()), |word| word.value)
+        let default = || GeneratorName::Family(pleach_generators::default_family().name());
+        self.generator.as_ref().map_or_else(default, |word| word.value)
+    }
+
+    /// What sort of trees it finds, as files are called.
+    pub(super) fn sort(&self) -> &'static str {
+        match self.from {
+            From::Outline => "outline",
+            From::Auto | From::Random => self.generator().name(),
+        }
     }
 
     pub(super) fn fits(&self, kind: Kind) -> bool {
