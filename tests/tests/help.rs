@@ -149,6 +149,8 @@ fn furnished(names: &[&str]) -> Dir {
 
 /// `line` with little to do: few evaluations from a known start, small pictures, few of them.
 fn cut_short(line: &str) -> String {
+    // All species are drawn by the first example that says so.
+    let line = &line.replace(" all --no-leaves", " palm --no-leaves");
     let mut words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
     let mut set = |option: &str, value: &str| match words.iter().position(|word| word == option) {
         Some(i) => value.clone_into(&mut words[i + 1]),
@@ -166,10 +168,6 @@ fn cut_short(line: &str) -> String {
             }
         }
         Some("render") => {
-            // All species are drawn by the first example that says so.
-            if line.contains(" all --no-leaves") {
-                words.iter_mut().filter(|word| *word == "all").for_each(|word| *word = "palm".to_owned());
-            }
             if line.contains("--generator all") {
                 set("--generator", "fractal");
             }

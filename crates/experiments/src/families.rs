@@ -32,7 +32,7 @@ struct Named {
     /// The family that was named, and its nearest species.
     named: String,
     nearest: String,
-    /// Family, likeness and shortfall before the race, and cost after it, of all that ran, best first.
+    /// Family, likeness before the race and cost after it, of all that ran, best first.
     runners: String,
     wall_s: Fixed<1>,
 }
@@ -178,9 +178,7 @@ impl FamiliesSpec {
         )?;
         let family = pleach_generators::species(species)?.generator.family();
         let first = found.runners.first().context("a guess has a winner")?;
-        let said = |one: &Runner| {
-            format!("{} {:.3} {:.3} {:.3}", one.family, one.likeness, one.shortfall, one.reached)
-        };
+        let said = |one: &Runner| format!("{} {:.3} {:.3}", one.family, one.likeness, one.reached);
         Ok(Named {
             goal: number,
             species: species.to_owned(),

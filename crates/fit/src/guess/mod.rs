@@ -44,7 +44,6 @@ use library::{Entry, Resemblance, compare};
 use near::Near;
 use pleach_silhouette::Bitmap;
 use pleach_tree::{Foliage, Species};
-use race::Look;
 use shown::Shown;
 use std::sync::atomic::AtomicBool;
 use tries::trees_of;
@@ -160,8 +159,7 @@ impl GuessLibrary {
         let (mut costs, alike) = ranked(&shown, (entries, &found), keep);
         // What looks alike may still stand beside the goal: the objective of the search decides.
         let known = FitProblem { foliage, ..known.clone() };
-        let looks = family_looks(&costs, (entries, &found));
-        let mut all = race::contenders(&shown, scored(&known, &shown, alike)?, &looks, keep);
+        let mut all = race::contenders(&shown, scored(&known, &shown, alike)?, &costs, keep);
         if let (Some(how), 2..) = (guess.race, all.len()) {
             all = race::race(&known, &shown, how, all, &mut progress)?;
         }
@@ -294,20 +292,6 @@ fn scored(
         .collect();
     nearest.sort_by(|a, b| a.1.score.cost.total_cmp(&b.1.score.cost));
     Ok(nearest)
-}
-
-/// How the trees of each candidate look, of which `costs` are what the best lacks of a likeness of 1.
-fn family_looks(costs: &[f64], (entries, found): (&[Entry], &[Option<Resemblance>])) -> Vec<Look> {
-    let look = |(candidate, &unlike): (usize, &f64)| {
-        let of_species = entries.iter().zip(found).filter_map(|(entry, found)| {
-            let is_one = entry.attempt.is_species && entry.attempt.candidate == candidate;
-            found.as_ref().filter(|_| is_one).map(|found| &found.pictures)
-        });
-        // Of one tree alone nothing is known: such candidates are far from the goal.
-        let typical = references::among(&of_species.collect::<Vec<_>>()).map_or(1.0, |among| among.likeness);
-        Look { unlike, shortfall: (typical - (1.0 - unlike)).max(0.0) }
-    };
-    costs.iter().enumerate().map(look).collect()
 }
 
 /// Pictures of several trees of candidate `named`, drawn as the goal is: those that are there, and more

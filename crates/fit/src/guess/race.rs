@@ -28,9 +28,6 @@ pub struct Runner {
     pub species: String,
     /// Likeness of the tree of its family that is most like the goal, before any search.
     pub likeness: f64,
-    /// By how much less like the goal the trees of a species are than two of its trees are to each other:
-    /// the least of its family, 0 where the goal may well be one of them.
-    pub shortfall: f64,
     /// Least cost of its trees before the race: see [`crate::Objective`].
     pub guessed: f64,
     /// Least cost after it; the same where there was no race.
@@ -48,34 +45,16 @@ pub(super) struct Contender {
     pub(super) lists: Vec<Guess>,
     /// What the race has found, if it is better than all of them.
     pub(super) found: Option<Guess>,
-    /// How like the goal the trees of its family are.
-    look: Look,
-}
-
-/// How like the goal the trees of a candidate are, or those of a family.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
-    /// What the tree that is most like it lacks of a likeness of 1.
-    pub(super) unlike: f64,
-    /// See [`Runner::shortfall`].
-    pub(super) shortfall: f64,
-}
-
-impl Look {
-    /// What decides between families before any search.
-    fn doubt(self) -> f64 {
-        BY_LIKENESS * self.unlike + BY_SHORTFALL * self.shortfall
-    }
+    /// Likeness of the tree of its family that is most like the goal.
+    likeness: f64,
 }
 
 /// What a tree that is like the goal before any search is worth beside what a search reaches.
 ///
 /// A search makes any generator cover a goal; which one has a species whose other trees look like it says
-/// more about where the goal comes from.
-const BY_LIKENESS: f64 = 1.0;
-/// The same of species whose trees are as like the goal as they are to each other: trees of one species may
-/// differ more than those of another one differ from the goal.
-const BY_SHORTFALL: f64 = 3.0;
+/// more about where the goal comes from. Of 41 goals that are hard to tell apart 4 are named wrong with 3,
+/// 6 with a half, and 4 with likeness weighed by how like each other the trees of a species are.
+const BY_LIKENESS: f64 = 3.0;
 
 impl Contender {
     /// The least cost so far.
@@ -85,7 +64,7 @@ impl Contender {
 
     /// What decides between generators; the least wins.
     fn standing(&self) -> f64 {
-        self.cost() + self.look.doubt()
+        self.cost() + BY_LIKENESS * (1.0 - self.likeness)
     }
 
     /// How it did.
@@ -93,27 +72,25 @@ impl Contender {
         Runner {
             family: shown.family(self.candidate),
             species: self.lists[0].name.clone(),
-            likeness: 1.0 - self.look.unlike,
-            shortfall: self.look.shortfall,
+            likeness: self.likeness,
             guessed: self.lists[0].score.cost,
             reached: self.cost(),
         }
     }
 }
 
-/// The generators of `nearest`, which is sorted by cost; each with its `keep` best lists. `looks` are of
-/// each candidate.
+/// The generators of `nearest`, which is sorted by cost; each with its `keep` best lists. `unlike` is what
+/// each candidate lacks of a likeness of 1.
 pub(super) fn contenders(
     shown: &Shown<'_>,
     nearest: Vec<(usize, Guess)>,
-    looks: &[Look],
+    unlike: &[f64],
     keep: usize,
 ) -> Vec<Contender> {
-    let look = |candidate: usize| {
+    let likeness = |candidate: usize| {
         let family = shown.family(candidate);
-        let of_family = looks.iter().enumerate().filter(|(other, _)| shown.family(*other) == family);
-        let nearest = of_family.min_by(|(_, a), (_, b)| a.doubt().total_cmp(&b.doubt()));
-        nearest.map_or(looks[candidate], |(_, look)| *look)
+        let of_family = unlike.iter().enumerate().filter(|(other, _)| shown.family(*other) == family);
+        1.0 - of_family.map(|(_, unlike)| *unlike).fold(1.0, f64::min)
     };
     let mut all: Vec<Contender> = Vec::new();
     for (candidate, guess) in nearest {
@@ -122,8 +99,8 @@ pub(super) fn contenders(
             Some(one) if one.lists.len() < keep => one.lists.push(guess),
             Some(_) => {}
             None => {
-                let (look, lists) = (look(candidate), vec![guess]);
-                all.push(Contender { model, candidate, lists, found: None, look });
+                let (likeness, lists) = (likeness(candidate), vec![guess]);
+                all.push(Contender { model, candidate, lists, found: None, likeness });
             }
         }
     }

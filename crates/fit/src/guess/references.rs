@@ -52,7 +52,8 @@ impl References {
                 mean(of_species(candidate).map(|one| Reference { likeness: one.likeness, iou: one.iou }))
             })
             .collect();
-        let same_species = among(trees);
+        let pairs = (0..trees.len()).flat_map(|a| (a + 1..trees.len()).map(move |b| (a, b)));
+        let same_species = mean(pairs.filter_map(|(a, b)| compare(&trees[a], &trees[b])));
         let ellipses: Vec<Bitmap> = problem.goals.iter().map(|goal| best_ellipse(&goal.goal)).collect();
         let goals: Vec<Bitmap> = problem.goals.iter().map(|goal| goal.goal.clone()).collect();
         Self {
@@ -62,12 +63,6 @@ impl References {
             best_ellipse: compare(&ellipses, &goals).unwrap_or(Reference { likeness: 0.0, iou: 0.0 }),
         }
     }
-}
-
-/// The mean over pairs of trees, of which each is shown view by view.
-pub(super) fn among<T: AsRef<[Bitmap]>>(trees: &[T]) -> Option<Reference> {
-    let pairs = (0..trees.len()).flat_map(|a| (a + 1..trees.len()).map(move |b| (a, b)));
-    mean(pairs.filter_map(|(a, b)| compare(trees[a].as_ref(), trees[b].as_ref())))
 }
 
 /// The mean over views.
