@@ -48,6 +48,16 @@ fn stylised() {
 }
 
 #[test]
+fn families() {
+    check("families", &["--repetitions", "1"]);
+}
+
+#[test]
+fn lsystem_fit() {
+    check("lsystem-fit", &["--repetitions", "1"]);
+}
+
+#[test]
 fn complexity() {
     check("complexity", &["--repetitions", "3"]);
 }
