@@ -93,7 +93,7 @@ fn a_tree_whose_size_is_read_by_its_scale_alone_grows_in_proportion() {
         "dialect: hewitt\nscale: size\nparam size = 10 in 0.0001..10000 search 1..100 m \"height\"\n";
     let grown = |body: &str, size: f64| {
         let generator = variation.generator(&format!("{header}{body}")).unwrap();
-        let params = generator.space().check(&[size]).unwrap();
+        let params = generator.space().check(vec![size]).unwrap();
         let mut tree = Tree::default();
         generator.grow(&params, &Growth::seed(1), &mut Workspace::default(), &mut tree).unwrap();
         (generator.grows_in_proportion(), tree)
