@@ -99,7 +99,8 @@ fn options_are_checked_before_anything_runs() {
     let fits = fits(&["file = \"goal.png\""]);
     let treefit = "kind = \"treefit\"\n[[methods]]\nname = \"a\"\noptimizer = \"de\"\nfrom = \"auto\"\nevaluations = 5\n\
                    [[goals]]\nspecies = \"palm\"\nseed = 3\n";
-    let rules = "kind = \"rules\"\nseconds = 5\nrepetitions = 1\n[[goals]]\nfile = \"goal.png\"\nheight = 10\n";
+    let rules =
+        "kind = \"rules\"\nseconds = 5\nrepetitions = 1\n[[goals]]\nfile = \"goal.png\"\nheight = 10\n";
     let cases: &[(&str, &str, &str, &[&str])] = &[
         (rules, "seconds = 5", "seconds = 0", &[":2:11: ", "from 0.1 to 86400"]),
         (rules, "repetitions = 1", "repetitions = 0", &[":3:15: ", "from 1 to 10000"]),
@@ -234,7 +235,8 @@ fn experiments_are_listed_with_their_questions() {
 fn grammars_that_evolve_leave_a_row_a_species_and_a_sheet() {
     let dir = Dir::new();
     let _ = dir.file("goal.png", read(&root().join("targets/palm.png")));
-    let rules = "kind = \"rules\"\nseconds = 1\nrepetitions = 2\n[[goals]]\nfile = \"goal.png\"\nheight = 10\n";
+    let rules =
+        "kind = \"rules\"\nseconds = 1\nrepetitions = 2\n[[goals]]\nfile = \"goal.png\"\nheight = 10\n";
     let _ = dir.file("experiment.toml", rules);
     let run = dir.run(["experiment", "run", "."]);
     assert!(run.ok().contains("of 2 searches"), "{run}");
