@@ -27,6 +27,7 @@ fn a_grammar_is_found_from_nothing_and_grows_with_other_seeds() {
     }
     let summary: serde_json::Value = serde_json::from_slice(&read(&dir.path("run/summary.json"))).unwrap();
     assert_eq!((&summary["generator"], &summary["optimizer"]), (&"lsystem".into(), &"rules".into()));
+    assert_eq!(summary["objective"], "both");
     let grammar = summary["grammar"].as_str().unwrap();
     assert!(said.contains(grammar) && summary["grammar_length"].as_u64().unwrap() > 20);
     assert!(String::from_utf8(read(&dir.path("run/best.toml"))).unwrap().contains(grammar));
@@ -56,8 +57,10 @@ fn threads_change_nothing_and_seeds_do() {
 fn a_grammar_that_is_given_is_where_it_starts() {
     let dir = Dir::new();
     goal(&dir);
-    let args = ["--from", "grammar_pine", "--evaluations", "60"];
+    let args = ["--from", "grammar_pine", "--evaluations", "60", "--objective", "balance"];
     let _ = dir.run(fit("run", &args)).ok();
+    let summary: serde_json::Value = serde_json::from_slice(&read(&dir.path("run/summary.json"))).unwrap();
+    assert_eq!(summary["objective"], "balance", "what is said counts");
     let species = String::from_utf8(read(&dir.path("run/best.toml"))).unwrap();
     // Its parameters are those of the start.
     assert!(species.contains("param needles = 40 in 0..200"), "{species}");

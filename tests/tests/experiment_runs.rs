@@ -94,7 +94,12 @@ fn options_are_checked_before_anything_runs() {
     let fits = fits(&["file = \"goal.png\""]);
     let treefit = "kind = \"treefit\"\n[[methods]]\nname = \"a\"\noptimizer = \"de\"\nfrom = \"auto\"\nevaluations = 5\n\
                    [[goals]]\nspecies = \"palm\"\nseed = 3\n";
+    let rules =
+        "kind = \"rules\"\nseconds = 5\nrepetitions = 1\n[[goals]]\nfile = \"goal.png\"\nheight = 10\n";
     let cases: &[(&str, &str, &str, &[&str])] = &[
+        (rules, "seconds = 5", "seconds = 0", &[":2:11: ", "from 0.1 to 86400"]),
+        (rules, "repetitions = 1", "repetitions = 0", &[":3:15: ", "from 1 to 10000"]),
+        (rules, "height = 10", "height = 0", &[":6:10: ", "a height in metres from 0.001 to 1000"]),
         (growth, "seeds = 9", "seeds = 0", &[":4:9: ", "integer `0`", "a whole number from 1 to 100000"]),
         (growth, "seeds = 9", "seeds = 1", &[":4:9: ", "at least 2 where trees are timed"]),
         (growth, "seeds = 9", "seeds = 9007199254740992", &[":4:9: ", "from 1 to 100000"]),
@@ -219,4 +224,22 @@ fn experiments_are_listed_with_their_questions() {
     assert_eq!(String::from_utf8(output.stdout).unwrap().lines().next(), list.lines().next());
     dir.run(["experiment"]).fails(1, &["cannot read the folder experiments"]);
     dir.run(["experiment", "list", "."]).fails(1, &["holds no experiment"]);
+}
+
+#[test]
+fn grammars_that_evolve_leave_a_row_a_species_and_a_sheet() {
+    let dir = Dir::new();
+    let _ = dir.file("goal.png", read(&root().join("targets/palm.png")));
+    let rules =
+        "kind = \"rules\"\nseconds = 1\nrepetitions = 2\n[[goals]]\nfile = \"goal.png\"\nheight = 10\n";
+    let _ = dir.file("experiment.toml", rules);
+    let run = dir.run(["experiment", "run", "."]);
+    assert!(run.ok().contains("of 2 searches"), "{run}");
+    let rows = String::from_utf8(read(&dir.path("results.csv"))).unwrap();
+    let lines: Vec<&str> = rows.lines().collect();
+    assert!(lines[0].starts_with("goal,repetition,evaluations,iou,best_ellipse_iou,likeness,"), "{rows}");
+    assert!(lines[1].starts_with("goal,1,") && lines[2].starts_with("goal,2,"), "{rows}");
+    assert!(dir.path("sheet.png").exists());
+    let _ = dir.run(["grow", "fits/goal.toml", "--seed", "9", "-o", "tree.glb"]).ok();
+    dir.run(["experiment", "check", "."]).fails(1, &["nothing to check"]);
 }

@@ -4,6 +4,7 @@ use super::families::FamiliesSpec;
 use super::likeness::LikenessSpec;
 use super::needle::NeedleSpec;
 use super::robustness::RobustnessSpec;
+use super::rules::RulesSpec;
 use super::spec::{BlendSpec, FitsSpec, GrowthSpec, Kind, Source};
 use super::stylised::StylisedSpec;
 use super::treefit::TreefitSpec;
@@ -19,6 +20,7 @@ pub(super) enum Spec {
     Treefit(TreefitSpec),
     Needle(NeedleSpec),
     Robustness(RobustnessSpec),
+    Rules(RulesSpec),
     Families(FamiliesSpec),
     Yao(YaoSpec),
     Stylised(StylisedSpec),
@@ -36,6 +38,7 @@ impl Spec {
             Kind::Needle => Self::Needle(source.parse::<NeedleSpec>()?.checked(source)?),
             Kind::Families => Self::Families(source.parse::<FamiliesSpec>()?.checked(source)?),
             Kind::Robustness => Self::Robustness(source.parse::<RobustnessSpec>()?.checked(source)?),
+            Kind::Rules => Self::Rules(source.parse::<RulesSpec>()?.checked(source)?),
             Kind::Yao => Self::Yao(source.parse::<YaoSpec>()?.checked(source)?),
             Kind::Stylised => Self::Stylised(source.parse::<StylisedSpec>()?.checked(source)?),
         })

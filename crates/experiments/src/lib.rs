@@ -17,6 +17,7 @@ mod pictured;
 mod plot;
 mod record;
 mod robustness;
+mod rules;
 mod spec;
 mod stop;
 mod stylised;
@@ -94,6 +95,7 @@ impl Spec {
             Self::Needle(spec) => spec,
             Self::Yao(spec) => spec,
             Self::Robustness(spec) => spec,
+            Self::Rules(spec) => spec,
             Self::Families(spec) => spec,
             Self::Stylised(spec) => spec,
         }

@@ -30,6 +30,8 @@ pub(super) enum Kind {
     Needle,
     /// Spoilt input of every sort.
     Robustness,
+    /// Grammars evolved from nothing.
+    Rules,
     /// Which family of generators a goal is taken for.
     Families,
     /// Graphs of least-cost paths and what they cost.
@@ -49,6 +51,7 @@ impl Kind {
             Self::Treefit => "treefit",
             Self::Needle => "needle",
             Self::Robustness => "robustness",
+            Self::Rules => "rules",
             Self::Families => "families",
             Self::Yao => "yao",
             Self::Stylised => "stylised",

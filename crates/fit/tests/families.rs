@@ -8,8 +8,8 @@ mod pole;
 
 use common::goal_of;
 use pleach_fit::{
-    Budget, Candidate, Control, FirstGuess, FitError, FitProblem, FitSettings, Fitted, GoalSettings,
-    GoalView, GuessSettings, RaceSettings, Start, first_guess, fit_goal,
+    Budget, Candidate, Control, Evaluator, FIT_LIMITS, FirstGuess, FitError, FitProblem, FitSettings, Fitted,
+    Genome, GoalSettings, GoalView, GuessSettings, Objective, RaceSettings, Start, first_guess, fit_goal,
 };
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::{Parts, Species};
@@ -141,4 +141,29 @@ fn threads_change_nothing_among_families() {
         pool.install(|| format!("{:?}", guess(&problem)))
     };
     assert_eq!(on(1), on(4));
+}
+
+#[test]
+fn what_is_drawn_larger_scores_as_what_is_grown_larger() {
+    let species = pleach_generators::preset("grammar_pine").unwrap();
+    let tree = species.grow(3).unwrap();
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 128, 128);
+    let mut goal = Bitmap::default();
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
+    let problem = FitProblem::new(species.clone(), GoalView::new(goal, View::FRONT, frame));
+    let evaluator = Evaluator::new(&problem, Objective::Both, FIT_LIMITS).unwrap().with_height_matching();
+    assert!(species.generator.grows_in_proportion());
+    let structure = species.generator.variation().unwrap().own();
+    for factor in [0.2, 0.7, 3.0] {
+        let mut values = species.params.values().to_vec();
+        assert!(species.generator.resize(&mut values, factor));
+        let grown = Genome::new(values, 1);
+        let drawn = Genome { structure: Some(structure.clone()), ..grown.clone() };
+        let [grown, drawn] =
+            [grown, drawn].map(|genome| evaluator.evaluate(&genome, &mut evaluator.workspace()));
+        assert_eq!(grown.resized, drawn.resized);
+        assert!((drawn.resized * factor - 1.0).abs() < 0.2, "{factor}: {drawn:?}");
+        assert!(grown.iou > 0.5 && (grown.iou - drawn.iou).abs() < 0.002, "{grown:?} {drawn:?}");
+        assert!((grown.cost - drawn.cost).abs() < 0.002, "{grown:?} {drawn:?}");
+    }
 }

@@ -22,6 +22,8 @@ pub struct GrammarGenerator {
     system: Arc<LSystem>,
     space: Arc<ParamSpace>,
     structure: String,
+    /// Whether sizes are read nowhere but in `scale`.
+    in_proportion: bool,
 }
 
 impl GrammarGenerator {
@@ -33,7 +35,10 @@ impl GrammarGenerator {
         let params = system.params().iter().map(|p| declaration(p, system.grammar())).collect();
         let space = Arc::new(ParamSpace::new(params)?);
         let structure = toml(&system.grammar().to_string());
-        Ok(Self { system: Arc::new(system), space, structure })
+        let reads = space.sizes().map(|slot| system.program.reads_of(slot.index())).sum::<usize>();
+        // Where there is a size, the setting reads it.
+        let in_proportion = reads == 1;
+        Ok(Self { system: Arc::new(system), space, structure, in_proportion })
     }
 
     /// The grammar.
@@ -123,6 +128,10 @@ impl Generator for GrammarGenerator {
     fn variation(&self) -> Option<&dyn Variation> {
         // A search keeps hundreds of copies.
         (self.structure.len() <= MAX_TEXT).then_some(self)
+    }
+
+    fn grows_in_proportion(&self) -> bool {
+        self.in_proportion
     }
 
     fn grow(

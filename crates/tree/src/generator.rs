@@ -92,6 +92,12 @@ pub trait Generator: Send + Sync + fmt::Debug {
         can
     }
 
+    /// Whether a tree of [resized](Generator::resize) values is, but for rounding, the same tree scaled about
+    /// the origin, so that it need not be grown again to know how it looks.
+    fn grows_in_proportion(&self) -> bool {
+        false
+    }
+
     /// Whether a single tree grown with these `values` shows by how much trees of other seeds are
     /// larger or smaller ([`Effect::SizeJitter`](crate::param::Effect::SizeJitter)): where it has
     /// several trunks, for example, no two of them alike.

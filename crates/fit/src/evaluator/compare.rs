@@ -5,7 +5,7 @@ use crate::objective::Objective;
 use crate::problem::{FitProblem, GoalView};
 use pleach_silhouette::score::fast::{Overlaps, PreparedGoal, Scratch};
 use pleach_silhouette::score::likeness::{self, Descriptor};
-use pleach_silhouette::{Bitmap, Frame, View};
+use pleach_silhouette::{Bitmap, Frame, Projection, View};
 
 /// Memory of the comparisons.
 #[derive(Debug, Default)]
@@ -75,6 +75,11 @@ impl PreparedView {
         (placement.view(&self.view), placement.frame(&self.frame))
     }
 
+    /// Whether a tree twice as large is twice as large in the picture, wherever it stands.
+    pub(super) fn is_orthographic(&self) -> bool {
+        self.view.projection == Projection::Orthographic
+    }
+
     pub(super) fn compare(
         &self,
         bitmap: &Bitmap,
@@ -98,6 +103,7 @@ impl PreparedView {
             Objective::Likeness => alike,
             Objective::Balance => f64::midpoint(blend(&overlaps), alike),
             Objective::Overlap => iou * (alike / ALIKE).min(1.0).powi(2),
+            Objective::Both => f64::midpoint(iou, blend(&overlaps)) * (alike / BOTH_ALIKE).min(1.0).powi(2),
         };
         Agreement { accuracy, iou, value, likeness }
     }
@@ -106,6 +112,9 @@ impl PreparedView {
 /// Likeness from which on [`Objective::Overlap`] asks for no more: a little less than two trees of a species
 /// have to each other.
 const ALIKE: f64 = 0.78;
+/// The same of [`Objective::Both`]: what is drawn more finely than in a search may be a little less alike and
+/// still has three quarters.
+const BOTH_ALIKE: f64 = 0.765;
 
 /// The mean of overlaps over cell sizes: cells of 32, 16, 8, 4 and 2 pixels, then single pixels.
 ///
@@ -132,13 +141,17 @@ mod tests {
         bitmap
     }
 
-    #[test]
-    fn overlap_counts_as_far_as_it_is_alike() {
+    fn box_views() -> Vec<PreparedView> {
         let frame =
             Frame { width: 64, height: 64, meters_per_pixel: 0.1, axis_column: 32.0, ground_row: 60.0 };
         let view = GoalView::new(picture(20, 40), View::FRONT, frame);
         let problem = FitProblem::new(pleach_generators::preset("palm").unwrap(), view);
-        let views = PreparedView::of_problem(&problem);
+        PreparedView::of_problem(&problem)
+    }
+
+    #[test]
+    fn overlap_counts_as_far_as_it_is_alike() {
+        let views = box_views();
         let compare = |picture: &Bitmap| {
             views[0].compare(picture, Objective::Overlap, Likeness::IfNeeded, &mut Comparisons::default())
         };
@@ -149,5 +162,24 @@ mod tests {
         let far = compare(&picture(4, 60));
         let share = far.likeness.unwrap() / ALIKE;
         assert!(share < 1.0 && (far.value - far.iou * share * share).abs() < 1e-12);
+    }
+
+    #[test]
+    fn both_counts_what_is_near_and_as_far_as_it_is_alike() {
+        let views = box_views();
+        let value = |picture: &Bitmap, objective| {
+            let memory = &mut Comparisons::default();
+            views[0].compare(picture, objective, Likeness::Always, memory)
+        };
+        for (left, right) in [(20, 40), (21, 40), (4, 60)] {
+            let picture = picture(left, right);
+            let both = value(&picture, Objective::Both);
+            let overlaps = f64::midpoint(both.iou, value(&picture, Objective::Blend).value);
+            let share = (both.likeness.unwrap() / BOTH_ALIKE).min(1.0);
+            assert!((both.value - overlaps * share * share).abs() < 1e-12, "{left} to {right}");
+        }
+        // Beside each other: a search sees which of two is nearer.
+        let [near, far] = [(42, 60), (50, 60)].map(|(l, r)| value(&picture(l, r), Objective::Both));
+        assert!(near.iou == 0.0 && far.iou == 0.0 && near.value > far.value);
     }
 }

@@ -138,7 +138,8 @@ impl Evaluator {
             }
         };
         let mut growth = self.growth(genome.tree_seed, self.foliage, most);
-        let Some(resized) = self.grow_matched(generator, genome, &growth, memory) else {
+        let Some(Matched { resized, mut magnified }) = self.grow_matched(generator, genome, &growth, memory)
+        else {
             return Score::INVALID;
         };
         let size = Size::new(&memory.tree);
@@ -149,9 +150,10 @@ impl Evaluator {
                 if !memory.grow(generator, &growth) {
                     return Score::INVALID;
                 }
+                magnified = 1.0;
             }
             for view in self.views.iter() {
-                sum.add(&self.draw_and_compare(view, genome, memory, likeness));
+                sum.add(&self.draw_and_compare(view, genome, magnified, memory, likeness));
             }
         }
         Score { size, resized, ..sum.mean(f64::from(self.seeds) * self.views.len() as f64) }
@@ -167,35 +169,42 @@ impl Evaluator {
         Growth { seed, limits, foliage, parallel: false }
     }
 
-    /// Grows `genome`'s tree into `memory` at the height that it should have; the factor by which it was
-    /// resized for that, or none if it does not grow.
+    /// Grows `genome`'s tree into `memory` at the height that it should have; none if it does not grow.
+    ///
+    /// Of searched structures most trees are resized, and half of the time would go into growing them again.
     fn grow_matched(
         &self,
         generator: &dyn Generator,
         genome: &Genome,
         growth: &Growth,
         memory: &mut EvalWorkspace,
-    ) -> Option<f64> {
+    ) -> Option<Matched> {
         memory.values.clone_from(&genome.values);
         if !memory.grow(generator, growth) {
             return None;
         }
         let wanted = self.height.and_then(|goal| goal.factor(height_of(&memory.tree, self.foliage)));
         let Some(factor) = wanted.filter(|&factor| generator.resize(&mut memory.values, factor)) else {
-            return Some(1.0);
+            return Some(Matched { resized: 1.0, magnified: 1.0 });
         };
-        memory.grow(generator, growth).then_some(factor)
+        let is_flat = || self.views.iter().all(PreparedView::is_orthographic);
+        if genome.structure.is_some() && generator.grows_in_proportion() && is_flat() {
+            return Some(Matched { resized: factor, magnified: factor });
+        }
+        memory.grow(generator, growth).then_some(Matched { resized: factor, magnified: 1.0 })
     }
 
-    /// Compares the tree in `memory` with one goal.
+    /// Compares the tree in `memory`, `magnified` times as large, with one goal.
     fn draw_and_compare(
         &self,
         view: &PreparedView,
         genome: &Genome,
+        magnified: f64,
         memory: &mut EvalWorkspace,
         likeness: Likeness,
     ) -> Agreement {
-        let (from, frame) = view.placed(&genome.nuisances);
+        let (from, mut frame) = view.placed(&genome.nuisances);
+        frame.meters_per_pixel /= magnified;
         let EvalWorkspace { tree, rasterizer, bitmap, comparisons, .. } = memory;
         rasterizer.draw(tree, &from, &frame, self.foliage.into(), bitmap);
         view.compare(bitmap, self.objective, likeness, comparisons)
@@ -247,6 +256,14 @@ impl Evaluator {
         let shares = self.views.iter().map(|v| 1.0 - v.goal.ink() as f64 / v.goal.area() as f64);
         shares.sum::<f64>() / self.views.len() as f64
     }
+}
+
+/// How a tree was brought to the height of its goal.
+struct Matched {
+    /// The factor on its sizes.
+    resized: f64,
+    /// The factor by which the tree that was grown is still too small.
+    magnified: f64,
 }
 
 /// The sum of what was measured in several pictures.

@@ -9,6 +9,7 @@
 
 use super::{Method, MethodSettings, Start, is_individual};
 use crate::genome::{Genome, Score, Scored};
+use crate::objective::Objective;
 use crate::space::{SearchSpace, TreeSeed};
 use crate::stream::Stream;
 use pleach_tree::{Key, Variation};
@@ -30,6 +31,12 @@ pub struct RulesSettings {
     pub patience: u64,
     /// Cost of one word or sign of a structure, so that short ones win where others are no better.
     pub price: f64,
+}
+
+impl RulesSettings {
+    /// What a search over rules makes small if nobody says otherwise. Chosen by experiment: with
+    /// [`Objective::Balance`] grammars look like their goals and lie worse on them than an ellipse.
+    pub const OBJECTIVE: Objective = Objective::Both;
 }
 
 impl Default for RulesSettings {

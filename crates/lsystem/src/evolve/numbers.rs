@@ -8,6 +8,8 @@ use crate::syntax::{Grammar, Item, SettingKey, Values};
 const STEPS: (f64, f64) = (0.004, 0.5);
 /// Angles change by differences: a step of 1 is this many degrees.
 const TURN: f64 = 60.0;
+/// Tropisms too, a step of 1 by this much.
+const TROPISM: f64 = 6.0;
 /// Numbers near zero change by differences too.
 const SMALL: f64 = 0.01;
 /// Largest magnitude of a number.
@@ -74,6 +76,10 @@ fn stepped(value: f64, role: Role, step: f64, draws: &mut Draws) -> f64 {
             let flips = draws.chance(0.03);
             let turned = if flips { -value } else { value + TURN * step * draws.normal() };
             rounded(turned.clamp(-360.0, 360.0))
+        }
+        // Degrees per piece, about zero.
+        Role::Setting(SettingKey::Tropism) => {
+            rounded((value + TROPISM * step * draws.normal()).clamp(-MAX_NUMBER, MAX_NUMBER))
         }
         Role::Weight => rounded((value + 0.3 * step * draws.normal()).clamp(0.0, 1.0)),
         _ => {

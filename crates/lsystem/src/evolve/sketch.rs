@@ -16,17 +16,19 @@ pub(crate) use blank;
 
 /// The text of a random grammar.
 pub(super) fn sketch(draws: &mut Draws) -> String {
-    let body = match draws.below(8) {
+    let body = match draws.below(10) {
         0..3 => rings(draws),
-        3..6 => axis(draws),
-        6 => forks(draws),
+        3..6 => spiral(draws),
+        6..8 => axis(draws),
+        8 => forks(draws),
         _ => crown(draws),
     };
     let shape = ["ovate", "linear", "elliptic", "cordate", "triangle"][draws.below(5)];
     let lift = if draws.chance(0.5) { 0.0 } else { between(draws, -6.0, 4.0) };
+    let lean = if draws.chance(0.7) { 0.0 } else { between(draws, -1.5, 1.5) };
     let leaf = rounded(0.012 * 5.0_f64.powf(draws.unit()));
     format!(
-        "{}steps: {}\nthickness: 0.5\nthinning: {}\ntropism: (0, 0, {lift})\nleaf_shape: {shape}\nleaf_scale: {leaf}\n\
+        "{}steps: {}\nthickness: 0.5\nthinning: {}\ntropism: ({lean}, 0, {lift})\nleaf_shape: {shape}\nleaf_scale: {leaf}\n\
          leaf_scale_x: {}\n{body}",
         blank!(),
         12 + draws.below(20),
@@ -54,8 +56,13 @@ fn around(draws: &mut Draws) -> String {
 
 /// `B(r)`: a branch of length `r` with its leaves.
 fn branch(draws: &mut Draws) -> String {
-    let leaves =
-        |draws: &mut Draws| format!("{}, {}, 137.5", 4 + draws.below(24), between(draws, 20.0, 80.0));
+    let by_length = draws.chance(0.5);
+    let leaves = |draws: &mut Draws| {
+        let (count, down) = (4 + draws.below(24), between(draws, 20.0, 80.0));
+        // Either as many on every piece or as many on every length.
+        let count = if by_length { format!("r*{}", 4 * count) } else { count.to_string() };
+        format!("{count}, {down}, 137.5")
+    };
     let bend = between(draws, -25.0, 25.0);
     let side = between(draws, 20.0, 70.0);
     let (a, b) = (leaves(draws), leaves(draws));
@@ -109,6 +116,35 @@ fn rings(draws: &mut Draws) -> String {
         width(draws),
         lengths.join(", "),
         around(draws),
+        branch(draws),
+    )
+}
+
+/// One branch after the other around the trunk, each with a length of its own: a crown that need not be the
+/// same on all sides.
+fn spiral(draws: &mut Draws) -> String {
+    let (count, bare) = (20 + draws.below(24), between(draws, 0.02, 0.3));
+    let profile = profile(draws);
+    let lengths: Vec<String> = (0..count)
+        .map(|i| {
+            let along = profile((f64::from(i as u32) + 0.5) / f64::from(count as u32));
+            rounded(along * draws.between(0.85, 1.15)).to_string()
+        })
+        .collect();
+    let step = rounded((1.0 - bare) / count as f64);
+    let (low, rise) = (between(draws, 30.0, 100.0), between(draws, -40.0, 120.0));
+    let turn = if draws.chance(0.5) { 137.5 } else { between(draws, 80.0, 180.0) };
+    // More than one at a place fills the crown.
+    let others = match draws.below(3) {
+        0 => String::new(),
+        1 => " [ /(180) &(a) B(r) ]".to_owned(),
+        _ => " [ /(120) &(a) B(r) ] [ /(240) &(a) B(r) ]".to_owned(),
+    };
+    let wide = width(draws);
+    format!(
+        "axiom: !({wide}) F({bare}) for r in [{}] {{ let a = {low} + {rise}*r; ! F({step}) /({turn}) [ &(a) B(r) ]{others} }} \
+         F({step}) %\n{}",
+        lengths.join(", "),
         branch(draws),
     )
 }

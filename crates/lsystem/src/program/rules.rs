@@ -158,6 +158,12 @@ impl Program {
         writers.into_iter().take(MAX).map(|(_, name)| name.to_owned()).collect()
     }
 
+    /// How often the grammar reads the parameter `number`.
+    pub(crate) fn reads_of(&self, number: usize) -> usize {
+        let is_read = |op: &&Op| matches!(op, Op::Global(i) if usize::from(*i) == number);
+        self.ops.iter().filter(is_read).count()
+    }
+
     /// The parameters that a setting is computed from.
     pub(crate) fn params_of(&self, key: syntax::SettingKey) -> Vec<String> {
         let codes = self.settings.iter().filter(|(known, _)| *known == key).flat_map(|(_, codes)| codes);

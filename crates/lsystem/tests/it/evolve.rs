@@ -86,6 +86,33 @@ fn changes_are_of_every_kind() {
 }
 
 #[test]
+fn a_tree_whose_size_is_read_by_its_scale_alone_grows_in_proportion() {
+    let parent = blank();
+    let variation = parent.variation().unwrap();
+    let header =
+        "dialect: hewitt\nscale: size\nparam size = 10 in 0.0001..10000 search 1..100 m \"height\"\n";
+    let grown = |body: &str, size: f64| {
+        let generator = variation.generator(&format!("{header}{body}")).unwrap();
+        let params = generator.space().check(vec![size]).unwrap();
+        let mut tree = Tree::default();
+        generator.grow(&params, &Growth::seed(1), &mut Workspace::default(), &mut tree).unwrap();
+        (generator.grows_in_proportion(), tree)
+    };
+    let body =
+        "tropism: (0, 0, 3)\naxiom: !(0.1) F(0.5) [ +(40) F(0.4, 8, 45, 137.5) ] F(0.5, 3, 45, 137.5) %";
+    let ((is_one, small), (_, large)) = (grown(body, 2.0), grown(body, 6.0));
+    assert!(is_one);
+    for (a, b) in small.knots.iter().zip(&large.knots) {
+        assert!((a.point * 3.0).distance(b.point) < 1e-9 && (a.radius * 3.0 - b.radius).abs() < 1e-9);
+    }
+    for (a, b) in small.leaves.iter().zip(&large.leaves) {
+        assert!((a.position * 3.0).distance(b.position) < 1e-4 && (a.along * 3.0).distance(b.along) < 1e-4);
+    }
+    assert_eq!((small.leaves.len(), large.leaves.len()), (11, 11));
+    assert!(!grown("axiom: F(0.5) +(size) F(0.5)", 2.0).0);
+}
+
+#[test]
 fn length_counts_words_and_signs() {
     let parent = blank();
     let length = |text: &str| parent.variation().unwrap().length(text);

@@ -5,7 +5,7 @@ use super::{options, outlined, start, views};
 use crate::commands::generator_choice::GeneratorChoice;
 use crate::input;
 use anyhow::ensure;
-use pleach_fit::Objective;
+use pleach_fit::{Objective, RulesSettings, UnknownObjective};
 use pleach_tree::Family as _;
 use std::num::NonZeroU32;
 use std::time::Duration;
@@ -94,10 +94,10 @@ pub(super) struct SearchArgs {
     /// A setting of the optimiser, such as children=8 for evolution; repeatable. `--set help` lists them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) settings: Vec<String>,
-    /// What is made small: balance, overlap (IoU, of trees with a likeness of 0.78), blend, likeness, iou or
-    /// accuracy
-    #[arg(long, value_name = "NAME", default_value = Objective::default().name())]
-    pub(super) objective: String,
+    /// What is made small: balance (the default), both (with --evolve-rules the default: overlap, of trees with a
+    /// likeness of 0.765), overlap (IoU, of trees with one of 0.78), blend, likeness, iou or accuracy
+    #[arg(long, value_name = "NAME")]
+    pub(super) objective: Option<String>,
     /// Seed of the search
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = input::seed)]
     pub(super) seed: u64,
@@ -128,6 +128,15 @@ pub(super) struct BudgetArgs {
 }
 
 impl SearchArgs {
+    /// What is made small: what was said, or what suits the search.
+    pub(super) fn objective(&self) -> Result<Objective, UnknownObjective> {
+        match &self.objective {
+            Some(name) => name.parse(),
+            None if self.evolve_rules => Ok(RulesSettings::OBJECTIVE),
+            None => Ok(Objective::default()),
+        }
+    }
+
     /// The generators that take part: those that `--generator` says, the one of the species in `--from`,
     /// or the default one.
     pub(super) fn generator(&self) -> anyhow::Result<GeneratorChoice> {

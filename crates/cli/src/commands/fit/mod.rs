@@ -25,7 +25,7 @@ use crate::{input, output};
 use anyhow::bail;
 use args::{BudgetArgs, GoalArgs, SearchArgs};
 use options::Settings;
-use pleach_fit::{Budget, FitSettings, GuessLibrary, Objective, RulesSettings};
+use pleach_fit::{Budget, FitSettings, GuessLibrary, RulesSettings};
 use run_folder::{Mode, RunFolder};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -218,7 +218,7 @@ impl Fit {
             seed: search.seed,
             tree_seed: search.tree_seed,
             robust: search.robust,
-            objective: search.objective.parse::<Objective>()?,
+            objective: search.objective()?,
             freedom: pleach_fit::Freedom { free: search.free.clone(), fix: search.fix.clone() },
             ..FitSettings::default()
         })))
