@@ -112,6 +112,27 @@ fn the_gallery_may_be_of_another_generator() {
 }
 
 #[test]
+fn the_gallery_may_be_of_species_that_are_named() {
+    let dir = Dir::new();
+    let species = dir.run(["species", "palm"]).ok();
+    let _ = dir.file("mine.toml", species);
+    let sheet = |only: &str, file: &str| {
+        dir.run(["render", "--gallery", "--only", only, "--columns", "2", "--size", "24", "-o", file])
+    };
+    let _ = sheet("acer,mine.toml", "one.png").ok();
+    let _ = sheet("mine.toml,acer", "other.png").ok();
+    let [one, other] = ["one.png", "other.png"].map(|file| open(&dir.path(file)).into_rgb8());
+    // Two in a row, in the order of the names.
+    assert_eq!(one.dimensions(), (2 * (2 * 24 + 4) + 4, 30 + 4));
+    assert!(one.dimensions() == other.dimensions() && one != other);
+    sheet("acer,acorn", "x.png").fails(1, &["acorn"]);
+    dir.run(["render", "--gallery", "--size", "4096"]).fails(1, &["too large", "--size"]);
+    dir.run(["render", "--gallery", "--columns", "0"]).fails(2, &["1..=100"]);
+    dir.run(["render", "--gallery", "--only", "acer", "--generator", "all"]).fails(2, &["--generator"]);
+    dir.run(["render", "--only", "acer"]).fails(2, &["--gallery"]);
+}
+
+#[test]
 fn what_cannot_be_drawn_says_what_can() {
     let dir = Dir::new();
     dir.run(["render", "acer", "-o", "a.jpg"]).fails(1, &["`.jpg`", ".png"]);

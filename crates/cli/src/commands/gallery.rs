@@ -1,12 +1,15 @@
 //! The gallery: one sheet with many species, each leafy beside winter.
 
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use pleach_blend::picture::{Anchor, Color, Scene, Shape};
 use pleach_mesh::Palette;
 use pleach_render::preview::Background;
 use pleach_render::{Picture, Preview, PreviewSettings};
 use pleach_tree::species::{self, Season};
 use pleach_tree::{Parts, Species, Tree, TreeStats};
+
+/// Pixels of a sheet, at most: a gigabyte of colours.
+const MAX_PIXELS: u64 = 1 << 28;
 
 const INK: Color = Color::opaque([40, 44, 40]);
 const GRAY: Color = Color::opaque([120, 124, 120]);
@@ -16,19 +19,25 @@ fn across(count: usize) -> u32 {
     (1..).find(|n| 2 * n * n >= count as u32).unwrap_or(1)
 }
 
-/// Draws the sheet, `size` pixels per tree.
+/// Draws the sheet, `size` pixels per tree; `columns` species per row, or so many that it is about square.
 pub(super) fn sheet(
     all: &[Species],
+    columns: Option<u32>,
     size: u32,
     parts: Parts,
     grow: impl Fn(&Species) -> anyhow::Result<Tree>,
     settings: &PreviewSettings,
 ) -> anyhow::Result<Picture> {
-    let columns = across(all.len());
+    let columns = columns.unwrap_or_else(|| across(all.len())).min(all.len() as u32);
     let rows = (all.len() as u32).div_ceil(columns);
     let (gap, label) = (size / 6, size / 5);
     let (across, down) = (2 * size + gap, size + label + gap / 2);
-    let mut page = Scene::new(columns * across + gap, rows * down + gap);
+    let (width, height) = (columns * across + gap, rows * down + gap);
+    ensure!(
+        u64::from(width) * u64::from(height) <= MAX_PIXELS,
+        "a sheet of {width} × {height} pixels is too large, choose a smaller --size"
+    );
+    let mut page = Scene::new(width, height);
     let settings = PreviewSettings {
         width: size,
         height: size,

@@ -27,6 +27,7 @@ const EXAMPLES: &str = "Examples:
   pleach render all --no-leaves -o winter/            and bare
   pleach render --gallery -o gallery.png              fifteen species on one sheet
   pleach render --gallery --generator all             every species of every generator
+  pleach render --gallery --only acer,my_tree.toml --columns 2
   pleach render acer -o - > acer.png                  to standard output
 
 This is the picture to look at: bark, light and shadow, 768 pixels high, enough for a page. \
@@ -47,6 +48,12 @@ pub(crate) struct Render {
     /// In a gallery: the species of this generator instead, or of `all`
     #[arg(long, value_name = "NAME", requires = "gallery", conflicts_with = "species")]
     generator: Option<GeneratorChoice>,
+    /// In a gallery: these species instead, by name or file, in this order
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', requires = "gallery", conflicts_with_all = ["species", "generator"])]
+    only: Vec<String>,
+    /// In a gallery: species per row; about a square by default
+    #[arg(long, value_name = "N", requires = "gallery", value_parser = clap::value_parser!(u32).range(1..=100))]
+    columns: Option<u32>,
     /// Seed of the tree; the species file's own, or 1, by default
     #[arg(long, value_name = "N", value_parser = input::seed)]
     seed: Option<u64>,
@@ -148,13 +155,17 @@ impl Render {
         };
         let grow = |species: &Species| self.grow(species, self.seed.or(species.tree_seed).unwrap_or(1));
         let species: Vec<Species> = match &self.generator {
+            _ if !self.only.is_empty() => {
+                self.only.iter().map(|name| input::species(name)).collect::<Result<_, _>>()?
+            }
             Some(generator) => generator.known().collect(),
             None => pleach_generators::HEWITT_2017
                 .iter()
                 .filter_map(|name| pleach_generators::preset(name))
                 .collect(),
         };
-        let sheet = gallery::sheet(&species, self.size, self.parts(), grow, &self.settings(0.0))?;
+        let sheet =
+            gallery::sheet(&species, self.columns, self.size, self.parts(), grow, &self.settings(0.0))?;
         files::write_out(&path, |mut out| Ok(png_file::write_indexed(&mut out, &sheet)?))?;
         output::wrote(&path);
         Ok(())
