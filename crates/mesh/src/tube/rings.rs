@@ -41,8 +41,19 @@ pub(crate) struct Rings {
 }
 
 impl Rings {
-    /// Samples `stem` so that neither its axis nor its outer side strays by more than `tolerance`.
+    /// Samples `stem` so that neither its axis nor its outer side strays by more than `tolerance`, with
+    /// rings that a tube can go through.
     pub(crate) fn sample(&mut self, tree: &Tree, stem: &Stem, tolerance: f64) {
+        self.trace(tree, stem, tolerance);
+        self.untangle();
+        // The clones of a fork leave from one ring; turned against each other, their caps are not one
+        // face twice.
+        let clone = stem.kind == StemKind::Fork;
+        self.turn_frames(if clone { f64::from(stem.first_knot % 1024) * GOLDEN_ANGLE } else { 0.0 });
+    }
+
+    /// Samples all of `stem`, sharp turns and places where it stands still among it; sides are not set.
+    pub(crate) fn trace(&mut self, tree: &Tree, stem: &Stem, tolerance: f64) {
         self.rings.clear();
         let mut along = 0.0;
         let mut arrival: Option<DVec3> = None;
@@ -82,11 +93,6 @@ impl Rings {
             arrival = Some(legs[2]);
         }
         self.pointed = knots[knots.len() - 1].radius < POINTED;
-        self.untangle();
-        // The clones of a fork leave from one ring; turned against each other, their caps are not one
-        // face twice.
-        let clone = stem.kind == StemKind::Fork;
-        self.turn_frames(if clone { f64::from(stem.first_knot % 1024) * GOLDEN_ANGLE } else { 0.0 });
     }
 
     /// Leaves out rings that would cut a neighbour, so that no face turns inside out.

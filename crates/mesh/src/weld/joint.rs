@@ -22,40 +22,42 @@ pub(super) struct Joint {
     /// Where two distances differ by less than this many metres, the corner is filled; positive.
     pub(super) width: f64,
     /// Within so many metres of `at` the fillet is whole, and at twice as many there is none.
-    pub(super) reach: f64,
+    reach: f64,
 }
 
 impl Joint {
     /// The joints of `tree`, where the pieces of each stem are the cones in its range of `pieces`. The
-    /// corner is as wide as the thinner stem's radius times `fillet`. Raises the cones' swell.
-    pub(super) fn find(tree: &Tree, pieces: &[Range<usize>], cones: &mut [Cone], fillet: f64) -> Vec<Self> {
+    /// corner is as wide as the thinner stem's radius times `fillet`.
+    pub(super) fn find(tree: &Tree, pieces: &[Range<usize>], cones: &[Cone], fillet: f64) -> Vec<Self> {
         let mut joints: Vec<Self> = Vec::new();
         if fillet <= 0.0 {
             return joints;
         }
-        let ahead = |cone: &Cone| (cone.to - cone.from).normalize_or_zero();
         let mut join = |a: usize, b: usize, is_sibling: bool| {
             let (Some(first), Some(second)) = (pieces.get(a), pieces.get(b)) else { return };
-            let (Some(base), false) = (cones.get(first.start).copied(), second.is_empty()) else { return };
+            let (Some(base), Some(beside)) = (cones[first.clone()].first(), cones[second.clone()].first())
+            else {
+                return;
+            };
             // The other stem where it is nearest.
-            let near = |i: &usize| base.from.distance(cones[*i].from.midpoint(cones[*i].to));
-            let Some(other) = second.clone().min_by(|i, j| near(i).total_cmp(&near(j))) else { return };
-            let [r, s] = [base.radii[0], cones[other].radii[0].max(cones[other].radii[1])];
+            let near = |cone: &Cone| {
+                let t = cone.nearest(base.from);
+                let [a, b] = cone.radii;
+                (base.from.distance(cone.from.lerp(cone.to, t)), a + (b - a) * t)
+            };
+            let nearest = cones[second.clone()].iter().map(near).min_by(|a, b| a.0.total_cmp(&b.0));
+            let (r, s) = (base.radii[0], nearest.map_or(beside.radii[0], |(_, radius)| radius));
             let width = fillet * r.min(s);
             // Between two stems from one place the corner lies half way.
-            let beside = if is_sibling { ahead(&cones[second.start]) } else { DVec3::ZERO };
-            let joint = Self {
+            let beside = if is_sibling { beside.axis() } else { DVec3::ZERO };
+            joints.push(Self {
                 at: base.from,
-                along: (ahead(&base) + beside).normalize_or_zero(),
+                along: (base.axis() + beside).normalize_or_zero(),
                 stems: [first.clone(), second.clone()],
                 width,
                 start: r.max(s).max(width),
                 reach: 1.5 * r.max(s) + width,
-            };
-            for i in joint.stems.iter().flat_map(Clone::clone) {
-                cones[i].swell = cones[i].swell.max(width / 4.0);
-            }
-            joints.push(joint);
+            });
         };
         let with_parents = tree.stems.iter().enumerate().filter_map(|(i, stem)| Some((i, stem.parent?)));
         with_parents.for_each(|(child, parent)| join(child, parent as usize, false));
@@ -74,41 +76,35 @@ impl Joint {
         joints
     }
 
-    /// Smallest and largest coordinates of what it changes.
-    pub(super) fn bounds(&self) -> (DVec3, DVec3) {
-        let reach = DVec3::splat(2.0 * self.reach);
-        (self.at - reach, self.at + reach)
+    /// The most by which it raises the surface, in metres.
+    pub(super) fn swell(&self) -> f64 {
+        self.width / 4.0
     }
 
-    /// The cones of its two stems that reach so far.
-    pub(super) fn sides<'a>(&self, cones: &'a [Cone]) -> [Vec<&'a Cone>; 2] {
-        let (low, high) = self.bounds();
-        let meets = |cone: &&Cone| {
-            let (from, to) = cone.bounds(self.width);
-            from.cmple(high).all() && to.cmpge(low).all()
-        };
-        [0, 1].map(|side| cones[self.stems[side].clone()].iter().filter(meets).collect())
+    /// The width of the corner at `p`, in metres; 0 where there is none.
+    pub(super) fn width_at(&self, p: DVec3) -> f64 {
+        self.width_within(p, 0.0)
     }
 
-    /// Metres from `p` to the surface of both stems and the fillet between them; none where it has no
-    /// part in the surface: farther than `margin` metres from it, or no corner.
-    pub(super) fn distance(&self, sides: &[Vec<&Cone>; 2], p: DVec3, margin: f64) -> Option<f64> {
-        let away = (2.0 - p.distance(self.at) / self.reach).clamp(0.0, 1.0);
-        let ahead = ((p - self.at).dot(self.along) / self.start).clamp(0.0, 1.0);
-        let width = self.width * away * ahead;
-        if width <= 0.0 {
-            return None;
+    /// No width within `radius` metres of `p` is greater.
+    pub(super) fn width_within(&self, p: DVec3, radius: f64) -> f64 {
+        let away = p - self.at;
+        let ahead = away.dot(self.along) + radius;
+        let end = 2.0 * self.reach + radius;
+        if ahead <= 0.0 || away.length_squared() >= end * end {
+            return 0.0;
         }
-        let nearest = |side: &[&Cone]| side.iter().map(|c| c.distance(p)).fold(f64::INFINITY, f64::min);
-        // Where one stem is far, so is the fillet.
-        let a = nearest(&sides[0]);
-        if a > margin + 1.25 * width {
-            return None;
-        }
-        let b = nearest(&sides[1]);
-        let near = width - (a - b).abs();
-        // The smooth minimum of two distances, by a polynomial. It changes by at most 1.4 metres per metre,
-        // the fading included.
-        (near > 0.0).then(|| a.min(b) - near * near / (4.0 * width))
+        let near = 2.0 - (away.length() - radius) / self.reach;
+        self.width * near.clamp(0.0, 1.0) * (ahead / self.start).min(1.0)
     }
+}
+
+/// Metres to the surface of two stems that are `a` and `b` metres away, and of a fillet of this width
+/// between them.
+///
+/// The smooth minimum of two distances, by a polynomial.
+pub(super) fn filled(a: f64, b: f64, width: f64) -> f64 {
+    let near = width - (a - b).abs();
+    let least = a.min(b);
+    if near > 0.0 && width > 0.0 { least - near * near / (4.0 * width) } else { least }
 }

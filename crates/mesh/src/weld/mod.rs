@@ -5,20 +5,25 @@
 //! as one, which is also what a printer needs; forks meet in an edge that a cell or two round off.
 
 mod cone;
-mod field;
+mod grid;
 mod joint;
+mod local;
+mod nearby;
+mod shells;
+mod stitch;
 mod tetrahedra;
 
 use crate::block::{Block, Vertex};
 use crate::tube::Rings;
 use cone::Cone;
-use field::Field;
 use glam::{Vec3, vec2};
+use grid::Grid;
 use joint::Joint;
+use nearby::Stems;
 use pleach_tree::stats::Bounds;
 use pleach_tree::{Parts, StemKind, Tree};
 use std::ops::Range;
-use tetrahedra::Surface;
+use stitch::Surface;
 
 /// Why a tree could not be welded.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -70,13 +75,14 @@ pub fn surface(tree: &Tree, settings: &WeldSettings) -> Result<Block, WeldError>
     if !(cell.is_finite() && cell > 0.0) {
         return Err(WeldError::NotPositive { cell });
     }
-    let (mut cones, pieces) = cones(tree, settings)?;
+    let (cones, pieces) = cones(tree, settings)?;
     if cones.is_empty() {
         return Ok(Block::default());
     }
     let fillet = settings.fillet.clamp(0.0, WeldSettings::MAX_FILLET);
-    let joints = Joint::find(tree, &pieces, &mut cones, fillet);
-    let Surface { corners, triangles } = Surface::new(&Field::new(&cones, &joints, cell)?);
+    let joints = Joint::find(tree, &pieces, &cones, fillet);
+    let stems = Stems { cones, joints };
+    let Surface { corners, triangles } = Surface::new(&Grid::new(&stems, cell)?, &stems).without_hollows();
     let mut normals = vec![Vec3::ZERO; corners.len()];
     for t in &triangles {
         let [a, b, c] = t.map(|i| corners[i as usize]);
@@ -99,7 +105,7 @@ fn cones(tree: &Tree, settings: &WeldSettings) -> Result<(Vec<Cone>, Vec<Range<u
     let &WeldSettings { cell, parts, .. } = settings;
     let (mut cones, mut pieces_of) = (Vec::new(), Vec::new());
     let extent = Bounds::new(tree, parts).map_or(0.0, |b| (b.max - b.min).max_element());
-    if extent > cell * f64::from(field::MAX_ALONG) {
+    if extent > cell * f64::from(grid::MAX_ALONG) {
         return Err(WeldError::TooFine { cell });
     }
     let mut rings = Rings::default();
@@ -109,35 +115,19 @@ fn cones(tree: &Tree, settings: &WeldSettings) -> Result<(Vec<Cone>, Vec<Range<u
             pieces_of.push(first..first);
             continue;
         }
-        rings.sample(tree, stem, 0.25 * cell);
-        let foot = stem.parent.is_none() && stem.kind != StemKind::Fork;
-        for (i, pair) in rings.rings.windows(2).enumerate() {
+        // Not only what a tube can show: a trunk without a height still is a ball that its roots begin in.
+        rings.trace(tree, stem, 0.25 * cell);
+        for pair in rings.rings.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);
-            let radii = [a.radius, b.radius].map(|r| r.max(cell));
-            // A long slanted piece would have a box of mostly air.
-            let most = (4.0 * cell).max(2.0 * radii[0].max(radii[1]));
-            let pieces = (a.center.distance(b.center) / most).ceil().clamp(1.0, 1e4) as u32;
-            let at = |k: u32| {
-                let t = f64::from(k) / f64::from(pieces);
-                (a.center.lerp(b.center, t), radii[0] + (radii[1] - radii[0]) * t)
-            };
-            for k in 0..pieces {
-                let ((from, r), (to, s)) = (at(k), at(k + 1));
-                // A trunk without a length has no side to be cut off.
-                let foot = foot && i == 0 && k == 0 && from.distance(to) > 1e-9;
-                cones.push(Cone { from, to, radii: [r, s], foot, swell: 0.0 });
-            }
+            cones.push(Cone::new(a.center, b.center, [a.radius, b.radius].map(|r| r.max(cell))));
+        }
+        if stem.parent.is_none() && stem.kind != StemKind::Fork {
+            Cone::cut_foot(&mut cones[first..], cell);
         }
         if cones.len() > MAX_PIECES {
             return Err(WeldError::TooFine { cell });
         }
         pieces_of.push(first..cones.len());
-    }
-    // A tree that is no longer than a point is a ball.
-    if let (true, Some(knot)) = (cones.is_empty() && !pieces_of.is_empty(), tree.knots.first()) {
-        let radius = knot.radius.max(cell);
-        let at = knot.point;
-        cones.push(Cone { from: at, to: at, radii: [radius; 2], foot: false, swell: 0.0 });
     }
     Ok((cones, pieces_of))
 }

@@ -1,0 +1,93 @@
+//! Skins of thousands of random settings.
+
+use super::sound::{check_apart, check_outwards, check_sound, pieces};
+use super::*;
+use glam::{DVec3, dvec3};
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use rayon::prelude::*;
+
+/// Calls `check` with a number and what `strategy` draws for it, on all threads, for each of so many.
+fn for_each<S: Strategy + Sync>(cases: u64, strategy: &S, check: impl Fn(u64, S::Value) + Sync) {
+    (0..cases).into_par_iter().for_each(|case| {
+        let mut seed = [0; 32];
+        seed[..8].copy_from_slice(&case.to_le_bytes());
+        let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &seed);
+        let drawn = strategy.new_tree(&mut TestRunner::new_with_rng(Config::default(), rng)).unwrap();
+        if std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| check(case, drawn.current()))).is_err() {
+            panic!("in case {case}");
+        }
+    });
+}
+
+/// Everything that a skin promises; the slow half of it for every twentieth case.
+fn check_skin(tree: &Tree, settings: &WeldSettings, case: u64) {
+    let block = surface(tree, settings).unwrap();
+    check_sound(&block, settings.cell);
+    assert_eq!(pieces(&block), 1);
+    if case.is_multiple_of(20) {
+        check_apart(&block);
+        let (cones, pieces) = cones(tree, settings).unwrap();
+        let joints = Joint::find(tree, &pieces, &cones, settings.fillet);
+        check_outwards(&block, &Stems { cones, joints }, settings.cell);
+    }
+}
+
+/// Stylised trees of any numbers, the ends of their ranges more often than others, each with all of its
+/// roots: the settings for which the modifier that Lorite (2021) used left holes.
+#[test]
+fn skins_of_stylised_trees_are_sound() {
+    let species = pleach_generators::preset("stylised_oak").unwrap();
+    let space = species.generator.space().clone();
+    let slots = space.slots().count();
+    let drawn = prop::collection::vec((0_u32..4, 0.0_f64..=1.0), slots);
+    let strategy = (drawn, 0_u64..1000, 0.0_f64..4.0, 4.0_f64..11.0);
+    for_each(3000, &strategy, |case, (drawn, seed, fillet, cells)| {
+        let value = |slot: pleach_tree::Slot| {
+            let ((low, high), (from, to)) = (space.kind_of(slot).range(), space.search_range(slot));
+            let (end, part) = drawn[slot.index()];
+            space.kind_of(slot).repair(match end {
+                0 => low,
+                1 => high,
+                _ => from + (to - from) * part,
+            })
+        };
+        let params = space.check(space.slots().map(value).collect()).unwrap();
+        let tree = pleach_tree::Species { params, ..species.clone() }.grow_bare(seed).unwrap();
+        let extent = Bounds::new(&tree, Parts::ALL).map_or(0.0, |b| (b.max - b.min).max_element());
+        let cell = (extent / cells).max(1e-3);
+        // Half of them as they are, half with soft corners.
+        let fillet = if case % 2 == 0 { 0.0 } else { fillet };
+        check_skin(&tree, &WeldSettings { fillet, parts: Parts::ALL, ..WeldSettings::new(cell) }, case);
+    });
+}
+
+/// Up to six stems through a place in any directions, some without a length, some a hundred times as thick
+/// at one end as at the other.
+#[test]
+fn skins_of_crosses_are_sound() {
+    let end = || (-1.0_f64..1.0, -1.0_f64..1.0, -1.0_f64..1.0, -3.0_f64..0.0, 0_u32..8);
+    let strategy = (prop::collection::vec(end(), 2..8), 0.0_f64..4.0, 0.04_f64..0.2);
+    for_each(1500, &strategy, |case, (ends, fillet, cell)| {
+        let mut tree = Tree::default();
+        for (i, &(x, y, z, thickness, kind)) in ends.iter().enumerate() {
+            let parent = (i > 0).then_some(0);
+            let to = if kind == 0 { DVec3::ZERO } else { dvec3(x, y, z) };
+            tree.stems.push(pleach_tree::Stem {
+                parent,
+                level: u16::from(i > 0),
+                kind: if i == 0 { StemKind::Trunk } else { StemKind::Branch },
+                offset: 0.0,
+                first_knot: 2 * i as u32,
+                knot_count: 2,
+            });
+            for (point, radius) in [(DVec3::ZERO, 0.01), (to, 0.5 * 10_f64.powf(thickness))] {
+                let third = (to - point) / 3.0;
+                let knot =
+                    pleach_tree::Knot { point, handle_in: point - third, handle_out: point + third, radius };
+                tree.knots.push(knot);
+            }
+        }
+        check_skin(&tree, &WeldSettings { fillet, ..WeldSettings::new(cell) }, case);
+    });
+}
