@@ -123,7 +123,7 @@ fn options_are_checked_before_anything_runs() {
         (&fits, "tree_seed = 1", "tree_seed = -1", &[":5:13: ", "from 0 to 9007199254740992"]),
         (treefit, "evaluations = 5\n", "", &[":2:1: ", "without `evaluations` or `seconds`"]),
         (treefit, "evaluations = 5", "seconds = 0", &[":6:11: ", "from 0.1 to 86400"]),
-        (treefit, "from = \"auto\"", "from = \"aut\"", &[":5:8: ", "`auto` or `random`"]),
+        (treefit, "from = \"auto\"", "from = \"aut\"", &[":5:8: ", "`auto`, `random`, `outline`"]),
         (treefit, "seed = 3", "height = 3", &[":7:1: ", "`height` is not for goals that are grown"]),
         (treefit, "seed = 3", "", &[":7:1: ", "missing field `seed`"]),
     ];
