@@ -140,6 +140,6 @@ fn long_lines_are_cut() {
     assert!(drawing.len() < 2000 && drawing.contains("--> long:3:"), "{drawing}");
     let lines: Vec<&str> = drawing.lines().collect();
     let caret = lines.iter().position(|line| line.ends_with('^')).unwrap();
-    let under = lines[caret].chars().count() - 1;
+    let under = lines[caret].chars().position(|c| c == '^').unwrap();
     assert_eq!(lines[caret - 1].chars().nth(under), Some('1'), "{drawing}");
 }
