@@ -52,8 +52,7 @@ pub(super) struct Contender {
 /// What a tree that is like the goal before any search is worth beside what a search reaches.
 ///
 /// A search makes any generator cover a goal; which one has a species whose other trees look like it says
-/// more about where the goal comes from. Of 41 goals that are hard to tell apart 4 are named wrong with 3,
-/// 6 with a half, and 4 with likeness weighed by how like each other the trees of a species are.
+/// more about where the goal comes from.
 const BY_LIKENESS: f64 = 3.0;
 
 impl Contender {
@@ -109,8 +108,7 @@ pub(super) fn contenders(
 
 /// A contender that stands by so much worse than the best after the first round does not run the second.
 ///
-/// From a fifth of the evaluations to all of them a standing falls by 0.1 at most, and the best one's falls
-/// as well.
+/// The four fifths that are left take some hundredths off a cost, off the best one's as well.
 const HOPELESS: f64 = 0.1;
 /// Evaluations of the second round for one of the first.
 const ROUNDS: u64 = 5;

@@ -41,6 +41,7 @@ pub struct Report {
 
 /// Problems beyond which nobody reads on.
 const MAX_SHOWN: usize = 20;
+
 impl Report {
     pub(crate) fn new(origin: &str, text: &str, mut diagnostics: Vec<Diagnostic>) -> Self {
         diagnostics.sort_by_key(|d| d.span.start);

@@ -131,15 +131,20 @@ fn huge_numbers_end_in_an_error_or_in_a_finite_tree() {
     assert!(derived.grow(&pleach_tree::Limits::default(), Foliage::All, &mut tree).is_err());
 }
 
-/// Of a line as long as a book, a mistake shows what is around it.
+/// Of a line as long as a book, a mistake shows what is around it: where it begins, here at the start of the
+/// line and far along it.
 #[test]
 fn long_lines_are_cut() {
-    let text = format!("axiom: F\n# {}\nF -> F({}1 +)\n", "x".repeat(50_000), "1+".repeat(20_000));
-    let report = LSystem::read("long", &text).unwrap_err();
-    let drawing = report.to_string();
-    assert!(drawing.len() < 2000 && drawing.contains("--> long:3:"), "{drawing}");
-    let lines: Vec<&str> = drawing.lines().collect();
-    let caret = lines.iter().position(|line| line.ends_with('^')).unwrap();
-    let under = lines[caret].chars().position(|c| c == '^').unwrap();
-    assert_eq!(lines[caret - 1].chars().nth(under), Some('1'), "{drawing}");
+    let many = format!("F({}1)", "1+".repeat(20_000));
+    let late = format!("{}F(1 +)", "F".repeat(20_000));
+    for (successor, begins) in [(many, '1'), (late, ')')] {
+        let text = format!("axiom: F\n# {}\nF -> {successor}\n", "x".repeat(50_000));
+        let report = LSystem::read("long", &text).unwrap_err();
+        let drawing = report.to_string();
+        assert!(drawing.len() < 2000 && drawing.contains("--> long:3:"), "{drawing}");
+        let lines: Vec<&str> = drawing.lines().collect();
+        let caret = lines.iter().position(|line| line.ends_with('^')).unwrap();
+        let under = lines[caret].chars().position(|c| c == '^').unwrap();
+        assert_eq!(lines[caret - 1].chars().nth(under), Some(begins), "{drawing}");
+    }
 }

@@ -33,13 +33,13 @@ impl Surface {
 }
 
 /// Which corners hang together.
-struct Shells {
+pub(super) struct Shells {
     /// The first corner of each corner's shell.
     of: Vec<u32>,
 }
 
 impl Shells {
-    fn new(corners: usize, triangles: &[[u32; 3]]) -> Self {
+    pub(super) fn new(corners: usize, triangles: &[[u32; 3]]) -> Self {
         let mut of: Vec<u32> = (0..corners as u32).collect();
         fn first(of: &mut [u32], mut i: u32) -> u32 {
             while of[i as usize] != i {
@@ -61,7 +61,8 @@ impl Shells {
         Self { of }
     }
 
-    fn count(&self) -> usize {
+    /// How many shells there are; a corner without a face is one.
+    pub(super) fn count(&self) -> usize {
         self.of.iter().enumerate().filter(|(i, first)| **first == *i as u32).count()
     }
 }

@@ -131,17 +131,15 @@ pub(super) fn varied_family() -> anyhow::Result<GeneratorChoice> {
 impl From {
     /// The species that a search over rules starts from: that of `--from`, or one without rules.
     pub(super) fn varied(&self, generator: &GeneratorChoice) -> anyhow::Result<Species> {
-        let family = match (self, generator) {
-            (Self::Species(_), _) => self.species(generator)?.generator.family(),
-            (_, GeneratorChoice::Family(name)) => name,
-            (_, GeneratorChoice::Auto) => bail!(no_rules("auto")),
+        let given = if let Self::Species(_) = self { Some(self.species(generator)?) } else { None };
+        let family = match (&given, generator) {
+            (Some(species), _) => species.generator.family(),
+            (None, GeneratorChoice::Family(name)) => name,
+            (None, GeneratorChoice::Auto) => bail!(no_rules("auto")),
         };
         let family = pleach_generators::family(family)?;
         let blank = family.blank().with_context(|| no_rules(family.name()))?;
-        let species = match self {
-            Self::Species(_) => self.species(generator)?,
-            _ => SpeciesDoc::parse("blank", blank)?.species(family)?,
-        };
+        let species = given.map_or_else(|| SpeciesDoc::parse("blank", blank)?.species(family), Ok)?;
         ensure!(
             species.generator.variation().is_some(),
             "the grammar of {} is longer than --evolve-rules takes",

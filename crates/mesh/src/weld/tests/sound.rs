@@ -144,22 +144,7 @@ pub(super) fn check_outwards(block: &Block, stems: &Stems, cell: f64) {
 }
 
 pub(super) fn pieces(block: &Block) -> usize {
-    let mut parent: Vec<u32> = (0..block.vertices.len() as u32).collect();
-    fn root(parent: &mut [u32], mut i: u32) -> u32 {
-        while parent[i as usize] != i {
-            parent[i as usize] = parent[parent[i as usize] as usize];
-            i = parent[i as usize];
-        }
-        i
-    }
-    for &[a, b, c] in &block.triangles {
-        let top = root(&mut parent, a);
-        for other in [b, c] {
-            let other = root(&mut parent, other);
-            parent[other as usize] = top;
-        }
-    }
-    (0..parent.len()).filter(|i| parent[*i] == *i as u32).count()
+    shells::Shells::new(block.vertices.len(), &block.triangles).count()
 }
 
 /// Volume by the divergence theorem; positive where faces look outwards.
