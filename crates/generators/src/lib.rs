@@ -2,8 +2,10 @@
 //!
 //! A new generator is one more line in [`families`].
 
+mod choice;
 mod file;
 
+pub use choice::GeneratorChoice;
 pub use file::{read, read_file};
 
 use pleach_tree::{Family, Species, SpeciesDoc, SpeciesError};

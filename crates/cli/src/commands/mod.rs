@@ -7,7 +7,6 @@ mod experiment;
 mod export;
 mod fit;
 mod gallery;
-mod generator_choice;
 mod grammar;
 mod grow;
 mod landmarks;

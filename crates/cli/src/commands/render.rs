@@ -2,11 +2,11 @@
 
 use super::export::SEASONS;
 use super::gallery;
-use super::generator_choice::GeneratorChoice;
 use crate::choice::{Choice, one_of};
 use crate::input::LimitArgs;
 use crate::{files, input, output};
 use anyhow::{Context, bail};
+use pleach_generators::GeneratorChoice;
 use pleach_mesh::Palette;
 use pleach_render::preview::{Background, Ground};
 use pleach_render::{Picture, Preview, PreviewSettings, png_file};

@@ -1,7 +1,7 @@
 //! One fit of one goal.
 
 use super::goals::{self, Problem};
-use super::spec::{From, GeneratorName, MethodSpec};
+use super::spec::{From, MethodSpec};
 use super::{FRESH, Fit, stop};
 use crate::record::Fixed;
 use anyhow::Context;
@@ -9,6 +9,7 @@ use pleach_fit::{
     Budget, Candidate, Control, FirstGuess, FitProblem, FitSettings, FreshSeeds, GoalSettings, GoalView,
     GuessSettings, Guessing, Objective, Start, TreeSeed, first_guess, fit_goal, fresh_seeds,
 };
+use pleach_generators::GeneratorChoice;
 use pleach_least_cost_path::{SideView, species_around};
 use pleach_silhouette::outline;
 use pleach_silhouette::score::ScoreCard;
@@ -34,7 +35,7 @@ pub(super) struct Guesses {
 }
 
 /// What a first guess depends on: generators, objective, tree seed, seed.
-type Asked = (GeneratorName, Objective, TreeSeed, u64);
+type Asked = (GeneratorChoice, Objective, TreeSeed, u64);
 
 struct Guessed {
     found: FirstGuess,
@@ -46,7 +47,7 @@ impl Guesses {
         &mut self,
         problem: &FitProblem,
         settings: &FitSettings,
-        generator: GeneratorName,
+        generator: GeneratorChoice,
     ) -> anyhow::Result<&Guessed> {
         let asked = (generator, settings.objective, settings.tree_seed, settings.seed);
         let at = match self.known.iter().position(|(known, _)| *known == asked) {
@@ -56,7 +57,7 @@ impl Guesses {
                 let found = first_guess(
                     problem,
                     settings,
-                    &generator.presets().map(Candidate::from).collect::<Vec<_>>(),
+                    &generator.known().map(Candidate::from).collect::<Vec<_>>(),
                     &GuessSettings::default(),
                     stop::flag(),
                     |_, _| (),

@@ -3,11 +3,10 @@
 use crate::spec::{Evaluations, OTHER_NAME, Repetitions, Seed, Source, stem};
 use crate::within::{Azimuth, FileName, List, Meters, Real, Seconds, SpeciesName, Word};
 use pleach_fit::{Objective, Optimizer};
-use pleach_tree::Species;
+use pleach_generators::GeneratorChoice;
 use serde::Deserialize;
 use serde::de::{Error, IgnoredAny};
 use std::path::PathBuf;
-use std::str::FromStr;
 use toml::Spanned;
 
 #[derive(Clone, Debug, Deserialize)]
@@ -69,44 +68,6 @@ impl TreefitSpec {
             }
         }
         kept
-    }
-}
-
-/// The generators whose trees a fit may be of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum GeneratorName {
-    /// All of them: a race decides.
-    Auto,
-    /// Those of one family.
-    Family(&'static str),
-}
-
-impl FromStr for GeneratorName {
-    type Err = String;
-
-    fn from_str(given: &str) -> Result<Self, Self::Err> {
-        if given == "auto" {
-            return Ok(Self::Auto);
-        }
-        let family = pleach_generators::family(given);
-        family.map(|family| Self::Family(family.name())).map_err(|error| format!("{error}, and auto for all"))
-    }
-}
-
-impl GeneratorName {
-    /// What it is called in files.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Family(name) => name,
-        }
-    }
-
-    /// The species that come with it.
-    pub(super) fn presets(self) -> impl Iterator<Item = Species> {
-        let families = pleach_generators::families().iter();
-        let taken = families.filter(move |family| self == Self::Auto || self == Self::Family(family.name()));
-        taken.flat_map(|family| pleach_generators::presets(*family))
     }
 }
 
@@ -313,7 +274,7 @@ pub(super) struct MethodSpec {
     /// Where it starts.
     pub(super) from: From,
     /// The generators that it fits; the default one if it is not said.
-    generator: Option<Word<GeneratorName>>,
+    generator: Option<Word<GeneratorChoice>>,
     /// Evaluations of a fit.
     pub(super) evaluations: Option<Evaluations>,
     /// Seconds of a fit, its first guess included; such rows depend on the machine.
@@ -343,8 +304,8 @@ pub(super) enum From {
 
 impl MethodSpec {
     /// The generators that it fits.
-    pub(super) fn generator(&self) -> GeneratorName {
-        let default = || GeneratorName::Family(pleach_generators::default_family().name());
+    pub(super) fn generator(&self) -> GeneratorChoice {
+        let default = || GeneratorChoice::Family(pleach_generators::default_family().name());
         self.generator.as_ref().map_or_else(default, |word| word.value)
     }
 

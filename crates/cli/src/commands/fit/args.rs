@@ -2,10 +2,10 @@
 
 use super::goal::MaskSource;
 use super::{options, outlined, start, views};
-use crate::commands::generator_choice::GeneratorChoice;
 use crate::input;
 use anyhow::ensure;
 use pleach_fit::{Objective, RulesSettings, UnknownObjective};
+use pleach_generators::GeneratorChoice;
 use pleach_tree::Family as _;
 use std::num::NonZeroU32;
 use std::time::Duration;

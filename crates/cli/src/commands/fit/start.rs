@@ -1,12 +1,12 @@
 //! Where a fit starts: random lists, a species, or whatever the goal looks like.
 
-use crate::commands::generator_choice::GeneratorChoice;
 use crate::input;
 use anyhow::{Context, bail, ensure};
 use pleach_fit::{
     Candidate, FirstGuess, FitSettings, GoalSettings, GuessSettings, Guessing, Judging, RulesSettings,
     Runner, Start, check_freedom,
 };
+use pleach_generators::GeneratorChoice;
 use pleach_tree::species::Appearance;
 use pleach_tree::{Foliage, Species, SpeciesDoc};
 use serde::Serialize;

@@ -1,11 +1,12 @@
-//! Which families of generators take part: what `--generator` says.
+//! Which families of generators take part.
 
+use crate::{families, family, presets};
 use pleach_tree::Species;
 use std::str::FromStr;
 
-/// Which families of generators take part.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum GeneratorChoice {
+/// Which families of generators take part in a fit or a sheet: `auto`, `all`, or the name of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GeneratorChoice {
     /// All of them.
     Auto,
     /// The one of this name.
@@ -19,33 +20,40 @@ impl FromStr for GeneratorChoice {
         if ["auto", "all"].contains(&given) {
             return Ok(Self::Auto);
         }
-        let family = pleach_generators::family(given);
+        let family = family(given);
         family.map(|family| Self::Family(family.name())).map_err(|error| format!("{error}, and auto for all"))
     }
 }
 
 impl std::fmt::Display for GeneratorChoice {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Auto => "auto",
-            Self::Family(name) => name,
-        })
+        f.write_str(self.name())
     }
 }
 
 impl GeneratorChoice {
+    /// What it is called.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Family(name) => name,
+        }
+    }
+
     /// Whether `species` is of them.
-    pub(crate) fn takes(&self, species: &Species) -> bool {
+    #[must_use]
+    pub fn takes(self, species: &Species) -> bool {
         match self {
             Self::Auto => true,
-            Self::Family(name) => species.generator.family() == *name,
+            Self::Family(name) => species.generator.family() == name,
         }
     }
 
     /// The known species of the families that take part, those of the default family first.
-    pub(crate) fn known(&self) -> impl Iterator<Item = Species> {
-        let all = pleach_generators::families().iter().flat_map(|family| pleach_generators::presets(*family));
-        all.filter(|species| self.takes(species))
+    pub fn known(self) -> impl Iterator<Item = Species> {
+        let all = families().iter().flat_map(|family| presets(*family));
+        all.filter(move |species| self.takes(species))
     }
 }
 
@@ -56,7 +64,7 @@ mod tests {
     #[test]
     fn generators_are_named_and_others_are_told_which_there_are() {
         assert_eq!("all".parse(), Ok(GeneratorChoice::Auto));
-        for name in std::iter::once("auto").chain(pleach_generators::family_names()) {
+        for name in std::iter::once("auto").chain(crate::family_names()) {
             assert_eq!(name.parse::<GeneratorChoice>().unwrap().to_string(), name);
         }
         let error = "lsystems".parse::<GeneratorChoice>().unwrap_err();
