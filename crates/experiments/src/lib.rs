@@ -114,6 +114,10 @@ pub fn run(folder: &Path, part: &Part) -> anyhow::Result<String> {
     let kind = spec.kind();
     let columns = kind.columns()?;
     let (written, read) = kind.files(folder);
+    // Said now and not hours later. What is not in the folder may be the name of a species.
+    if let Some(missing) = read.iter().find(|path| path.starts_with(folder) && !path.exists()) {
+        bail!("cannot use {}: there is no such file", missing.display());
+    }
     let outputs = Outputs::declare(folder, written, read)?;
     let kept = match (&spec, part.methods.is_empty()) {
         (_, true) => Vec::new(),

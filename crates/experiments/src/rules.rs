@@ -1,20 +1,18 @@
 //! Grammars evolved from nothing, goal by goal: overlap, likeness and length of what is found.
 
+use super::pictured::{draw, load_view, write_species};
 use super::record::{self, Fixed};
-use super::spec::{GoalSpec, OTHER_NAME, Repetitions, Source};
-use super::within::{FileName, List, Real, Seconds};
-use super::{Journal, Kind, Outputs, Slice, Table, pictured, progress, stop};
+use super::spec::{GoalSpec, Repetitions, Source};
+use super::within::{List, Real, Seconds};
+use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use anyhow::{Context, bail};
 use pleach_console::{files, output};
 use pleach_fit::{
-    Budget, Control, FitProblem, FitSettings, GoalSettings, GoalView, Guessing, RulesSettings, fit_goal,
-    fresh_seeds,
+    Budget, Control, FitProblem, FitSettings, GoalSettings, Guessing, RulesSettings, fit_goal, fresh_seeds,
 };
-use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::score::ScoreCard;
-use pleach_silhouette::{Bitmap, Rasterizer, View, picture};
-use pleach_tree::species::Appearance;
-use pleach_tree::{Limits, Parts, Species, SpeciesDoc};
+use pleach_silhouette::{Bitmap, picture};
+use pleach_tree::{Foliage, Limits, SpeciesDoc};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -77,12 +75,7 @@ pub(super) struct RulesSpec {
 
 impl RulesSpec {
     pub(super) fn checked(self, source: &Source) -> anyhow::Result<Self> {
-        for goal in &self.goals {
-            if let Err(message) = goal.get_ref().name().parse::<FileName>() {
-                return Err(source.wrong(goal.span(), format!("{message}; `name` can be another")));
-            }
-        }
-        source.all_differ(&self.goals, GoalSpec::name, OTHER_NAME)?;
+        source.are_names_of_files(&self.goals, GoalSpec::name)?;
         Ok(self)
     }
 
@@ -174,20 +167,14 @@ impl RulesSpec {
         let species = fitted.species()?;
         let tree_seed = fitted.best.genome.tree_seed;
         let view = &fitted.problem.goals[0];
-        let card = ScoreCard::new(&draw(&species, tree_seed, view)?, &view.goal)?;
+        let card = ScoreCard::new(&draw(&species, tree_seed, Foliage::All, view)?, &view.goal)?;
         let (objective, genome) = (fitted.settings.objective, &fitted.best.genome);
         let fresh = fresh_seeds(&fitted.problem, objective, Limits::default(), genome, FRESH, stop::flag())?;
         if seed == 1 && !stop::is_raised() {
             files::make_folder(&folder.join("fits"))?;
             let name = goal.name();
             let path = folder.join(species_file(&name));
-            let kept = Species {
-                name,
-                description: String::new(),
-                appearance: Appearance::default(),
-                ..species.clone()
-            };
-            files::write_text(&path, &kept.to_toml(&[]))?;
+            write_species(&path, &name, &species)?;
         }
         let variation = species.generator.variation().context("a searched grammar can be searched")?;
         Ok(Found {
@@ -214,14 +201,14 @@ impl RulesSpec {
             let path = folder.join(species_file(&name));
             let species = pleach_generators::species(&path.to_string_lossy())?;
             let seed = species.tree_seed.with_context(|| format!("{} has no seed", path.display()))?;
-            let found = draw(&species, seed, view)?;
+            let found = draw(&species, seed, Foliage::All, view)?;
             let (width, height) = (found.width(), found.height());
             let differs = Bitmap::from_fn(width, height, |x, y| found.get(x, y) != view.goal.get(x, y));
             let small = |bitmap: &Bitmap| bitmap.downscaled(0.5);
             cells.push((name, small(&view.goal)));
             cells.push(("found".to_owned(), small(&found)));
             cells.push(("difference".to_owned(), small(&differs)));
-            cells.push(("another seed".to_owned(), small(&draw(&species, seed + 1, view)?)));
+            cells.push(("another seed".to_owned(), small(&draw(&species, seed + 1, Foliage::All, view)?)));
         }
         outputs.picture(SHEET, &picture::sheet(&cells, COLUMNS))
     }
@@ -229,19 +216,8 @@ impl RulesSpec {
 
 /// The goal, and a family's species without rules to begin with.
 fn problem(folder: &Path, goal: &GoalSpec) -> anyhow::Result<FitProblem> {
-    let options = GoalOptions { max_side: Some(pictured::SIZE), ..GoalOptions::default() };
-    let path = folder.join(&goal.file);
-    let picture = Goal::load(&path, &options).with_context(|| format!("cannot use {}", path.display()))?;
     let varied = || pleach_generators::families().iter().find_map(|f| Some((*f, f.blank()?)));
     let (family, blank) = varied().context("a family has rules")?;
     let start = SpeciesDoc::parse("blank", blank)?.species(family)?;
-    let frame = picture.frame(*goal.height);
-    Ok(FitProblem::new(start, GoalView::new(picture.bitmap, View::FRONT, frame)))
-}
-
-fn draw(species: &Species, seed: u64, view: &GoalView) -> anyhow::Result<Bitmap> {
-    let tree = species.grow(seed)?;
-    let mut bitmap = Bitmap::default();
-    Rasterizer::new().draw(&tree, &view.view, &view.frame, Parts::LEAFY, &mut bitmap);
-    Ok(bitmap)
+    Ok(FitProblem::new(start, load_view(folder, &goal.file, *goal.height)?))
 }

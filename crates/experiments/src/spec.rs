@@ -212,19 +212,25 @@ impl Source {
         }
         Ok(())
     }
-}
 
-/// What to do about two goals of one name.
-pub(super) const OTHER_NAME: &str = ": give one of the two another `name`";
+    /// Fails where the name of a goal cannot be that of a file, or is that of an earlier one.
+    pub(super) fn are_names_of_files<T>(
+        &self,
+        goals: &[Spanned<T>],
+        name: impl Fn(&T) -> String,
+    ) -> anyhow::Result<()> {
+        for goal in goals {
+            if let Err(message) = name(goal.get_ref()).parse::<FileName>() {
+                return Err(self.wrong(goal.span(), format!("{message}; `name` can be another")));
+            }
+        }
+        self.all_differ(goals, name, ": give one of the two another `name`")
+    }
+}
 
 impl FitsSpec {
     pub(super) fn checked(self, source: &Source) -> anyhow::Result<Self> {
-        for goal in &self.goals {
-            if let Err(message) = goal.get_ref().name().parse::<FileName>() {
-                return Err(source.wrong(goal.span(), format!("{message}; `name` can be another")));
-            }
-        }
-        source.all_differ(&self.goals, GoalSpec::name, OTHER_NAME)?;
+        source.are_names_of_files(&self.goals, GoalSpec::name)?;
         source.all_differ(&self.optimizers, |word| word.text.clone(), "")?;
         Ok(self)
     }

@@ -6,14 +6,17 @@ use crate::view::Frame;
 /// Ink at each end of a row that is not counted, in permille: single twigs are no crown.
 const STRAY: usize = 15;
 
-/// At `rows` even heights from the ground to `height` meters, how far the ink of `bitmap` reaches to the
+/// Heights at which an outline is read.
+const ROWS: u32 = 48;
+
+/// At 48 even heights from the ground to `height` meters, how far the ink of `bitmap` reaches to the
 /// left and to the right of the foot, in meters; negative where all of it is on the other side. `None`
 /// where there is no ink.
 ///
 /// Each row is a band of pixels, so that gaps between branches do not count.
 #[must_use]
-pub fn outline(bitmap: &Bitmap, frame: &Frame, height: f64, rows: u32) -> Vec<Option<[f64; 2]>> {
-    let steps = f64::from(rows.max(2) - 1);
+pub fn outline(bitmap: &Bitmap, frame: &Frame, height: f64) -> Vec<Option<[f64; 2]>> {
+    let steps = f64::from(ROWS - 1);
     let pixel = |z: f64| (frame.ground_row - z / frame.meters_per_pixel).max(0.0);
     let meters = |column: f64| (column - frame.axis_column) * frame.meters_per_pixel;
     let row = |i: u32| {
@@ -26,7 +29,7 @@ pub fn outline(bitmap: &Bitmap, frame: &Frame, height: f64, rows: u32) -> Vec<Op
         let (first, last) = (columns.get(stray)?, columns.get(columns.len().checked_sub(stray + 1)?)?);
         Some([-meters(f64::from(*first)), meters(f64::from(*last) + 1.0)])
     };
-    (0..rows).map(row).collect()
+    (0..ROWS).map(row).collect()
 }
 
 #[cfg(test)]
@@ -39,8 +42,8 @@ mod tests {
         let bitmap = Bitmap::from_fn(100, 100, |x, y| (40..70).contains(&x) && (20..60).contains(&y));
         let frame =
             Frame { width: 100, height: 100, meters_per_pixel: 0.1, axis_column: 50.0, ground_row: 100.0 };
-        let rows = outline(&bitmap, &frame, 8.0, 48);
-        assert_eq!(rows.len(), 48);
+        let rows = outline(&bitmap, &frame, 8.0);
+        assert_eq!(rows.len(), ROWS as usize);
         assert_eq!(rows[0], None, "nothing stands on the ground");
         let [left, right] = rows[35].unwrap();
         assert!((left - 1.0).abs() < 0.11 && (right - 2.0).abs() < 0.11, "{left} {right}");

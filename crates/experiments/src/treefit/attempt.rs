@@ -3,6 +3,7 @@
 use super::goals::{self, Problem};
 use super::spec::{From, MethodSpec};
 use super::{FRESH, Fit, stop};
+use crate::pictured::draw;
 use crate::record::Fixed;
 use anyhow::Context;
 use pleach_fit::{
@@ -71,14 +72,11 @@ impl Guesses {
     }
 }
 
-/// Rows that an outline is read in.
-const ROWS: u32 = 48;
-
 /// A tree of least-cost paths in the outline of `goal`, and the lists of numbers to start from.
 fn outlined(goal: &GoalView) -> anyhow::Result<(Species, Vec<Vec<f64>>)> {
     let (_, top, _, _) = goal.goal.ink_box().context("the goal is empty")?;
     let height = (goal.frame.ground_row - f64::from(top)) * goal.frame.meters_per_pixel;
-    let rows = outline(&goal.goal, &goal.frame, height, ROWS);
+    let rows = outline(&goal.goal, &goal.frame, height);
     let side = SideView { azimuth: goal.view.azimuth, rows };
     species_around(&[side], height).context("the goal has no outline")
 }
@@ -132,7 +130,7 @@ pub(super) fn fit(
     });
 
     let drawn = |species: &Species, view: &GoalView| {
-        goals::draw(species, species.tree_seed.unwrap_or(TREE_SEED), fitted.problem.foliage, view)
+        draw(species, species.tree_seed.unwrap_or(TREE_SEED), fitted.problem.foliage, view)
     };
     let card = |species: &Species| -> anyhow::Result<ScoreCard> {
         let goal = &fitted.problem.goals[0];

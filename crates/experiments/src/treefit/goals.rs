@@ -2,13 +2,13 @@
 
 use super::spec::{Degraded, FileGoal, GoalSpec, OwnGoal};
 use super::{FRESH, stop};
-use crate::pictured::{SIZE, pictured};
+use crate::pictured::{load, load_view, pictured};
 use anyhow::Context;
 use pleach_fit::{FitProblem, Genome, GoalView, Objective, fresh_seeds};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::score::likeness::Likeness;
-use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Growth, Key, Limits, Species};
+use pleach_silhouette::{Bitmap, Frame, View};
+use pleach_tree::{Foliage, Key, Limits};
 use std::path::Path;
 
 /// A goal with what is known of it.
@@ -79,9 +79,7 @@ impl Problem {
     }
 
     fn file(folder: &Path, spec: &GoalSpec, goal: &FileGoal) -> anyhow::Result<Self> {
-        let picture = load(folder, &goal.file)?;
-        let frame = picture.frame(goal.height);
-        let view = GoalView::new(picture.bitmap, View::FRONT, frame);
+        let view = load_view(folder, &goal.file, goal.height)?;
         Ok(Self {
             spec: spec.clone(),
             name: spec.name(),
@@ -91,12 +89,6 @@ impl Problem {
             ceiling: None,
         })
     }
-}
-
-fn load(folder: &Path, file: &Path) -> anyhow::Result<Goal> {
-    let options = GoalOptions { max_side: Some(SIZE), ..GoalOptions::default() };
-    let path = folder.join(file);
-    Goal::load(&path, &options).with_context(|| format!("cannot use {}", path.display()))
 }
 
 /// Seed of the own tree that stands for a foreign one when its kind's ceiling is taken.
@@ -165,17 +157,4 @@ const NOISE: u64 = 7;
 pub(super) fn iou(a: &Bitmap, b: &Bitmap) -> f64 {
     let both = a.intersection(b) as f64;
     both / ((a.ink() + b.ink()) as f64 - both).max(1.0)
-}
-
-/// The silhouette of the tree of `seed` as `view` sees it.
-pub(super) fn draw(
-    species: &Species,
-    seed: u64,
-    foliage: Foliage,
-    view: &GoalView,
-) -> anyhow::Result<Bitmap> {
-    let tree = species.grow_with(&Growth { foliage, ..Growth::seed(seed) })?;
-    let mut bitmap = Bitmap::default();
-    Rasterizer::new().draw(&tree, &view.view, &view.frame, foliage.into(), &mut bitmap);
-    Ok(bitmap)
 }

@@ -10,14 +10,13 @@ mod spec;
 pub(super) use row::Fit;
 pub(super) use spec::TreefitSpec;
 
+use super::pictured::write_species;
 use super::record::{self, Row};
 use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use anyhow::{Context, bail};
 use attempt::Guesses;
 use goals::Problem;
 use pleach_console::files;
-use pleach_tree::Species;
-use pleach_tree::species::Appearance;
 use spec::{GoalSpec, MethodSpec};
 use std::path::{Path, PathBuf};
 
@@ -142,15 +141,4 @@ impl TreefitSpec {
         }
         Ok(result.row)
     }
-}
-
-/// A fit as a species file, so that anybody can grow it.
-fn write_species(path: &Path, name: &str, species: &Species) -> anyhow::Result<()> {
-    let species = Species {
-        name: name.to_owned(),
-        description: String::new(),
-        appearance: Appearance::default(),
-        ..species.clone()
-    };
-    files::write_text(path, &species.to_toml(&[]))
 }

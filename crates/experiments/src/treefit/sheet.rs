@@ -1,9 +1,9 @@
 //! All goals with what the first method made of them.
 
-use super::goals::{self, Problem};
+use super::goals::Problem;
 use super::spec::TreefitSpec;
 use super::{Outputs, fit_file, guess_file};
-use crate::pictured::SIZE;
+use crate::pictured::{self, SIZE};
 use anyhow::Context;
 use pleach_silhouette::{Bitmap, picture};
 use std::path::Path;
@@ -30,7 +30,7 @@ pub(super) fn draw(folder: &Path, spec: &TreefitSpec, outputs: &Outputs) -> anyh
             }
             let species = pleach_generators::species(&path.to_string_lossy())?;
             let seed = species.tree_seed.with_context(|| format!("{} has no seed", path.display()))?;
-            Ok(small(&goals::draw(&species, seed + further, problem.fit.foliage, view)?))
+            Ok(small(&pictured::draw(&species, seed + further, problem.fit.foliage, view)?))
         };
         let name = &problem.name;
         cells.push((name.clone(), small(&view.goal)));

@@ -1,6 +1,6 @@
 //! What the benchmark's `experiment.toml` says.
 
-use crate::spec::{Evaluations, OTHER_NAME, Repetitions, Seed, Source, stem};
+use crate::spec::{Evaluations, Repetitions, Seed, Source, stem};
 use crate::within::{Azimuth, FileName, List, Meters, Real, Seconds, SpeciesName, Word};
 use pleach_fit::{Objective, Optimizer};
 use pleach_generators::GeneratorChoice;
@@ -24,12 +24,7 @@ pub(in super::super) struct TreefitSpec {
 
 impl TreefitSpec {
     pub(in super::super) fn checked(self, source: &Source) -> anyhow::Result<Self> {
-        for goal in &self.goals {
-            if let Err(message) = goal.get_ref().name().parse::<FileName>() {
-                return Err(source.wrong(goal.span(), format!("{message}; `name` can be another")));
-            }
-        }
-        source.all_differ(&self.goals, GoalSpec::name, OTHER_NAME)?;
+        source.are_names_of_files(&self.goals, GoalSpec::name)?;
         source.all_differ(&self.methods, |method| method.name.clone(), "")?;
         for method in &self.methods {
             let MethodSpec { evaluations, seconds, .. } = method.get_ref();

@@ -152,7 +152,7 @@ impl SearchArgs {
             }
             (None, _) if self.volume_from.is_some() => GeneratorChoice::Family(outlined),
             (None, start::From::Auto | start::From::Random) if self.evolve_rules => start::varied_family()?,
-            (Some(choice), _) => choice.clone(),
+            (Some(choice), _) => *choice,
             (None, start::From::Species(name)) => {
                 GeneratorChoice::Family(crate::input::species(name)?.generator.family())
             }

@@ -45,8 +45,6 @@ pub(super) struct Outlined {
     lists: Vec<Vec<f64>>,
 }
 
-/// Rows that an outline is read in.
-const ROWS: u32 = 48;
 /// Views from higher or lower than this, in radians, show no outline by height.
 const MAX_ELEVATION: f64 = 0.2;
 
@@ -55,7 +53,7 @@ impl Outlined {
     pub(super) fn new(from: &VolumeFrom, goals: &[GoalView], height: f64) -> anyhow::Result<Self> {
         let side = |bitmap: &Bitmap, frame: &Frame, view: &View| SideView {
             azimuth: view.azimuth,
-            rows: outline(bitmap, frame, height, ROWS),
+            rows: outline(bitmap, frame, height),
         };
         let views = match from {
             VolumeFrom::Goal => {
