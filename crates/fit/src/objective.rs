@@ -23,13 +23,11 @@ pub enum Objective {
     /// like a tree of the kind. What fits best: chosen by experiment on goals of other seeds.
     #[default]
     Balance,
-    /// 1 − intersection over union of the ink, of trees whose likeness is at least 0.78; where it is less,
-    /// more: ink on ink, as far as that goes with what looks like a tree of the kind.
-    Overlap,
     /// 1 − the mean of the overlaps of [`Objective::Iou`] and [`Objective::Blend`], of trees whose likeness is at
-    /// least 0.765; where it is less, more. Asks for both, overlap and likeness, and shows a search from
-    /// nothing the way from far off: what searches over rules make small by default.
-    Both,
+    /// least 0.765; where it is less, more: ink on ink, as far as that goes with what looks like a tree of the
+    /// kind. The blend shows a search from nothing the way from far off: what searches over rules make small by
+    /// default.
+    Overlap,
 }
 
 /// A word that names no objective.
@@ -42,8 +40,8 @@ pub struct UnknownObjective {
 
 impl Objective {
     /// All objectives.
-    pub const ALL: [Self; 7] =
-        [Self::Balance, Self::Overlap, Self::Both, Self::Blend, Self::Likeness, Self::Iou, Self::Accuracy];
+    pub const ALL: [Self; 6] =
+        [Self::Balance, Self::Overlap, Self::Blend, Self::Likeness, Self::Iou, Self::Accuracy];
 
     /// The name on the command line.
     #[must_use]
@@ -55,7 +53,6 @@ impl Objective {
             Self::Likeness => "likeness",
             Self::Balance => "balance",
             Self::Overlap => "overlap",
-            Self::Both => "both",
         }
     }
 }
@@ -63,7 +60,7 @@ impl Objective {
 impl Objective {
     /// Whether it looks at likeness.
     pub(crate) const fn looks(self) -> bool {
-        matches!(self, Self::Likeness | Self::Balance | Self::Overlap | Self::Both)
+        matches!(self, Self::Likeness | Self::Balance | Self::Overlap)
     }
 }
 
@@ -96,7 +93,7 @@ mod tests {
         let message = "likenes".parse::<Objective>().unwrap_err().to_string();
         assert_eq!(
             message,
-            "unknown objective `likenes`, known are balance, overlap, both, blend, likeness, iou, accuracy"
+            "unknown objective `likenes`, known are balance, overlap, blend, likeness, iou, accuracy"
         );
     }
 }

@@ -151,7 +151,7 @@ fn what_is_drawn_larger_scores_as_what_is_grown_larger() {
     let mut goal = Bitmap::default();
     Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
     let problem = FitProblem::new(species.clone(), GoalView::new(goal, View::FRONT, frame));
-    let evaluator = Evaluator::new(&problem, Objective::Both, FIT_LIMITS).unwrap().with_height_matching();
+    let evaluator = Evaluator::new(&problem, Objective::Overlap, FIT_LIMITS).unwrap().with_height_matching();
     assert!(species.generator.grows_in_proportion());
     let structure = species.generator.variation().unwrap().own();
     for factor in [0.2, 0.7, 3.0] {

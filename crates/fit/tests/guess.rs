@@ -3,14 +3,17 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
+#[path = "common/pole.rs"]
+mod pole;
 
 use common::goal_of;
 use pleach_fit::{
-    Candidate, FirstGuess, FitError, FitProblem, FitSettings, GuessLibrary, GuessSettings, TreeSeed,
-    first_guess,
+    Candidate, FirstGuess, FitError, FitProblem, FitSettings, GoalView, GuessLibrary, GuessSettings,
+    TreeSeed, first_guess,
 };
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::{Foliage, Parts};
+use pole::pole;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering;
 
@@ -137,6 +140,33 @@ fn a_library_serves_many_goals_and_gives_the_bits_of_a_fresh_one() {
     let again = library.first_guess(&goals[0], &settings, &candidates(), &how, &GO, |_, _| ()).unwrap();
     let fresh = first_guess(&goals[0], &settings, &candidates(), &how, &GO, |_, _| ()).unwrap();
     assert_eq!(bits(&again), bits(&fresh));
+}
+
+/// Of more than two dozen candidates the near ones alone are compared closely, other ones for each goal.
+#[test]
+fn what_is_near_one_goal_is_not_kept_for_the_next() {
+    let girth = |number: u32| 0.005 * 1.15_f64.powi(number as i32);
+    let name = |number: u32| format!("pole_{number}");
+    let many: Vec<Candidate> =
+        (0..30).map(|number| Candidate::from(pole(&name(number), 10.0, girth(number)))).collect();
+    let goal = |number| {
+        let tree = pole("goal", 20.0, girth(number)).grow(1).unwrap();
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 128, 128);
+        let mut drawn = Bitmap::default();
+        Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut drawn);
+        FitProblem::new(pole("start", 10.0, 0.1), GoalView::new(drawn, View::FRONT, frame))
+    };
+    let settings = FitSettings::default();
+    let how = GuessSettings { variants: 2, ..GuessSettings::default() };
+    let mut library = GuessLibrary::new();
+    for number in [29, 22, 29] {
+        let mut guess = |library: &mut GuessLibrary| {
+            library.first_guess(&goal(number), &settings, &many, &how, &GO, |_, _| ()).unwrap()
+        };
+        let (kept, fresh) = (guess(&mut library), guess(&mut GuessLibrary::new()));
+        assert_eq!(bits(&kept), bits(&fresh), "{number}");
+        assert_eq!(kept.names[0].0, name(number));
+    }
 }
 
 #[test]

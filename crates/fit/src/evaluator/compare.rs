@@ -102,19 +102,15 @@ impl PreparedView {
             Objective::Blend => blend(&overlaps),
             Objective::Likeness => alike,
             Objective::Balance => f64::midpoint(blend(&overlaps), alike),
-            Objective::Overlap => iou * (alike / ALIKE).min(1.0).powi(2),
-            Objective::Both => f64::midpoint(iou, blend(&overlaps)) * (alike / BOTH_ALIKE).min(1.0).powi(2),
+            Objective::Overlap => f64::midpoint(iou, blend(&overlaps)) * (alike / ALIKE).min(1.0).powi(2),
         };
         Agreement { accuracy, iou, value, likeness }
     }
 }
 
 /// Likeness from which on [`Objective::Overlap`] asks for no more: a little less than two trees of a species
-/// have to each other.
-const ALIKE: f64 = 0.78;
-/// The same of [`Objective::Both`]: what is drawn more finely than in a search may be a little less alike and
-/// still has three quarters.
-const BOTH_ALIKE: f64 = 0.765;
+/// have to each other, and enough for three quarters where a picture is drawn more finely than in a search.
+const ALIKE: f64 = 0.765;
 
 /// The mean of overlaps over cell sizes: cells of 32, 16, 8, 4 and 2 pixels, then single pixels.
 ///
@@ -150,22 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn overlap_counts_as_far_as_it_is_alike() {
-        let views = box_views();
-        let compare = |picture: &Bitmap| {
-            views[0].compare(picture, Objective::Overlap, Likeness::IfNeeded, &mut Comparisons::default())
-        };
-        assert_eq!(compare(&picture(20, 40)).value, 1.0);
-        let near = compare(&picture(21, 40));
-        assert!(near.likeness.unwrap() > ALIKE);
-        assert_eq!(near.value, near.iou);
-        let far = compare(&picture(4, 60));
-        let share = far.likeness.unwrap() / ALIKE;
-        assert!(share < 1.0 && (far.value - far.iou * share * share).abs() < 1e-12);
-    }
-
-    #[test]
-    fn both_counts_what_is_near_and_as_far_as_it_is_alike() {
+    fn overlap_counts_what_is_near_and_as_far_as_it_is_alike() {
         let views = box_views();
         let value = |picture: &Bitmap, objective| {
             let memory = &mut Comparisons::default();
@@ -173,13 +154,13 @@ mod tests {
         };
         for (left, right) in [(20, 40), (21, 40), (4, 60)] {
             let picture = picture(left, right);
-            let both = value(&picture, Objective::Both);
-            let overlaps = f64::midpoint(both.iou, value(&picture, Objective::Blend).value);
-            let share = (both.likeness.unwrap() / BOTH_ALIKE).min(1.0);
-            assert!((both.value - overlaps * share * share).abs() < 1e-12, "{left} to {right}");
+            let found = value(&picture, Objective::Overlap);
+            let overlaps = f64::midpoint(found.iou, value(&picture, Objective::Blend).value);
+            let share = (found.likeness.unwrap() / ALIKE).min(1.0);
+            assert!((found.value - overlaps * share * share).abs() < 1e-12, "{left} to {right}");
         }
         // Beside each other: a search sees which of two is nearer.
-        let [near, far] = [(42, 60), (50, 60)].map(|(l, r)| value(&picture(l, r), Objective::Both));
+        let [near, far] = [(42, 60), (50, 60)].map(|(l, r)| value(&picture(l, r), Objective::Overlap));
         assert!(near.iou == 0.0 && far.iou == 0.0 && near.value > far.value);
     }
 }

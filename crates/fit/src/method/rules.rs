@@ -36,7 +36,7 @@ pub struct RulesSettings {
 impl RulesSettings {
     /// What a search over rules makes small if nobody says otherwise. Chosen by experiment: with
     /// [`Objective::Balance`] grammars look like their goals and lie worse on them than an ellipse.
-    pub const OBJECTIVE: Objective = Objective::Both;
+    pub const OBJECTIVE: Objective = Objective::Overlap;
 }
 
 impl Default for RulesSettings {

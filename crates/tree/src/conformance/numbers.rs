@@ -126,11 +126,20 @@ pub fn resizing_is_similar_or_refused(family: &dyn Family) {
         }
         assert_eq!(resized(f64::INFINITY), None, "{name} cannot be of any size");
         let Some(params) = resized(2.0) else { continue };
-        let height = |species: &Species| {
-            let tree = species.grow(SEED).unwrap_or_else(|error| panic!("{name} grows: {error}"));
-            tree.knots.iter().map(|knot| knot.point.z).fold(0.0, f64::max)
-        };
-        let ratio = height(&Species { params, ..species.clone() }) / height(&species);
+        let tree =
+            |species: &Species| species.grow(SEED).unwrap_or_else(|error| panic!("{name} grows: {error}"));
+        let height = |tree: &Tree| tree.knots.iter().map(|knot| knot.point.z).fold(0.0, f64::max);
+        let (one, twice) = (tree(&species), tree(&Species { params, ..species.clone() }));
+        let ratio = height(&twice) / height(&one);
         assert!((1.98..2.02).contains(&ratio), "{name}: twice the size is {ratio} times the height");
+        if species.generator.grows_in_proportion() {
+            let least = 1e-9 * height(&twice);
+            assert_eq!(one.knots.len(), twice.knots.len(), "{name}: twice the size has as many knots");
+            for (a, b) in one.knots.iter().zip(&twice.knots) {
+                let is_twice =
+                    (a.point * 2.0).distance(b.point) < least && (a.radius * 2.0 - b.radius).abs() < least;
+                assert!(is_twice, "{name}: twice {a:?} is {b:?}");
+            }
+        }
     }
 }
