@@ -159,7 +159,13 @@ impl RulesSpec {
             rules: Some(RulesSettings::default()),
             ..FitSettings::default()
         };
-        let settings = GoalSettings { search, guess: Guessing::Off, candidates: Vec::new(), judging: None };
+        let settings = GoalSettings {
+            search,
+            guess: Guessing::Off,
+            candidates: Vec::new(),
+            judging: None,
+            individual: None,
+        };
         let started = Instant::now();
         let clock = || started.elapsed();
         let fitted = fit_goal(&problem, &settings, Control::new(&clock, stop::flag()))?;

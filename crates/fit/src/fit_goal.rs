@@ -6,6 +6,7 @@ use crate::control::{Control, Outcome};
 use crate::error::FitError;
 use crate::genome::Scored;
 use crate::guess::{Candidate, FirstGuess, GuessLibrary, GuessSettings, References};
+use crate::individual::{FoundIndividual, IndividualSettings, individual};
 use crate::judged::{Judge, Judged, Judging};
 use crate::problem::FitProblem;
 use crate::run::fit;
@@ -27,6 +28,8 @@ pub struct GoalSettings {
     pub candidates: Vec<Candidate>,
     /// How the result is judged; none leaves it as the search has found it.
     pub judging: Option<Judging>,
+    /// How the goal's own tree is searched among the trees of the kind, once that is found; none if it is not.
+    pub individual: Option<IndividualSettings>,
 }
 
 /// Where the species comes from that a fit starts from.
@@ -42,7 +45,8 @@ pub enum Guessing {
 }
 
 impl GoalSettings {
-    /// A search as by default, from the candidates that look most like the goal, and judged.
+    /// A search as by default, from the candidates that look most like the goal, and judged; without an
+    /// individual.
     #[must_use]
     pub fn new(candidates: Vec<Candidate>) -> Self {
         Self {
@@ -50,6 +54,7 @@ impl GoalSettings {
             guess: Guessing::Compare(GuessSettings::default()),
             candidates,
             judging: Some(Judging::default()),
+            individual: None,
         }
     }
 }
@@ -71,6 +76,8 @@ pub struct Fitted {
     pub best: Scored,
     /// What it is worth; none if the fit was interrupted or nobody asked.
     pub judged: Option<Judged>,
+    /// This very tree; none if nobody asked, the fit was interrupted, or stems of the generator have no addresses.
+    pub individual: Option<FoundIndividual>,
 }
 
 impl Fitted {
@@ -178,8 +185,18 @@ pub fn fit_goal_with(
             Err(error) => return Err(error),
         }
     }
+    let mut found = None;
+    if let (Some(how), false) = (settings.individual, outcome.stop == StopReason::Interrupted) {
+        let Control { clock, stop, observers, .. } = &mut control;
+        let tell = |progress: &_| observers.iter_mut().for_each(|observer| observer.individual(progress));
+        match individual(&begun.problem, &best.genome, how, *clock, stop, tell) {
+            Ok(individual) => found = individual,
+            Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
+            Err(error) => return Err(error),
+        }
+    }
     let Begun { problem, settings, guess } = begun;
-    Ok(Fitted { problem, settings, guess, outcome, best, judged })
+    Ok(Fitted { problem, settings, guess, outcome, best, judged, individual: found })
 }
 
 /// Finds out where the search begins.

@@ -11,6 +11,7 @@
 //! | the search alone | [`fit`], [`FitSettings`], [`Control`], [`Outcome`] |
 //! | what is made small | [`Objective`], [`Evaluator`]: grow, draw, score, without allocating |
 //! | optimisers | [`Optimizer`], [`Method`], [`Search`]; with argmin: [`ArgminSolver`] |
+//! | this very tree | [`individual()`]: draws of single stems, [`IndividualSettings`], [`FoundIndividual`] |
 //! | what a result is worth | [`fresh_seeds`], [`profile()`], [`Verdict`] |
 //! | watching and stopping | [`Observer`], [`Budget`], [`StopReason`], [`Clock`] |
 //!
@@ -38,6 +39,7 @@ mod fresh;
 mod genome;
 mod guess;
 mod history;
+mod individual;
 mod judged;
 mod method;
 mod nuisance;
@@ -72,6 +74,7 @@ pub use guess::{
     first_guess,
 };
 pub use history::{COLUMNS, Column, Row};
+pub use individual::{FoundIndividual, IndividualProgress, IndividualSettings, individual};
 pub use judged::{Judged, Judging};
 pub use method::{
     Cma, CmaSettings, Evolution, EvolutionSettings, Hewitt, HewittSettings, Merge, Method, MethodSettings,

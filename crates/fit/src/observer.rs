@@ -5,6 +5,7 @@ use crate::checkpoint::CheckpointError;
 use crate::error::ObserverError;
 use crate::genome::Scored;
 use crate::history::Row;
+use crate::individual::IndividualProgress;
 use std::time::Duration;
 
 /// How far a fit is, between two batches.
@@ -65,4 +66,9 @@ pub trait Observer {
 
     /// After the search: its best is now judged, which takes some seconds.
     fn judging(&mut self) {}
+
+    /// While the goal's own tree is searched, which comes last.
+    fn individual(&mut self, progress: &IndividualProgress) {
+        let _ = progress;
+    }
 }

@@ -160,7 +160,7 @@ fn what_is_near_one_goal_is_not_kept_for_the_next() {
     let how = GuessSettings { variants: 2, ..GuessSettings::default() };
     let mut library = GuessLibrary::new();
     for number in [29, 22, 29] {
-        let mut guess = |library: &mut GuessLibrary| {
+        let guess = |library: &mut GuessLibrary| {
             library.first_guess(&goal(number), &settings, &many, &how, &GO, |_, _| ()).unwrap()
         };
         let (kept, fresh) = (guess(&mut library), guess(&mut GuessLibrary::new()));

@@ -82,7 +82,7 @@ pub(crate) fn grow(
 
 struct Grower<'a> {
     model: &'a Model,
-    growth: &'a Growth,
+    growth: &'a Growth<'a>,
     scratch: &'a mut Scratch,
     tree: &'a mut Tree,
     work: u64,
@@ -97,7 +97,7 @@ impl Grower<'_> {
         }
         let (index, first_knot) = (self.tree.stems.len() as u32, self.tree.knots.len() as u32);
         let &Shoot { first, parent, level, kind, offset } = shoot;
-        self.tree.stems.push(Stem { parent, level, kind, offset, first_knot, knot_count: 1 });
+        self.tree.stems.push(Stem { parent, level, kind, number: 0, offset, first_knot, knot_count: 1 });
         self.knot(first.foot, first.radius)?;
         let (mut branch, mut length) = (first, 0.0);
         loop {

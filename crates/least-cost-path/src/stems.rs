@@ -147,6 +147,7 @@ impl Stems {
             parent: waiting.parent,
             level: waiting.level,
             kind: if waiting.parent.is_some() && kind == StemKind::Trunk { StemKind::Branch } else { kind },
+            number: 0,
             offset: if waiting.parent.is_some() { offset } else { 0.0 },
             first_knot: tree.knots.len() as u32,
             knot_count: self.nodes.len() as u32,

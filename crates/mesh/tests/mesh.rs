@@ -129,8 +129,15 @@ fn settings_out_of_range_are_moved_into_it() {
 
 /// A pole with a root, leaves of two shapes and a blob: what no Weber–Penn tree has.
 fn mixed() -> Tree {
-    let stem =
-        |kind, first_knot| Stem { parent: None, level: 0, kind, offset: 0.0, first_knot, knot_count: 2 };
+    let stem = |kind, first_knot| Stem {
+        parent: None,
+        level: 0,
+        kind,
+        number: 0,
+        offset: 0.0,
+        first_knot,
+        knot_count: 2,
+    };
     let knot = |x: f64, z: f64| {
         let point = glam::dvec3(x, 0.0, z);
         Knot { point, handle_in: point, handle_out: point, radius: 0.1 }

@@ -123,7 +123,7 @@ mod tests {
         {
             let first_knot = tree.knots.len() as u32;
             let level = u16::from(parent.is_some());
-            tree.stems.push(Stem { parent, level, kind, offset: 0.0, first_knot, knot_count: 2 });
+            tree.stems.push(Stem { parent, level, kind, number: 0, offset: 0.0, first_knot, knot_count: 2 });
             tree.knots.extend(ends.map(|point| Knot {
                 point,
                 handle_in: point,

@@ -27,5 +27,5 @@ pub use bitmap::Bitmap;
 pub use four_views::{FOUR_VIEWS, four_views};
 pub use goal::{Goal, GoalError, GoalOptions, GoalWarning, Polarity};
 pub use outline::outline;
-pub use raster::{Detail, Rasterizer, silhouette};
+pub use raster::{Detail, Layer, LayerPainter, Rasterizer, Stack, silhouette};
 pub use view::{Camera, Frame, Projection, View};

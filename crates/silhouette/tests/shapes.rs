@@ -25,6 +25,7 @@ fn tree(stems: &[[Knot; 2]], leaves: Vec<Leaf>) -> Tree {
             parent: None,
             level: 0,
             kind: StemKind::Trunk,
+            number: 0,
             offset: 0.0,
             first_knot: 2 * i as u32,
             knot_count: 2,

@@ -62,6 +62,7 @@ impl Writer<'_> {
             parent: chain.parent,
             level: chain.level,
             kind: chain.kind,
+            number: 0,
             offset: chain.offset * self.scale,
             first_knot: self.tree.knots.len() as u32,
             knot_count: knots.len() as u32,

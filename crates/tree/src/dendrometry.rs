@@ -94,6 +94,7 @@ mod tests {
             parent: None,
             level: 0,
             kind: StemKind::Trunk,
+            number: 0,
             offset: 0.0,
             first_knot,
             knot_count: 2,

@@ -5,6 +5,7 @@
 
 use crate::grow_error::{Conflict, GrowError};
 use crate::growth::{Growth, Workspace};
+use crate::individual::{Individual, Spread};
 use crate::model::ModelId;
 use crate::param::{CheckedParams, ParamSpace, Slot};
 use crate::plant::Tree;
@@ -35,10 +36,30 @@ pub trait Generator: Send + Sync + fmt::Debug {
     fn grow(
         &self,
         params: &CheckedParams,
-        growth: &Growth,
+        growth: &Growth<'_>,
         workspace: &mut Workspace,
         tree: &mut Tree,
     ) -> Result<(), GrowError>;
+
+    /// How far draws of single stems may lie from their own ([`Growth::draws`]) in trees of these `values`, level
+    /// by level; empty where stems have no addresses.
+    ///
+    /// Where it is not empty, every stem of a tree has another [path](Tree::path_of), other draws of a stem change
+    /// that stem and what it carries, and no other part of the tree.
+    fn spreads(&self, values: &[f64]) -> Vec<Spread> {
+        let _ = values;
+        Vec::new()
+    }
+
+    /// The generator without the draws that make one of its trees an individual, if it has such.
+    fn kind(&self) -> Option<Arc<dyn Generator>> {
+        None
+    }
+
+    /// The draws that make one of its trees an individual, if it has such.
+    fn individual(&self) -> Option<&Individual> {
+        None
+    }
 
     /// The parts of a species file beside the numbers (solids, a grammar), as TOML lines that
     /// follow the parameters; empty if there are none. Two generators of a family with the same

@@ -1,5 +1,6 @@
 //! One request to grow a tree, and what is reused from one tree to the next.
 
+use crate::individual::{Address, Draw, Draws};
 use std::any::Any;
 use std::fmt;
 
@@ -45,8 +46,8 @@ pub enum Foliage {
 }
 
 /// One request to grow a tree.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Growth {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Growth<'a> {
     /// Seed of the tree.
     pub seed: u64,
     /// Bounds that turn runaway trees into errors.
@@ -55,13 +56,21 @@ pub struct Growth {
     pub foliage: Foliage,
     /// Whether the stems of a big tree may be grown on rayon's threads. The tree is the same.
     pub parallel: bool,
+    /// Stems with draws of their own; generators without [spreads](crate::Generator::spreads) have none.
+    pub draws: Option<&'a Draws>,
 }
 
-impl Growth {
+impl Growth<'_> {
     /// A whole tree from `seed` on the calling thread, within the default limits.
     #[must_use]
     pub fn seed(seed: u64) -> Self {
         Self { seed, ..Self::default() }
+    }
+
+    /// What the stem at `address`, of `level`, has drawn in place of its own draws.
+    #[must_use]
+    pub fn draw(&self, address: Address, level: usize) -> Draw {
+        self.draws.map_or(Draw::OWN, |draws| draws.at(address, level))
     }
 }
 

@@ -14,6 +14,7 @@
 //! | [`leaf_shape`] | outlines of ten leaves and faces of three blossoms |
 //! | [`param`] | one declaration of a parameter, and everything that follows from it |
 //! | [`species`] | reading and writing species files |
+//! | [`individual`] | one particular tree: stems with draws of their own |
 //! | [`generator`] | the traits that generators implement |
 //! | [`stats`] | measurements of a tree, with fixed names |
 //! | [`dendrometry`] | height, crown and stem diameter, as foresters measure them |
@@ -30,6 +31,7 @@ pub mod dendrometry;
 pub mod generator;
 mod grow_error;
 mod growth;
+pub mod individual;
 pub mod leaf_shape;
 mod model;
 pub mod param;
@@ -45,6 +47,7 @@ mod variation;
 pub use generator::Generator;
 pub use grow_error::{Blame, Conflict, GrowError};
 pub use growth::{Foliage, Growth, Limits, Workspace};
+pub use individual::{Address, Draw, Draws, Individual, Spread};
 pub use model::ModelId;
 pub use param::{CheckedParams, Kind, Param, ParamSpace, Slot, Unit};
 pub use plant::{Blob, Knot, Leaf, MalformedTree, Parts, Stem, StemKind, Tree};

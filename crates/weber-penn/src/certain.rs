@@ -26,7 +26,7 @@ pub(crate) struct Certain {
 }
 
 /// The error of a tree that is certain to be too large.
-pub(crate) fn refusal(model: &Model, growth: &Growth) -> Option<GrowError> {
+pub(crate) fn refusal(model: &Model, growth: &Growth<'_>) -> Option<GrowError> {
     let certain = Certain::new(model);
     let limits = growth.limits;
     let deepest = model.level_count - 1;

@@ -270,22 +270,28 @@ pub(crate) fn collect(
     let Buffers { path, children, budget, .. } = buffers;
     let prunes = model.prune_ratio > 0.0;
     let path = &path[first_point..];
-    spacing.sites(path, (budget, Cause::Children), |budget, site| {
+    spacing.sites(path, (budget, Cause::Children), |budget, mut site| {
         let radius_here = profile.at(site.offset / stem.length);
         // The tip of a cone has no radius to bear a fan; its base has.
         let radius_limit = if site.fan.is_some() { stem.radius } else { radius_here };
         if radius_limit < MIN_PARENT_RADIUS {
             return Ok(());
         }
-        let length = length(model, stem, child_length, site.offset);
+        let address = stem.address.child(site.number);
+        let draw = context.growth.draw(address, stem.level + 1);
+        let length = length(model, stem, child_length, site.offset) * draw.length;
         // What waits is counted as a stem, so it has to become one; pruning has the last word on it.
         let is_a_stem = length.is_finite() && length >= MIN_LENGTH;
         if !prunes && !is_a_stem {
             return Ok(());
         }
         budget.work(Cause::Children, stem.level, CHILD_STEPS)?;
+        let key = draw.key(stem.key.child(purpose::CHILD, site.number));
         let mut child = StemSpec {
-            key: stem.key.child(purpose::CHILD, site.number),
+            key,
+            fork_key: key,
+            address,
+            number: site.number,
             level: stem.level + 1,
             turtle: Turtle::UP,
             parent: Some(index),
@@ -301,8 +307,12 @@ pub(crate) fn collect(
         };
         child.radius = child.branch_radius(model);
         // The child's base sits inside the rim of its parent (Hewitt 2017, §3.2.1).
+        site.rotation += draw.azimuth;
         let ChildFrame { turtle, outward } = spacing.child_frame(path, &site);
         child.turtle = turtle;
+        if draw.pitch != 0.0 {
+            child.turtle.pitch_down(draw.pitch);
+        }
         child.turtle.position += outward * (radius_here - child.radius.min(radius_here));
         children.push(child);
         budget.wait(children.len())

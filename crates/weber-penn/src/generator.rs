@@ -6,7 +6,10 @@ use crate::model::Model;
 use crate::params::active::is_active;
 use crate::params::space;
 use crate::solid::{Solid, Surroundings};
-use pleach_tree::{CheckedParams, Conflict, Generator, GrowError, Growth, ParamSpace, Slot, Tree, Workspace};
+use crate::spread::spreads;
+use pleach_tree::{
+    CheckedParams, Conflict, Generator, GrowError, Growth, ParamSpace, Slot, Spread, Tree, Workspace,
+};
 use std::sync::Arc;
 
 /// Weber and Penn's model, with the surroundings that its trees are pruned against.
@@ -28,7 +31,7 @@ impl Generator for WeberPenn {
     fn grow(
         &self,
         params: &CheckedParams,
-        growth: &Growth,
+        growth: &Growth<'_>,
         workspace: &mut Workspace,
         tree: &mut Tree,
     ) -> Result<(), GrowError> {
@@ -43,6 +46,10 @@ impl Generator for WeberPenn {
 
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
         check(&Model::new(values))
+    }
+
+    fn spreads(&self, values: &[f64]) -> Vec<Spread> {
+        spreads(&Model::new(values))
     }
 
     fn shows_size_jitter(&self, values: &[f64]) -> bool {

@@ -19,7 +19,7 @@ use crate::trunks;
 use glam::{DVec2, DVec3};
 use pleach_tree::plant::piece;
 use pleach_tree::turtle::Turtle;
-use pleach_tree::{Foliage, GrowError, Growth, Key, Knot, Stem, StemKind, Tree};
+use pleach_tree::{Address, Draw, Foliage, GrowError, Growth, Key, Knot, Stem, StemKind, Tree};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -43,7 +43,7 @@ pub(crate) struct Scratch {
 pub(crate) struct GrowContext<'a> {
     pub(crate) model: &'a Model,
     surroundings: &'a Surroundings,
-    pub(crate) growth: &'a Growth,
+    pub(crate) growth: &'a Growth<'a>,
 }
 
 /// The tree being grown and the stacks that growing it needs.
@@ -59,7 +59,7 @@ pub(crate) struct Buffers<'a> {
 pub(crate) fn grow(
     model: &Model,
     surroundings: &Surroundings,
-    growth: &Growth,
+    growth: &Growth<'_>,
     scratch: &mut Scratch,
     tree: &mut Tree,
 ) -> Result<(), GrowError> {
@@ -93,7 +93,7 @@ impl GrowContext<'_> {
     fn tree(&self, buffers: &mut Buffers<'_>, root: Key, sites: &mut Vec<DVec2>) -> Result<(), Exceeded> {
         trunks::sites(self.model, root, sites, &mut buffers.budget)?;
         for (i, site) in sites.iter().enumerate() {
-            let trunk = self.trunk(root.child(purpose::TRUNK, i as u32), *site, sites.len() == 1);
+            let trunk = self.trunk(root, i as u32, *site, sites.len() == 1);
             // The first trunk carries no error of `seg_splits`; others start in mid-pattern.
             let mut carry = if i == 0 { 0.0 } else { trunk.key.unit(purpose::SPLIT_PHASE, 0) };
             self.stem(buffers, trunk, &mut carry)?;
@@ -116,13 +116,17 @@ impl GrowContext<'_> {
         Ok(())
     }
 
-    /// The trunk at `site`; several turn their downward side away from the middle.
-    fn trunk(&self, key: Key, site: DVec2, alone: bool) -> StemSpec {
+    /// Trunk `number` at `site`; several turn their downward side away from the middle.
+    fn trunk(&self, root: Key, number: u32, site: DVec2, alone: bool) -> StemSpec {
         let model = self.model;
+        let address = Address::trunk(number);
+        let draw = self.growth.draw(address, 0);
+        let key = draw.key(root.child(purpose::TRUNK, number));
         let level = &model.levels[0];
         let least = model.g_scale * 1e-3;
         let scale = (model.g_scale + key.signed(purpose::SCALE, 0) * model.g_scale_v).max(least);
         let length = scale * (level.length + key.signed(purpose::LENGTH, 0) * level.length_v).max(0.0);
+        let length = length * draw.length;
         let mut turtle = Turtle { position: site.extend(0.0), ..Turtle::UP };
         if alone {
             turtle.roll_right(TAU * key.unit(purpose::ROLL, 0));
@@ -131,8 +135,15 @@ impl GrowContext<'_> {
             let outwards = site.try_normalize().unwrap_or(DVec2::Y);
             turtle.right = DVec3::new(outwards.y, -outwards.x, 0.0);
         }
+        if draw != Draw::OWN {
+            turtle.roll_right(draw.azimuth);
+            turtle.pitch_down(draw.pitch);
+        }
         StemSpec {
             key,
+            fork_key: key,
+            address,
+            number,
             level: 0,
             turtle,
             parent: None,
@@ -210,7 +221,7 @@ impl GrowContext<'_> {
         let first_point = buffers.path.len();
         let first_clone = buffers.forked_stems.len();
         let first_child = buffers.children.len();
-        let mut forks = Collect { origin: stem, forked_stems: buffers.forked_stems };
+        let mut forks = Collect { growth: self.growth, origin: stem, forked_stems: buffers.forked_stems };
         buffers.budget.work(Cause::Walk, stem.level, POINT_STEPS * self.points(&stem))?;
         walk(model, &stem, stem.length, child_length, carry, buffers.path, &mut forks);
         let index = buffers.tree.stems.len() as u32;
@@ -303,6 +314,7 @@ impl GrowContext<'_> {
             parent: stem.parent,
             level: stem.level as u16,
             kind,
+            number: stem.number,
             offset: stem.offset,
             first_knot,
             knot_count,
@@ -323,14 +335,29 @@ pub(crate) const MIN_LENGTH: f64 = 1e-4;
 
 /// Collects the forks of a stem.
 struct Collect<'a> {
+    growth: &'a Growth<'a>,
     origin: StemSpec,
     forked_stems: &'a mut Vec<StemSpec>,
 }
 
 impl Forks for Collect<'_> {
-    fn clone_at(&mut self, turtle: Turtle, state: ForkStart, index: u32) {
-        let key = self.origin.key.child(purpose::CLONE, index);
-        self.forked_stems.push(StemSpec { key, turtle, forked: Some(state), ..self.origin });
+    fn clone_at(&mut self, mut turtle: Turtle, state: ForkStart, index: u32) {
+        let origin = &self.origin;
+        let address = origin.address.fork(index);
+        let draw = self.growth.draw(address, origin.level);
+        if draw != Draw::OWN {
+            turtle.rotate_about(DVec3::Z, draw.azimuth);
+            turtle.pitch_down(draw.pitch);
+        }
+        self.forked_stems.push(StemSpec {
+            key: draw.key(origin.key.child(purpose::CLONE, index)),
+            fork_key: origin.fork_key.child(purpose::CLONE, index),
+            address,
+            number: index,
+            turtle,
+            forked: Some(state),
+            ..*origin
+        });
     }
 }
 

@@ -28,6 +28,7 @@ mod prune;
 mod purpose;
 mod radius;
 mod solid;
+mod spread;
 mod stem;
 mod trunks;
 

@@ -125,7 +125,7 @@ fn forks_at(
     if level.seg_splits <= 0.0 || (stem.level == 0 && i <= base) {
         return Parting::default();
     }
-    if stem.key.unit(purpose::SPLIT, i) > fork.probability {
+    if stem.fork_key.unit(purpose::SPLIT, i) > fork.probability {
         return Parting::default();
     }
     let forked_stems = (level.seg_splits + *carry).floor().max(0.0);
@@ -142,7 +142,7 @@ fn base_splits(model: &Model, stem: &StemSpec) -> u32 {
     if model.base_splits > 0 {
         most
     } else {
-        (stem.key.unit(purpose::BASE_SPLITS, 0) * f64::from(most + 1)) as u32
+        (stem.fork_key.unit(purpose::BASE_SPLITS, 0) * f64::from(most + 1)) as u32
     }
 }
 

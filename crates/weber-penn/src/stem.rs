@@ -1,14 +1,21 @@
 //! What is known of a stem before its path is walked.
 
 use crate::model::Model;
-use pleach_tree::Key;
 use pleach_tree::turtle::Turtle;
+use pleach_tree::{Address, Key};
 
 /// A stem about to grow.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StemSpec {
-    /// Address of its random numbers.
+    /// What its random numbers follow from.
     pub(crate) key: Key,
+    /// What the numbers of its forks follow from: `key`, but of a fork with other draws its own. Forks share
+    /// what they carry over from one to the next, and none is to change for the draws of another one.
+    pub(crate) fork_key: Key,
+    /// Where it is in the tree.
+    pub(crate) address: Address,
+    /// Its number among the children, or the forks, of its parent.
+    pub(crate) number: u32,
     /// Level, 0 for trunks.
     pub(crate) level: usize,
     /// Where it starts and how it is turned.
@@ -91,6 +98,9 @@ impl StemSpec {
     pub(crate) fn test_stem() -> Self {
         Self {
             key: Key::root(1),
+            fork_key: Key::root(1),
+            address: Address::trunk(0),
+            number: 0,
             level: 1,
             turtle: Turtle::UP,
             parent: None,

@@ -102,7 +102,7 @@ impl Generator for BinaryBush {
 }
 
 struct Bush<'a> {
-    growth: &'a Growth,
+    growth: &'a Growth<'a>,
     levels: i32,
     angle: f64,
     shrink: f64,
@@ -135,6 +135,7 @@ impl Bush<'_> {
             parent: shoot.parent,
             level: level as u16,
             kind: if shoot.parent.is_some() { StemKind::Branch } else { StemKind::Trunk },
+            number: 0,
             offset: if shoot.parent.is_some() { shoot.along.length() / self.shrink } else { 0.0 },
             first_knot: tree.knots.len() as u32,
             knot_count: 2,

@@ -9,19 +9,19 @@ use pleach_silhouette::{Bitmap, Frame, Projection, View};
 
 /// Memory of the comparisons.
 #[derive(Debug, Default)]
-pub(super) struct Comparisons {
+pub(crate) struct Comparisons {
     overlaps: Scratch,
     likeness: likeness::Scratch,
 }
 
 /// A goal, with what comparisons need of it.
 #[derive(Debug)]
-pub(super) struct PreparedView {
+pub(crate) struct PreparedView {
     prepared: PreparedGoal,
     descriptor: Descriptor,
-    pub(super) goal: Bitmap,
-    pub(super) view: View,
-    pub(super) frame: Frame,
+    pub(crate) goal: Bitmap,
+    pub(crate) view: View,
+    pub(crate) frame: Frame,
     unknown: Unknown,
     /// Number of its first unknown among all nuisances.
     first: usize,
@@ -29,7 +29,7 @@ pub(super) struct PreparedView {
 
 /// Whether likeness is measured where the objective does not look at it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Likeness {
+pub(crate) enum Likeness {
     /// Only if the objective looks at it.
     IfNeeded,
     /// In any case.
@@ -37,20 +37,20 @@ pub(super) enum Likeness {
 }
 
 /// What is measured of one silhouette against one goal, each in 0..=1.
-pub(super) struct Agreement {
+pub(crate) struct Agreement {
     /// Share of equal pixels.
-    pub(super) accuracy: f64,
+    pub(crate) accuracy: f64,
     /// Intersection over union of the ink, pixel by pixel.
-    pub(super) iou: f64,
+    pub(crate) iou: f64,
     /// What the objective makes large.
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// Likeness, where it was measured.
-    pub(super) likeness: Option<f64>,
+    pub(crate) likeness: Option<f64>,
 }
 
 impl PreparedView {
     /// The goals of `problem`, which has been checked.
-    pub(super) fn of_problem(problem: &FitProblem) -> Vec<Self> {
+    pub(crate) fn of_problem(problem: &FitProblem) -> Vec<Self> {
         let mut first = 0;
         let prepare = |GoalView { goal, view, frame, unknown }: &GoalView| {
             let of_own = first;
@@ -69,18 +69,18 @@ impl PreparedView {
     }
 
     /// From where the picture was taken, and its frame.
-    pub(super) fn placed(&self, nuisances: &[f64]) -> (View, Frame) {
+    pub(crate) fn placed(&self, nuisances: &[f64]) -> (View, Frame) {
         let own = nuisances.get(self.first..).unwrap_or_default();
         let placement = self.unknown.placement(&self.view, own);
         (placement.view(&self.view), placement.frame(&self.frame))
     }
 
     /// Whether a tree twice as large is twice as large in the picture, wherever it stands.
-    pub(super) fn is_orthographic(&self) -> bool {
+    pub(crate) fn is_orthographic(&self) -> bool {
         self.view.projection == Projection::Orthographic
     }
 
-    pub(super) fn compare(
+    pub(crate) fn compare(
         &self,
         bitmap: &Bitmap,
         objective: Objective,

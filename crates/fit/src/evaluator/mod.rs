@@ -11,7 +11,7 @@ use crate::evaluate::Evaluate;
 use crate::genome::{Genome, Score, Size};
 use crate::objective::Objective;
 use crate::problem::{FitProblem, ProblemError};
-use compare::{Agreement, Likeness, PreparedView};
+pub(crate) use compare::{Agreement, Comparisons, Likeness, PreparedView};
 use height::GoalHeight;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Foliage, Generator, Growth, Limits, Tree};
@@ -159,14 +159,14 @@ impl Evaluator {
         Score { size, resized, ..sum.mean(f64::from(self.seeds) * self.views.len() as f64) }
     }
 
-    fn growth(&self, seed: u64, foliage: Foliage, most: Size) -> Growth {
+    fn growth(&self, seed: u64, foliage: Foliage, most: Size) -> Growth<'static> {
         let limits = Limits {
             stems: self.limits.stems.min(most.stems),
             leaves: self.limits.leaves.min(most.leaves),
             knots: self.limits.knots.min(most.knots),
             ..self.limits
         };
-        Growth { seed, limits, foliage, parallel: false }
+        Growth { seed, limits, foliage, ..Growth::default() }
     }
 
     /// Grows `genome`'s tree into `memory` at the height that it should have; none if it does not grow.

@@ -54,6 +54,7 @@ impl Generator for Pole {
             parent: None,
             level: 0,
             kind: StemKind::Trunk,
+            number: 0,
             offset: 0.0,
             first_knot: 0,
             knot_count: 2,

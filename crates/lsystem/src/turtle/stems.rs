@@ -44,7 +44,7 @@ impl Stems {
                 let level = parent.map_or(0, |p| tree.stems[p as usize].level.saturating_add(1));
                 let kind = if parent.is_some() { StemKind::Branch } else { StemKind::Trunk };
                 let (first_knot, knot_count) = (tree.knots.len() as u32, branch.pieces + 1);
-                tree.stems.push(Stem { parent, level, kind, offset: 0.0, first_knot, knot_count });
+                tree.stems.push(Stem { parent, level, kind, number: 0, offset: 0.0, first_knot, knot_count });
                 let zero = DVec3::ZERO;
                 let blank = Knot { point: zero, handle_in: zero, handle_out: zero, radius: 0.0 };
                 tree.knots.resize(tree.knots.len() + knot_count as usize, blank);

@@ -12,6 +12,7 @@ fn tree_of(knots: Vec<Knot>) -> Tree {
         parent: None,
         level: 0,
         kind: StemKind::Trunk,
+        number: 0,
         offset: 0.0,
         first_knot: 0,
         knot_count: knots.len() as u32,

@@ -8,6 +8,7 @@
 
 use crate::bitmap::Bitmap;
 use pleach_tree::leaf_shape::Outline;
+use std::ops::Range;
 
 /// Samples across a pixel, one byte of them.
 pub(crate) const ACROSS: u32 = 8;
@@ -206,19 +207,12 @@ impl Grid {
     /// Reduces the samples to pixels: black from half of them on, ties alternately.
     pub(crate) fn resolve(&self, out: &mut Bitmap) {
         out.reset(self.width, self.height);
-        // Adding this to a byte carries into its top bit where it is at least half of the samples, or
-        // more than half for every other pixel: ties go to ink and paper alternately: with so few
-        // samples they are many, and thin twigs would come out thicker by a twentieth.
-        let half = u64::from(0x80 - (ACROSS * self.down / 2)) * LOW_BITS;
-        let by_turns = [half - EVERY_OTHER, half - (EVERY_OTHER << 8)];
+        let half = Half::of(self.down);
         for y in 0..self.height {
             let samples = self.pixel_rows(y);
             let row = out.row_mut(y);
             for word in 0..self.words_per_row {
-                let black =
-                    (counts(samples, self.words_per_row, word) + by_turns[y as usize % 2]) & HIGH_BITS;
-                // Gathers the eight top bits into one byte.
-                let byte = (black >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56;
+                let byte = half.black(y, counts(samples, self.words_per_row, word));
                 row[word / 8] |= byte << (word % 8 * 8);
             }
         }
@@ -236,9 +230,41 @@ impl Grid {
         }
     }
 
+    /// Moves the samples of a box, in words and rows of samples, to the end of `out`; the grid has none there after.
+    pub(super) fn take(&mut self, across: Range<usize>, down: Range<usize>, out: &mut Vec<u64>) {
+        for row in down {
+            let line = &mut self.words[row * self.words_per_row..][across.clone()];
+            out.extend_from_slice(line);
+            line.fill(0);
+        }
+    }
+
     fn pixel_rows(&self, y: u32) -> &[u64] {
         let start = (y * self.down) as usize * self.words_per_row;
         &self.words[start..start + self.down as usize * self.words_per_row]
+    }
+}
+
+/// Tells pixels that are black from counts of their samples.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Half([u64; 2]);
+
+impl Half {
+    /// Half of the samples of a pixel with `down` rows of them.
+    pub(super) fn of(down: u32) -> Self {
+        // Adding this to a byte carries into its top bit where it is at least half of the samples, or
+        // more than half for every other pixel: ties go to ink and paper alternately: with so few
+        // samples they are many, and thin twigs would come out thicker by a twentieth.
+        let half = u64::from(0x80 - (ACROSS * down / 2)) * LOW_BITS;
+        Self([half - EVERY_OTHER, half - (EVERY_OTHER << 8)])
+    }
+
+    /// Which of eight pixels of row `y` are black, whose samples are counted in the bytes of `counts`.
+    #[inline]
+    pub(super) fn black(self, y: u32, counts: u64) -> u64 {
+        let black = (counts + self.0[y as usize % 2]) & HIGH_BITS;
+        // Gathers the eight top bits into one byte.
+        (black >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56
     }
 }
 
@@ -250,12 +276,17 @@ const HIGH_BITS: u64 = 0x8080_8080_8080_8080;
 fn counts(samples: &[u64], words_per_row: usize, word: usize) -> u64 {
     let mut sum = 0;
     for row in samples.chunks_exact(words_per_row) {
-        let v = row[word];
-        let v = v - (v >> 1 & 0x5555_5555_5555_5555);
-        let v = (v & 0x3333_3333_3333_3333) + (v >> 2 & 0x3333_3333_3333_3333);
-        sum += (v + (v >> 4)) & 0x0f0f_0f0f_0f0f_0f0f;
+        sum += count(row[word]);
     }
     sum
+}
+
+/// Set samples of one row in each of eight pixels, in the bytes of a word.
+#[inline]
+pub(super) fn count(v: u64) -> u64 {
+    let v = v - (v >> 1 & 0x5555_5555_5555_5555);
+    let v = (v & 0x3333_3333_3333_3333) + (v >> 2 & 0x3333_3333_3333_3333);
+    (v + (v >> 4)) & 0x0f0f_0f0f_0f0f_0f0f
 }
 
 /// The first row (or column) whose samples, which lie in its middle, are at or beyond `v`: the

@@ -6,6 +6,7 @@
 //! were drawn, and the one that neither thickens nor loses twigs thinner than a pixel.
 
 mod grid;
+mod layer;
 mod outline;
 mod strip;
 
@@ -13,6 +14,7 @@ use crate::bitmap::Bitmap;
 use crate::view::{Camera, Frame, View};
 use glam::{Vec2, Vec3};
 use grid::{ACROSS, Corner, Grid};
+pub use layer::{Layer, LayerPainter, Stack};
 use outline::{Blade, Outlines};
 use pleach_tree::leaf_shape::Outline;
 use pleach_tree::{Leaf, Parts, Tree};
@@ -101,18 +103,23 @@ impl Rasterizer {
         let thickness = if leafy { leaf_thickness(tree, &camera) } else { f32::INFINITY };
         let down = self.detail.down(thickness);
         self.grid.reset(frame.width, frame.height, down);
+        self.sample_onto(tree, &camera, down, parts);
+    }
+
+    /// Sets the samples of `parts` of `tree` and leaves the others as they are.
+    fn sample_onto(&mut self, tree: &Tree, camera: &Camera, down: u32, parts: Parts) {
         let scale = Vec2::new(ACROSS as f32, down as f32);
         for stem in tree.stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
-            strip::draw(&mut self.grid, &camera, scale, tree, stem);
+            strip::draw(&mut self.grid, camera, scale, tree, stem);
         }
-        if leafy {
-            self.leaves(tree, &camera, scale);
+        if parts.contains(Parts::LEAVES) {
+            self.leaves(tree, camera, scale);
         }
         if parts.contains(Parts::BLOSSOMS) {
-            self.blossoms(tree, &camera, scale);
+            self.blossoms(tree, camera, scale);
         }
         if parts.contains(Parts::BLOBS) {
-            self.blobs(tree, &camera, scale);
+            self.blobs(tree, camera, scale);
         }
     }
 

@@ -186,6 +186,7 @@ fn stem(tree: &mut Tree, on: Option<f64>, from: DVec3, to: DVec3) {
         parent: on.map(|_| 0),
         level: u16::from(on.is_some()),
         kind: if on.is_some() { StemKind::Branch } else { StemKind::Trunk },
+        number: 0,
         offset: on.unwrap_or(0.0),
         first_knot,
         knot_count: 2,

@@ -14,6 +14,7 @@
 mod files;
 mod golden;
 mod growth;
+mod individuals;
 mod numbers;
 
 pub use files::{
@@ -25,6 +26,7 @@ pub use growth::{
     limits_are_errors, stems_do_not_depend_on_leaves, the_same_seed_is_the_same_tree, trees_are_well_formed,
     values_of_another_space_are_refused,
 };
+pub use individuals::{draws_of_a_stem_are_its_own, individuals_are_read_back};
 pub use numbers::{
     conflicts_are_told_before_growing, declarations_are_consistent, inactive_numbers_change_nothing,
     resizing_is_similar_or_refused,
@@ -52,6 +54,8 @@ macro_rules! conformance {
             the_same_seed_is_the_same_tree,
             stems_do_not_depend_on_leaves,
             limits_are_errors,
+            draws_of_a_stem_are_its_own,
+            individuals_are_read_back,
             values_of_another_space_are_refused,
             declarations_are_consistent,
             inactive_numbers_change_nothing,

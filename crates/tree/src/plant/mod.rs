@@ -12,6 +12,7 @@ pub use leaf::Leaf;
 pub use parts::Parts;
 pub use stem::{Stem, StemKind};
 
+use crate::individual::{StemPath, Step};
 use crate::leaf_shape::{BlossomShape, Outline};
 use crate::spline::Cubic;
 use glam::{DVec3, Vec3};
@@ -118,6 +119,16 @@ impl Tree {
         self.stems.iter().map(|s| usize::from(s.level) + 1).max().unwrap_or(0)
     }
 
+    /// Where stem number `index` is, from the ground up: another path for each stem where stems have addresses.
+    #[must_use]
+    pub fn path_of(&self, index: usize) -> StemPath {
+        let stem = &self.stems[index];
+        let step =
+            if stem.kind == StemKind::Fork { Step::Fork(stem.number) } else { Step::Child(stem.number) };
+        stem.parent
+            .map_or_else(|| StemPath::trunk(stem.number), |parent| self.path_of(parent as usize).then(step))
+    }
+
     /// The unit shape of `leaf`, which is one of [`Tree::leaves`].
     #[must_use]
     pub fn outline_of(&self, leaf: &Leaf) -> &Outline {
@@ -166,7 +177,7 @@ mod tests {
 
     fn pole(level: u16, parent: Option<u32>, first_knot: u32) -> Stem {
         let kind = if parent.is_some() { StemKind::Branch } else { StemKind::Trunk };
-        Stem { parent, level, kind, offset: 0.0, first_knot, knot_count: 2 }
+        Stem { parent, level, kind, number: 0, offset: 0.0, first_knot, knot_count: 2 }
     }
 
     fn knot(z: f64) -> Knot {

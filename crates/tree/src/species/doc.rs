@@ -199,7 +199,7 @@ impl SpeciesDoc {
         Ok(vector)
     }
 
-    pub(super) fn wrong_type(&self, name: &str, node: &Node, expected: &'static str, found: &Value) -> Issue {
+    pub(crate) fn wrong_type(&self, name: &str, node: &Node, expected: &'static str, found: &Value) -> Issue {
         self.issue(node.span.clone(), name, Problem::WrongType { expected, found: found.type_name() })
     }
 }

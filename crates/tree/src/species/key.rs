@@ -4,6 +4,7 @@
 //! `pleach params` lists.
 
 use super::appearance;
+use crate::individual;
 
 /// Largest `tree_seed`: what a double, and so any JSON reader, holds exactly.
 pub(super) const MAX_SEED: u64 = 1 << 53;
@@ -43,6 +44,8 @@ pub enum Form {
     Point,
     /// A table with these keys.
     Table(&'static [Key]),
+    /// An array of stems, each with its draws.
+    Stems,
     /// An array of tables. The `shape` of each is one of these and says which keys it has.
     Shapes(&'static [Shape]),
 }
@@ -69,6 +72,7 @@ impl Form {
             Self::Length { .. } => "real",
             Self::Point => "point",
             Self::Table(_) => "table",
+            Self::Stems => "array of stems",
             Self::Shapes(_) => "array of tables",
         }
     }
@@ -94,6 +98,7 @@ impl Form {
             Self::Choice(names) => names.join(", "),
             Self::Length { max } => format!("0 to {max} m"),
             Self::Point => "[x, y, z] in m".to_owned(),
+            Self::Stems => "[[\"0/12\", 7, 12.5, -3.1, 1.04], …]".to_owned(),
             Self::Table(keys) => keys.iter().map(|key| key.name).collect::<Vec<_>>().join(", "),
             Self::Shapes(shapes) => shapes.iter().map(|shape| shape.name).collect::<Vec<_>>().join(", "),
         }
@@ -121,5 +126,11 @@ pub const KEYS: &[Key] = &[
         form: Form::Table(&appearance::KEYS),
         default: "none",
         doc: "colours and season, for pictures and meshes; the tree's form does not depend on it",
+    },
+    Key {
+        name: "individual",
+        form: Form::Table(&individual::KEYS),
+        default: "none",
+        doc: "stems of the tree of seed `tree_seed` that have draws of their own; other seeds are as without it",
     },
 ];

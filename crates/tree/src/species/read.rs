@@ -7,6 +7,7 @@ use super::error::{Issue, SpeciesError};
 use super::family::Family;
 use super::key::{Form, KEYS, Key, MAX_SEED};
 use super::name::check_name;
+use crate::individual::Individual;
 use crate::param::{Kind, ParamSpace, Problem, Shape, Slot, is_hidden, nearest};
 
 /// Names that are wrong at the top level of every file, and what would be right.
@@ -31,13 +32,27 @@ impl SpeciesDoc {
         let description = kept(self.said_description(), &mut issues).flatten();
         let tree_seed = kept(self.said_tree_seed(), &mut issues).flatten();
         let appearance = Appearance::read(self, &mut issues);
+        let individual = Individual::read(self, &mut issues);
+        if let (Some(node), None) = (self.get("individual"), tree_seed) {
+            let message =
+                "is one tree of a species and says not which, expected `tree_seed` beside it".to_owned();
+            issues.push(self.issue(node.span.clone(), "individual", Problem::Conflict { message }));
+        }
         // Values that were wrong have left their defaults behind, so checking finds nothing new.
         if let (Some(generator), Some(values), true) = (generator, values, issues.is_empty())
             && let Ok(params) = generator.space().check(values)
         {
             let text = |said: Option<&str>| said.unwrap_or_default().to_owned();
             let (name, description) = (text(name), text(description));
-            return Ok(Species { name, description, generator, params, tree_seed, appearance });
+            let kind = Species { name, description, generator, params, tree_seed, appearance };
+            let Some(seed) = tree_seed.filter(|_| !individual.is_empty()) else { return Ok(kind) };
+            if !kind.generator.spreads(kind.params.values()).is_empty() {
+                return Ok(kind.with_individual(seed, individual));
+            }
+            let message =
+                format!("needs stems with addresses, which trees of {} have not", kind.generator.family());
+            let span = self.get("individual").map_or(0..0, |node| node.span.clone());
+            issues.push(self.issue(span, "individual", Problem::Conflict { message }));
         }
         issues.sort_by_key(|issue| (issue.line, issue.column));
         Err(self.wrong(issues))

@@ -1,7 +1,7 @@
 //! What `pleach fit` is told about the goal, the search and when to stop.
 
 use super::goal::MaskSource;
-use super::{options, outlined, start, views};
+use super::{individual, options, outlined, start, views};
 use crate::input;
 use anyhow::ensure;
 use pleach_fit::{Objective, RulesSettings, UnknownObjective};
@@ -94,8 +94,8 @@ pub(super) struct SearchArgs {
     /// A setting of the optimiser, such as children=8 for evolution; repeatable. `--set help` lists them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) settings: Vec<String>,
-    /// What is made small: balance (the default), both (with --evolve-rules the default: overlap, of trees with a
-    /// likeness of 0.765), overlap (IoU, of trees with one of 0.78), blend, likeness, iou or accuracy
+    /// What is made small: balance (the default), overlap (of trees with a likeness of 0.765; the default with
+    /// --evolve-rules), blend, likeness, iou or accuracy
     #[arg(long, value_name = "NAME")]
     pub(super) objective: Option<String>,
     /// Seed of the search
@@ -110,10 +110,20 @@ pub(super) struct SearchArgs {
 }
 
 #[derive(Debug, clap::Args)]
+#[command(next_help_heading = "This very tree")]
+pub(super) struct IndividualArgs {
+    /// How long single branches are dealt anew until the tree lies on the picture: a time such as 20s,
+    /// `Ntrees` for as many trees whatever the time, or off. By default a third of --timeout, or half as many trees as
+    /// --evaluations
+    #[arg(long, value_name = "TIME|Ntrees|off")]
+    pub(super) individual: Option<individual::Effort>,
+}
+
+#[derive(Debug, clap::Args)]
 #[command(next_help_heading = "When to stop (whatever comes first; after a minute if nothing is said)")]
 pub(super) struct BudgetArgs {
     /// After this time, such as 90s, 10m or 2h. The first guess counts; it is made in full, and a first
-    /// few trees are tried whatever time is left. Judging the result comes after it
+    /// few trees are tried whatever time is left. So does --individual. Judging the result comes on top
     #[arg(long, value_name = "TIME", value_parser = options::duration)]
     pub(super) timeout: Option<Duration>,
     /// After this many trees were grown and compared

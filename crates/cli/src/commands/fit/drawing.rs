@@ -3,7 +3,8 @@
 use super::args::GoalArgs;
 use super::goal::Goals;
 use crate::files;
-use pleach_fit::{FitProblem, Genome, Scored};
+use anyhow::Context as _;
+use pleach_fit::{FitProblem, FoundIndividual, Genome, Scored};
 use pleach_mesh::Palette;
 use pleach_render::{Preview, PreviewSettings, png_file};
 use pleach_silhouette::{Bitmap, Rasterizer, View, picture};
@@ -42,9 +43,23 @@ impl Drawing<'_> {
 
     /// Grows and draws `best`.
     pub(super) fn draw(&self, best: &Scored) -> anyhow::Result<Drawn> {
-        let species = self.species(&best.genome)?;
+        self.draw_species(self.species(&best.genome)?, best.genome.tree_seed)
+    }
+
+    /// Grows and draws a goal's own tree.
+    pub(super) fn draw_individual(&self, found: &FoundIndividual) -> anyhow::Result<Drawn> {
+        let named = Species {
+            name: safe_name(&self.goals.name),
+            description: String::new(),
+            ..found.species.clone()
+        };
+        let seed = named.tree_seed.context("an individual has a seed")?;
+        self.draw_species(named, seed)
+    }
+
+    fn draw_species(&self, species: Species, tree_seed: u64) -> anyhow::Result<Drawn> {
         let foliage = self.problem.foliage;
-        let growth = Growth { limits: self.limits, foliage, ..Growth::seed(best.genome.tree_seed) };
+        let growth = Growth { limits: self.limits, foliage, ..Growth::seed(tree_seed) };
         let tree = species.grow_with(&growth)?;
         let frame = self.goals.full.frame(self.args.height);
         let mut bitmap = Bitmap::default();

@@ -4,6 +4,7 @@ mod args;
 mod batch;
 mod drawing;
 mod goal;
+mod individual;
 mod judged;
 mod list;
 mod live;
@@ -23,9 +24,9 @@ mod watch;
 use crate::interrupted::Interrupted;
 use crate::{input, output};
 use anyhow::bail;
-use args::{BudgetArgs, GoalArgs, SearchArgs};
+use args::{BudgetArgs, GoalArgs, IndividualArgs, SearchArgs};
 use options::Settings;
-use pleach_fit::{Budget, FitSettings, GuessLibrary, RulesSettings};
+use pleach_fit::{Budget, FitSettings, GuessLibrary, IndividualSettings, RulesSettings};
 use run_folder::{Mode, RunFolder};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -48,6 +49,7 @@ const EXAMPLES: &str = "Examples:
   pleach fit goal.png --robust 4  parameters of which every seed is like it
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit goal.png --evolve-rules --timeout 2m  a grammar from nothing
+  pleach fit goal.png --individual 2m  longer for this very tree, branch by branch
   pleach fit front.png --view 90=side.png --holdout-view 45=corner.png
   pleach fit goal.png --volume-from goal  a crown that follows the outline
   pleach fit front.png --view auto=other.png --free-frame  from who knows where
@@ -65,7 +67,9 @@ goal, a verdict, and what to do next.
 The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png (grey is \
 agreement, orange is missing, blue is too much), render.png, history.csv (a row per generation), \
 parameters.csv (how well the goal determines each parameter) and summary.json; with --mask auto mask.png, \
-with further views an overlay of each. Most of them are written while the search runs, too. The file \
+with further views an overlay of each. That is the kind; individual.toml is this very tree, whose branches \
+were dealt anew one by one until they lie on the picture, with individual.png, overlay-individual.png and \
+individual-render.png. Most of them are written while the search runs, too. The file \
 `checkpoint` is there while a fit is unfinished, `search-state` once it is finished, for --continue.
 
 A finished fit is replaced only by a fit of the same goal with the same options, or with --overwrite, and \
@@ -124,6 +128,8 @@ pub(crate) struct Fit {
     goal_options: GoalArgs,
     #[command(flatten)]
     search: SearchArgs,
+    #[command(flatten)]
+    individual: IndividualArgs,
     #[command(flatten)]
     budget: BudgetArgs,
 }
@@ -196,16 +202,37 @@ impl Fit {
         interrupted.map_or(Ok(()), |interrupted| Err(interrupted.into()))
     }
 
+    /// The time for the whole fit but for judging, if it is bounded.
+    fn timeout(&self) -> Option<Duration> {
+        let BudgetArgs { timeout, evaluations, generations, .. } = &self.budget;
+        timeout.or(evaluations.or(*generations).is_none().then_some(Duration::from_secs(60)))
+    }
+
+    /// How this very tree is searched, if it is.
+    fn individual_settings(&self) -> anyhow::Result<Option<IndividualSettings>> {
+        // Where a generator is known to have no stems to be dealt anew, its search gets the time.
+        if self.search.evolve_rules
+            || !self.search.generator()?.known().any(|one| individual::is_possible(&one))
+        {
+            return Ok(None);
+        }
+        let effort = self.individual.individual.unwrap_or_default();
+        effort.settings(self.timeout(), self.budget.evaluations)
+    }
+
     fn settings(&self) -> anyhow::Result<Settings> {
         let search = &self.search;
         if search.settings.iter().any(|s| s == "help") {
             return Ok(Settings::Help);
         }
         let budget = &self.budget;
-        let mut timeout = budget.timeout;
-        if timeout.is_none() && budget.evaluations.or(budget.generations).is_none() {
-            timeout = Some(Duration::from_secs(60));
-        }
+        let whole = self.timeout();
+        let timeout = match (whole, self.individual_settings()?) {
+            (Some(whole), Some(IndividualSettings { time: Some(time), .. })) => {
+                Some(whole.saturating_sub(time))
+            }
+            (whole, _) => whole,
+        };
         Ok(Settings::Fit(Box::new(FitSettings {
             optimizer: options::optimizer(&search.optimizer, &search.settings)?,
             rules: search.evolve_rules.then(RulesSettings::default),

@@ -78,6 +78,7 @@ impl Outlined {
         check_freedom(self.species.generator.space(), &search.freedom, search.tree_seed)?;
         let search = FitSettings { start: Start::Lists(self.lists.clone()), ..search.clone() };
         let candidates = vec![Candidate::from(self.species.clone())];
-        Ok(GoalSettings { search, guess: Guessing::Off, candidates, judging: Some(Judging::default()) })
+        let judging = Some(Judging::default());
+        Ok(GoalSettings { search, guess: Guessing::Off, candidates, judging, individual: None })
     }
 }

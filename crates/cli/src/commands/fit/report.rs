@@ -32,12 +32,13 @@ pub(super) fn report(summary: &Summary, goal: &Path, folder: &Path) -> String {
             "of the parameters the goal determines {determined}, loosely {loosely}; {not_seen} are not seen\n"
         );
     }
+    let individual = summary.individual.as_ref().map_or_else(String::new, |one| one.beside(&summary.scores));
     let rules = summary.rules.as_ref();
     let rules = rules.map_or_else(String::new, |rules| {
         format!("the grammar, of {} words and signs:\n\n{}\n", rules.grammar_length, rules.grammar)
     });
     format!(
-        "{rules}{}\n\n{}{judged}{}{}\n{}species  {}\noverlay  {}",
+        "{rules}{}\n\n{}{judged}{individual}{}{}\n{}species  {}\noverlay  {}",
         crate::commands::score::card(&summary.scores),
         sizes(summary),
         work(summary),
@@ -139,7 +140,8 @@ fn times(summary: &Summary) -> String {
         .then(|| format!("first guess {:.1} s", summary.first_guess_seconds));
     let search = Some(format!("search {:.1} s", summary.search_seconds));
     let judging = summary.judging_seconds.map(|seconds| format!("judging {seconds:.1} s"));
-    let parts: Vec<String> = [guess, search, judging].into_iter().flatten().collect();
+    let individual = summary.individual.as_ref().map(|one| format!("this very tree {:.1} s", one.seconds));
+    let parts: Vec<String> = [guess, search, judging, individual].into_iter().flatten().collect();
     parts.join(", ") + "\n"
 }
 

@@ -131,6 +131,7 @@ fn options(
             },
         ),
         ("robust", settings.robust.to_string()),
+        ("individual", fit.individual.individual.unwrap_or_default().to_string()),
         ("timeout", optional(budget.timeout.map(|time| format!("{}s", time.as_secs_f64())))),
         ("evaluations", optional(budget.evaluations.map(|count| count.to_string()))),
         ("generations", optional(budget.generations.map(|count| count.to_string()))),

@@ -152,7 +152,7 @@ impl From {
     /// has better ones.
     pub(super) fn species(&self, generator: &GeneratorChoice) -> anyhow::Result<Species> {
         if let Self::Species(name) = self {
-            let species = input::species(name)?;
+            let species = input::species(name)?.kind();
             ensure!(
                 generator.takes(&species),
                 "--from {name} is a species of the generator {}, and --generator says {generator}",
@@ -201,7 +201,7 @@ impl From {
                 Guessing::Off
             }
         };
-        Ok(GoalSettings { search, guess, candidates, judging: Some(Judging::default()) })
+        Ok(GoalSettings { search, guess, candidates, judging: Some(Judging::default()), individual: None })
     }
 }
 

@@ -1,6 +1,7 @@
 //! `summary.json` and the other files of a result.
 
 use super::drawing::{Drawing, Drawn};
+use super::individual::{self, IndividualSummary};
 use super::judged;
 use super::request::{Request, method_settings};
 use super::run_folder::{Claim, SUMMARY};
@@ -18,13 +19,15 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Pixels a side of the shaded picture of a result.
-const RENDER_SIZE: u32 = 512;
+pub(super) const RENDER_SIZE: u32 = 512;
 
 /// What a fit leaves in its folder.
 pub(super) struct Results<'a> {
     pub(super) fitted: &'a Fitted,
     /// The best individual as it is drawn.
     pub(super) drawn: &'a Drawn,
+    /// The goal's own tree as it is drawn.
+    pub(super) individual: Option<&'a Drawn>,
     pub(super) drawing: &'a Drawing<'a>,
     /// Further pictures, with what was fitted over them.
     pub(super) views: Vec<(ViewScore, Picture)>,
@@ -45,6 +48,8 @@ pub(super) struct Summary {
     #[serde(flatten)]
     pub(super) scores: ScoreCard,
     pub(super) fresh_seeds: Option<FreshSeeds>,
+    /// The goal's own tree; the scores above are of the tree of the kind that the search has found.
+    pub(super) individual: Option<IndividualSummary>,
     /// What likeness and IoU stand beside, at the search's size.
     pub(super) references: Option<References>,
     pub(super) verdict: Option<Verdict>,
@@ -170,6 +175,10 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
     drawn.write_silhouettes(&goal.bitmap, &claim.file("best.png"), &claim.file("overlay.png"))?;
     drawn.write_render(&claim.file("render.png"), RENDER_SIZE)?;
     write_history(&claim.file("history.csv"), &outcome.history)?;
+    let individual = match (&fitted.individual, results.individual) {
+        (Some(found), Some(drawn)) => Some(individual::write(claim, &goal.bitmap, found, drawn)?),
+        _ => None,
+    };
     let views = write_overlays(claim, "overlay-view", results.views)?;
     let holdout_views = write_overlays(claim, "overlay-holdout", results.holdout_views)?;
 
@@ -183,6 +192,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         robust: settings.robust.get(),
         scores,
         fresh_seeds: judged.as_ref().and_then(|judged| judged.held_out),
+        individual,
         references: fitted.references().cloned(),
         verdict,
         determined: judged.as_ref().map(|judged| {

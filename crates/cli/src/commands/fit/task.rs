@@ -10,7 +10,8 @@ use super::summary::{self, Results, Summary};
 use super::watch::Watch;
 use super::{Fit, views};
 use pleach_fit::{
-    CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalView, GuessLibrary, fit_goal_with,
+    CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalSettings, GoalView, GuessLibrary,
+    fit_goal_with,
 };
 use pleach_silhouette::goal::{Encoded, Goal};
 use serde_json::Value;
@@ -73,6 +74,7 @@ impl Task {
             }
             None => from.plan(generator, self.args.leaves(), &problem.start, &search)?,
         };
+        let settings = GoalSettings { individual: fit.individual_settings()?, ..settings };
         let request = self.request(fit, &goals.source, &search)?;
         let mut claim = self.folder.clone().claim(mode, &request)?;
 
@@ -108,6 +110,8 @@ impl Task {
 
         let drawing = drawing(&fitted.problem, fitted.settings.limits);
         let drawn = drawing.draw(&fitted.best)?;
+        let individual =
+            fitted.individual.as_ref().map(|found| drawing.draw_individual(found)).transpose()?;
         let (height, foliage) = (self.args.height, fitted.problem.foliage);
         let placements = pleach_fit::placements(&fitted.problem.goals, &fitted.best.genome.nuisances);
         // The first is the goal's own.
@@ -122,6 +126,7 @@ impl Task {
             Results {
                 fitted: &fitted,
                 drawn: &drawn,
+                individual: individual.as_ref(),
                 drawing: &drawing,
                 views: views.collect::<anyhow::Result<_>>()?,
                 holdout_views: holdouts.collect::<anyhow::Result<_>>()?,

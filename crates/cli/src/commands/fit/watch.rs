@@ -7,7 +7,9 @@ use super::run_folder::Claim;
 use super::start;
 use crate::{files, output};
 use indicatif::{ProgressBar, ProgressStyle};
-use pleach_fit::{Begun, CheckpointError, FitProblem, Observer, ObserverError, Progress, Row};
+use pleach_fit::{
+    Begun, CheckpointError, FitProblem, IndividualProgress, Observer, ObserverError, Progress, Row,
+};
 use pleach_tree::Limits;
 use std::time::Duration;
 
@@ -21,6 +23,7 @@ pub(super) struct Watch<'a, 'g> {
     guessing: Option<ProgressBar>,
     search: Option<Search<'g>>,
     judging: Option<ProgressBar>,
+    individual: Option<ProgressBar>,
 }
 
 /// What is shown of the search.
@@ -36,7 +39,7 @@ impl<'a, 'g> Watch<'a, 'g> {
         draws: &'a dyn Fn(&FitProblem, Limits) -> Drawing<'g>,
         says: Option<bool>,
     ) -> Self {
-        Self { claim, draws, says, guessing: None, search: None, judging: None }
+        Self { claim, draws, says, guessing: None, search: None, judging: None, individual: None }
     }
 
     fn begin(&mut self, begun: &Begun) -> anyhow::Result<()> {
@@ -98,6 +101,23 @@ impl Observer for Watch<'_, '_> {
         bar.set_message("judging the result: other seeds, and every parameter");
         self.judging = Some(bar);
     }
+
+    fn individual(&mut self, progress: &IndividualProgress) {
+        const STEPS: f64 = 1000.0;
+        self.search = None;
+        end(&mut self.judging);
+        let bar = self.individual.get_or_insert_with(|| {
+            let bar =
+                if output::is_watched() { ProgressBar::new(STEPS as u64) } else { ProgressBar::hidden() };
+            match ProgressStyle::with_template("this very tree {wide_bar} {msg}") {
+                Ok(style) => bar.with_style(style),
+                Err(_) => bar,
+            }
+        });
+        let IndividualProgress { trials, iou, likeness, used, .. } = progress;
+        bar.set_position((used * STEPS) as u64);
+        bar.set_message(format!("likeness {likeness:.3}, IoU {iou:.3}; {trials} branches tried"));
+    }
 }
 
 /// Takes a bar from the terminal.
@@ -111,5 +131,6 @@ impl Drop for Watch<'_, '_> {
     fn drop(&mut self) {
         end(&mut self.guessing);
         end(&mut self.judging);
+        end(&mut self.individual);
     }
 }

@@ -211,7 +211,7 @@ impl Grow {
         Ok(())
     }
 
-    fn growth(&self, seed: u64) -> Growth {
+    fn growth(&self, seed: u64) -> Growth<'static> {
         let bare = self.no_leaves || self.mesh.is_bare();
         let foliage = if bare { Foliage::None } else { Foliage::All };
         Growth { limits: self.limits.limits(), foliage, ..Growth::seed(seed) }

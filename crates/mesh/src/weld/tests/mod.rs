@@ -76,6 +76,7 @@ fn cross() -> Tree {
         parent,
         level: parent.map_or(0, |p| p as u16 + 1),
         kind: if parent.is_some() { StemKind::Branch } else { StemKind::Trunk },
+        number: 0,
         offset: parent.map_or(0.0, |_| 1.0),
         first_knot,
         knot_count: 2,

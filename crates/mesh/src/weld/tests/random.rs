@@ -117,6 +117,7 @@ fn skins_of_crosses_are_sound() {
                 parent,
                 level: u16::from(i > 0),
                 kind: if i == 0 { StemKind::Trunk } else { StemKind::Branch },
+                number: i as u32,
                 offset: 0.0,
                 first_knot: 2 * i as u32,
                 knot_count: 2,

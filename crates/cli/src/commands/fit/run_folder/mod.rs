@@ -22,11 +22,14 @@ const CHECKPOINT: &str = "checkpoint";
 /// The same of a finished one, for `--continue`.
 const STATE: &str = "search-state";
 /// What a fit writes into its folder; overlays of further views beside it.
-const FILES: [&str; 10] = [
+const FILES: [&str; 13] = [
     "best.toml",
     "best.png",
     "overlay.png",
     "render.png",
+    "individual.toml",
+    "individual.png",
+    "individual-render.png",
     "mask.png",
     "history.csv",
     "parameters.csv",

@@ -1,0 +1,125 @@
+//! This very tree: draws of single stems, chosen until the tree lies on the picture.
+//!
+//! A search finds the kind of a tree. One seed deals all of its branches at once, so no list of numbers puts
+//! every branch where the picture has it (`experiments/needle`). Here single stems are dealt other draws,
+//! within what the species itself leaves open ([`pleach_tree::Generator::spreads`]), and what makes the cost
+//! smaller is kept.
+//!
+//! One tree in which all stems of a generation have other draws is a candidate for each of them at once. Every
+//! stem with what it carries is a [layer](pleach_silhouette::Layer) of the picture, so that a trial takes one
+//! layer out and puts another in, whatever the number of other stems.
+
+mod hand;
+mod plan;
+mod search;
+mod state;
+mod units;
+
+use crate::budget::Clock;
+use crate::error::FitError;
+use crate::genome::{Genome, Score};
+use crate::objective::Objective;
+use crate::problem::FitProblem;
+use pleach_tree::{Individual, Limits, Species};
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// How an individual is searched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IndividualSettings {
+    /// Time by the caller's clock; none is no bound.
+    pub time: Option<Duration>,
+    /// Trees that are grown, each a candidate for every stem of a generation; none is no bound.
+    pub trees: Option<u64>,
+    /// What is made small.
+    pub objective: Objective,
+    /// Most stems with draws of their own.
+    pub max_stems: usize,
+}
+
+impl IndividualSettings {
+    /// Most stems with draws of their own unless something else is said: as many lines as a person still reads.
+    pub const MAX_STEMS: usize = 400;
+
+    /// For so long by the caller's clock.
+    #[must_use]
+    pub fn time(time: Duration) -> Self {
+        Self { time: Some(time), ..Self::trees(u64::MAX) }
+    }
+
+    /// With so many trees; the same bits on any machine.
+    #[must_use]
+    pub fn trees(trees: u64) -> Self {
+        let objective = Objective::default();
+        Self { time: None, trees: Some(trees), objective, max_stems: Self::MAX_STEMS }
+    }
+}
+
+/// How far a search for an individual is, between two batches of trees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IndividualProgress {
+    /// Trees grown.
+    pub trees: u64,
+    /// Single stems that were tried.
+    pub trials: u64,
+    /// Intersection over union.
+    pub iou: f64,
+    /// Likeness.
+    pub likeness: f64,
+    /// The used share of the budget, in 0..=1.
+    pub used: f64,
+}
+
+/// The tree of a goal.
+#[derive(Clone, Debug)]
+pub struct FoundIndividual {
+    /// The species with its individual.
+    pub species: Species,
+    /// The score of the tree that the search for the kind has found, and that of the individual, both by what
+    /// this search makes small, with their likeness.
+    pub before: Score,
+    /// See `before`.
+    pub score: Score,
+    /// Trees grown.
+    pub trees: u64,
+    /// Single stems that were tried.
+    pub trials: u64,
+    /// Time by the caller's clock.
+    pub elapsed: Duration,
+}
+
+impl FoundIndividual {
+    /// The draws of single stems.
+    #[must_use]
+    pub fn individual(&self) -> Individual {
+        self.species.individual().cloned().unwrap_or_default()
+    }
+}
+
+/// Where the search for an individual begins, and what bounds it.
+pub(crate) struct Quest<'a> {
+    pub(crate) problem: &'a FitProblem,
+    pub(crate) genome: &'a Genome,
+    pub(crate) settings: IndividualSettings,
+    pub(crate) limits: Limits,
+    pub(crate) stop: &'a AtomicBool,
+}
+
+/// Searches the individual of `problem`'s goals among the trees of the kind that `genome` is; none where stems
+/// have no addresses, or the tree does not grow.
+///
+/// The same problem, genome and number of trees give the same individual on any number of threads.
+///
+/// # Errors
+/// Problems that [`crate::Evaluator::new`] refuses, and [`FitError::Interrupted`] once `stop` is raised.
+pub fn individual(
+    problem: &FitProblem,
+    genome: &Genome,
+    settings: IndividualSettings,
+    clock: &dyn Clock,
+    stop: &AtomicBool,
+    tell: impl FnMut(&IndividualProgress),
+) -> Result<Option<FoundIndividual>, FitError> {
+    let quest = Quest { problem, genome, settings, limits: Limits::DEFAULT, stop };
+    search::search(&quest, clock, tell)
+}

@@ -1,0 +1,189 @@
+//! The search for an individual.
+
+use super::hand::{Hand, Scene};
+use super::plan::{self, BATCH, MAX_UNITS, Stage};
+use super::state::{Exchange, State, Worth};
+use super::units::Units;
+use super::{FoundIndividual, IndividualProgress, Quest};
+use crate::budget::Clock;
+use crate::error::FitError;
+use crate::evaluator::{Evaluator, PreparedView};
+use pleach_tree::individual::Trial;
+use pleach_tree::{Individual, Spread};
+use rayon::prelude::*;
+use std::sync::atomic::Ordering;
+use std::sync::{Mutex, PoisonError};
+
+/// What has to be gained for draws to be exchanged.
+const LEAST_GAIN: f64 = 2e-5;
+
+/// See [`super::individual`].
+pub(super) fn search(
+    quest: &Quest<'_>,
+    clock: &dyn Clock,
+    mut tell: impl FnMut(&IndividualProgress),
+) -> Result<Option<FoundIndividual>, FitError> {
+    let Quest { problem, genome, settings, limits, stop } = *quest;
+    let from = clock.elapsed();
+    let evaluator = Evaluator::new(problem, settings.objective, limits)?;
+    let generator = &problem.start.generator;
+    let spreads = generator.spreads(&genome.values);
+    let Ok(params) = generator.space().check(genome.values.clone()) else { return Ok(None) };
+    if spreads.is_empty() {
+        return Ok(None);
+    }
+    let views = PreparedView::of_problem(problem);
+    let placed = evaluator.placed(genome);
+    let scene = Scene { quest, params, views, placed };
+    let hands = Hands::default();
+    let Some(mut state) = hands.with(&scene, |hand| State::new(&scene, Individual::default(), 0, hand))
+    else {
+        return Ok(None);
+    };
+    let (mut trees, mut trials, mut number) = (0, 0, 0);
+    let used = |trees: u64| {
+        let passed = clock.elapsed().saturating_sub(from).as_secs_f64();
+        let share = |of: f64, all: Option<f64>| all.map_or(0.0, |all| of / all);
+        share(passed, settings.time.map(|time| time.as_secs_f64()))
+            .max(share(trees as f64, settings.trees.map(|all| all as f64)))
+    };
+    let generations = hands.with(&scene, |hand| deepest(hand));
+    // Whether anything was kept since the stages began anew.
+    'stages: for stage in plan::stages(generations) {
+        if state.generation != stage.generation {
+            let individual = state.individual.clone();
+            let next = hands.with(&scene, |hand| State::new(&scene, individual, stage.generation, hand));
+            // It has grown before.
+            let Some(next) = next else { break };
+            state = next.priced_as(state);
+        }
+        if state.count() == 0 || state.count() > MAX_UNITS {
+            if used(trees) >= 1.0 {
+                break;
+            }
+            continue;
+        }
+        for _ in 0..stage.batches {
+            let share = used(trees);
+            let likeness = state.likeness;
+            tell(&IndividualProgress { trees, trials, iou: state.iou, likeness, used: share.min(1.0) });
+            if share >= 1.0 {
+                break 'stages;
+            }
+            let numbers: Vec<u32> = (number..number + BATCH).collect();
+            number += BATCH;
+            let batch = Batch { scene: &scene, hands: &hands, state: &state, stage, spreads: &spreads };
+            let found: Vec<Found> =
+                numbers.par_iter().with_max_len(1).map(|&number| batch.tree(number)).collect();
+            if stop.load(Ordering::Relaxed) {
+                return Err(FitError::Interrupted);
+            }
+            trees += u64::from(BATCH);
+            trials += found.iter().map(|found| found.trials).sum::<u64>();
+            let better = found.into_iter().flat_map(|found| found.better).collect();
+            keep(&scene, &hands, &mut state, better);
+        }
+    }
+    let kind = problem.species(genome).map_err(crate::space::SpaceError::Start)?;
+    let species = kind.with_individual(genome.tree_seed, state.individual);
+    let before = evaluator.evaluate_with_likeness(genome);
+    let score =
+        evaluator.with_generator(std::sync::Arc::clone(&species.generator)).evaluate_with_likeness(genome);
+    let elapsed = clock.elapsed().saturating_sub(from);
+    Ok(Some(FoundIndividual { species, before, score, trees, trials, elapsed }))
+}
+
+/// Number of generations of the tree that `hand` has grown last.
+fn deepest(hand: &Hand) -> u16 {
+    let mut generations: Vec<u16> = Vec::with_capacity(hand.tree.stems.len());
+    for stem in &hand.tree.stems {
+        generations.push(stem.parent.map_or(1, |parent| generations[parent as usize].saturating_add(1)));
+    }
+    generations.into_iter().max().unwrap_or(0)
+}
+
+/// Makes the exchanges that are still worth it, the best first.
+fn keep(scene: &Scene<'_>, hands: &Hands, state: &mut State, mut better: Vec<(f64, Exchange)>) {
+    // Stable, so that ties are in the order of the trees.
+    better.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let most = scene.quest.settings.max_stems;
+    for (_, exchange) in better {
+        if !state.has_room(exchange.unit, most) {
+            continue;
+        }
+        let worth = hands.with(scene, |hand| hand.tried(scene, state, &exchange));
+        if worth.cost < state.cost - LEAST_GAIN {
+            state.exchange(exchange, worth);
+        }
+    }
+}
+
+/// What one tree of candidates has brought.
+struct Found {
+    trials: u64,
+    /// Cost after each exchange that makes it smaller.
+    better: Vec<(f64, Exchange)>,
+}
+
+/// Trees that are grown beside each other.
+struct Batch<'a> {
+    scene: &'a Scene<'a>,
+    hands: &'a Hands,
+    state: &'a State,
+    stage: Stage,
+    spreads: &'a [Spread],
+}
+
+impl Batch<'_> {
+    /// Grows a tree in which all stems of the generation have other draws, and tries them one by one.
+    fn tree(&self, number: u32) -> Found {
+        let Self { scene, hands, state, stage, spreads } = *self;
+        let mut found = Found { trials: 0, better: Vec::new() };
+        if scene.quest.stop.load(Ordering::Relaxed) {
+            return found;
+        }
+        let Stage { generation, reseeds, reach, .. } = stage;
+        let trial = Trial { generation, number, reach, reseeds, spreads: spreads.to_vec() };
+        hands.with(scene, |hand| {
+            if !hand.grow(scene, &state.individual.draws().with_trial(trial.clone())) {
+                return;
+            }
+            let units = Units::new(&hand.tree, generation);
+            for (part, unit) in (1..).zip(&units.units) {
+                let Some((known, kept)) = state.find(unit.address) else { continue };
+                let draw = trial.draw(unit.address, unit.level, &kept);
+                let mut layers = Vec::new();
+                hand.draw(scene, &units, part, &mut layers);
+                let spread = spreads[unit.level.min(spreads.len() - 1)];
+                let exchange = Exchange { unit: known, draw, reseeds, spread, layers };
+                let worth = hand.tried(scene, state, &exchange);
+                found.trials += 1;
+                if worth.cost < state.cost - LEAST_GAIN {
+                    found.better.push((worth.cost, exchange));
+                }
+            }
+        });
+        found
+    }
+}
+
+impl Hand {
+    fn tried(&mut self, scene: &Scene<'_>, state: &State, exchange: &Exchange) -> Worth {
+        state.tried(scene, exchange, &mut self.picture, &mut self.comparisons)
+    }
+}
+
+/// Memory that threads take from and give back to.
+#[derive(Default)]
+struct Hands(Mutex<Vec<Hand>>);
+
+impl Hands {
+    fn with<T>(&self, scene: &Scene<'_>, work: impl FnOnce(&mut Hand) -> T) -> T {
+        let pool = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let taken = pool().pop();
+        let mut hand = taken.unwrap_or_else(|| Hand::new(scene));
+        let result = work(&mut hand);
+        pool().push(hand);
+        result
+    }
+}

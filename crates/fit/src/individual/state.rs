@@ -1,0 +1,213 @@
+//! The individual so far, as pictures that stems can be exchanged in.
+
+use super::hand::{DETAIL, Hand, Scene};
+use super::units::{Unit, Units};
+use crate::evaluator::Comparisons;
+use pleach_silhouette::{Bitmap, Layer, Stack};
+use pleach_tree::{Address, Draw, Individual, Spread, individual::StemPath};
+use std::collections::BTreeMap;
+
+/// What all draws together cost at most, if every stem of a generation lay at the edge of its spread.
+const PRICE: f64 = 0.02;
+
+/// A tree cut at one generation.
+pub(super) struct State {
+    pub(super) generation: u16,
+    pub(super) individual: Individual,
+    /// What the draws of each stem cost.
+    prices: BTreeMap<StemPath, f64>,
+    /// Units by the hash of their address.
+    by_address: Vec<(u64, usize)>,
+    paths: Vec<StemPath>,
+    /// Layers of each unit, view by view.
+    layers: Vec<Vec<Layer>>,
+    panes: Vec<Pane>,
+    pub(super) cost: f64,
+    pub(super) iou: f64,
+    pub(super) likeness: f64,
+}
+
+/// One picture.
+struct Pane {
+    stack: Stack,
+    picture: Bitmap,
+}
+
+/// Other draws of one unit, drawn.
+pub(super) struct Exchange {
+    pub(super) unit: usize,
+    pub(super) draw: Draw,
+    pub(super) reseeds: bool,
+    pub(super) spread: Spread,
+    pub(super) layers: Vec<Layer>,
+}
+
+/// What a picture of all views is worth.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Worth {
+    pub(super) cost: f64,
+    iou: f64,
+    likeness: f64,
+}
+
+impl State {
+    /// The tree of `individual`, cut at `generation`; none if it does not grow.
+    pub(super) fn new(
+        scene: &Scene<'_>,
+        individual: Individual,
+        generation: u16,
+        hand: &mut Hand,
+    ) -> Option<Self> {
+        if !hand.grow(scene, &individual.draws()) {
+            return None;
+        }
+        let units = Units::new(&hand.tree, generation);
+        let mut panes: Vec<Pane> = scene
+            .placed
+            .iter()
+            .map(|(_, frame)| Pane { stack: Stack::new(frame, DETAIL), picture: Bitmap::default() })
+            .collect();
+        let mut layers = Vec::with_capacity(units.units.len());
+        for part in 0..=units.units.len() {
+            let mut of_part = Vec::new();
+            hand.draw(scene, &units, part, &mut of_part);
+            for (pane, layer) in panes.iter_mut().zip(&of_part) {
+                pane.stack.add(layer);
+            }
+            if part > 0 {
+                layers.push(of_part);
+            }
+        }
+        for pane in &mut panes {
+            pane.stack.picture(&mut pane.picture);
+        }
+        let mut by_address: Vec<(u64, usize)> =
+            units.units.iter().enumerate().map(|(i, unit)| (unit.address.bits(), i)).collect();
+        by_address.sort_unstable();
+        let paths = units.units.iter().map(|Unit { stem, .. }| hand.tree.path_of(*stem)).collect();
+        let prices = BTreeMap::new();
+        let (cost, iou, likeness) = (f64::INFINITY, 0.0, 0.0);
+        let mut state =
+            Self { generation, individual, prices, by_address, paths, layers, panes, cost, iou, likeness };
+        let pictures = |view: usize| &state.panes[view].picture;
+        let worth = worth(scene, pictures, &mut hand.comparisons);
+        state.take(worth);
+        Some(state)
+    }
+
+    /// The same, with the prices of `before`.
+    pub(super) fn priced_as(self, before: Self) -> Self {
+        let paid: f64 = before.prices.values().sum();
+        Self { prices: before.prices, cost: self.cost + paid, ..self }
+    }
+
+    fn take(&mut self, worth: Worth) {
+        (self.cost, self.iou, self.likeness) = (worth.cost, worth.iou, worth.likeness);
+    }
+
+    /// Number of units.
+    pub(super) fn count(&self) -> usize {
+        self.paths.len()
+    }
+
+    /// The number of the unit at `address`, and what it has drawn.
+    pub(super) fn find(&self, address: Address) -> Option<(usize, Draw)> {
+        let place = self.by_address.binary_search_by_key(&address.bits(), |&(bits, _)| bits).ok()?;
+        let unit = self.by_address[place].1;
+        Some((unit, self.individual.get(&self.paths[unit]).copied().unwrap_or(Draw::OWN)))
+    }
+
+    /// Whether another stem may have draws of its own.
+    pub(super) fn has_room(&self, unit: usize, most: usize) -> bool {
+        self.individual.len() < most || self.individual.get(&self.paths[unit]).is_some()
+    }
+
+    /// What the picture would be worth after `exchange`.
+    pub(super) fn tried(
+        &self,
+        scene: &Scene<'_>,
+        exchange: &Exchange,
+        picture: &mut Bitmap,
+        comparisons: &mut Comparisons,
+    ) -> Worth {
+        let mut sum = Sum::default();
+        for (view, (pane, new)) in self.panes.iter().zip(&exchange.layers).enumerate() {
+            picture.clone_from(&pane.picture);
+            pane.stack.exchanged(&self.layers[exchange.unit][view], new, picture);
+            sum.add(scene, view, picture, comparisons);
+        }
+        let mut worth = sum.mean();
+        worth.cost += self.prices_after(exchange);
+        worth
+    }
+
+    /// What a stem's draws cost.
+    fn price(&self, exchange: &Exchange) -> f64 {
+        PRICE * exchange.draw.price(&exchange.spread) / self.count() as f64
+    }
+
+    fn prices_after(&self, exchange: &Exchange) -> f64 {
+        let path = &self.paths[exchange.unit];
+        let stays = |other: &StemPath| if exchange.reseeds { !other.is_on(path) } else { other != path };
+        // In one order, whichever stems were exchanged first.
+        let others: f64 = self.prices.iter().filter(|(other, _)| stays(other)).map(|(_, price)| price).sum();
+        others + self.price(exchange)
+    }
+
+    /// Exchanges the draws of a unit.
+    pub(super) fn exchange(&mut self, exchange: Exchange, worth: Worth) {
+        let price = self.price(&exchange);
+        let Exchange { unit, draw, reseeds, layers, .. } = exchange;
+        let path = self.paths[unit].clone();
+        if reseeds {
+            self.individual.clear_above(&path);
+            self.prices.retain(|other, _| !other.is_on(&path));
+        }
+        self.individual.set(path.clone(), draw);
+        self.prices.insert(path, price);
+        for ((pane, old), new) in self.panes.iter_mut().zip(&self.layers[unit]).zip(&layers) {
+            pane.stack.exchanged(old, new, &mut pane.picture);
+            pane.stack.remove(old);
+            pane.stack.add(new);
+        }
+        self.layers[unit] = layers;
+        self.take(worth);
+    }
+}
+
+/// What pictures are worth, without prices.
+fn worth<'p>(
+    scene: &Scene<'_>,
+    picture: impl Fn(usize) -> &'p Bitmap,
+    comparisons: &mut Comparisons,
+) -> Worth {
+    let mut sum = Sum::default();
+    for view in 0..scene.views.len() {
+        sum.add(scene, view, picture(view), comparisons);
+    }
+    sum.mean()
+}
+
+/// Sums over views.
+#[derive(Default)]
+struct Sum {
+    views: f64,
+    cost: f64,
+    iou: f64,
+    likeness: f64,
+}
+
+impl Sum {
+    fn add(&mut self, scene: &Scene<'_>, view: usize, picture: &Bitmap, comparisons: &mut Comparisons) {
+        let agreement = scene.compare(view, picture, comparisons);
+        self.views += 1.0;
+        self.cost += 1.0 - agreement.value;
+        self.iou += agreement.iou;
+        self.likeness += agreement.likeness.unwrap_or_default();
+    }
+
+    fn mean(&self) -> Worth {
+        let Self { views, cost, iou, likeness } = *self;
+        Worth { cost: cost / views, iou: iou / views, likeness: likeness / views }
+    }
+}

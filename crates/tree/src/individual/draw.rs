@@ -1,0 +1,74 @@
+//! What one stem has drawn in place of its own draws.
+
+use crate::random::{Key, Purpose};
+
+/// What draws of one stem are for.
+const RESEED: Purpose = Purpose::MAX;
+
+/// Other draws of one stem.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Draw {
+    /// Which draws it and what it carries have in place of their own; 0 for their own.
+    pub seed: u32,
+    /// Radians by which it is turned about its parent.
+    pub azimuth: f64,
+    /// Radians by which it leans away from its parent's tip.
+    pub pitch: f64,
+    /// What its length is multiplied by. That of a fork is its parent's.
+    pub length: f64,
+}
+
+impl Draw {
+    /// Nothing else than it has drawn itself.
+    pub const OWN: Self = Self { seed: 0, azimuth: 0.0, pitch: 0.0, length: 1.0 };
+
+    /// The key that its draws follow from, where `own` is its own.
+    #[must_use]
+    pub fn key(&self, own: Key) -> Key {
+        if self.seed == 0 { own } else { own.child(RESEED, self.seed) }
+    }
+
+    /// Whether the numbers are allowed: turns of at most half a turn, a length of a tenth to ten times.
+    #[must_use]
+    pub fn is_allowed(&self) -> bool {
+        let turn = |angle: f64| angle.is_finite() && angle.abs() <= std::f64::consts::PI;
+        turn(self.azimuth) && turn(self.pitch) && (0.1..=10.0).contains(&self.length)
+    }
+
+    /// How far it lies from the stem's own draws, in squares of `spread`; the mean of the three numbers.
+    #[must_use]
+    pub fn price(&self, spread: &Spread) -> f64 {
+        let part = |distance: f64, most: f64| if most > 0.0 { (distance / most).powi(2) } else { 0.0 };
+        let Spread { azimuth, pitch, length } = *spread;
+        (part(self.azimuth, azimuth) + part(self.pitch, pitch) + part(self.length - 1.0, length)) / 3.0
+    }
+}
+
+/// How far from their own the draws of stems of one level may be: what the species itself leaves open, and a
+/// little where it leaves nothing open.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spread {
+    /// Largest turn about the parent, radians.
+    pub azimuth: f64,
+    /// Largest lean, radians.
+    pub pitch: f64,
+    /// Largest part by which a stem is longer or shorter.
+    pub length: f64,
+}
+
+impl Spread {
+    /// The draw in the middle of `self` that `key` deals, of a stem whose own are `from`: `reach` is the part of the
+    /// spread that it may lie away from them.
+    pub(super) fn deal(&self, key: Key, from: &Draw, reach: f64) -> Draw {
+        let near = |from: f64, most: f64, index: u32| {
+            (from + reach * most * key.signed(0, index)).clamp(-most, most)
+        };
+        Draw {
+            seed: from.seed,
+            azimuth: near(from.azimuth, self.azimuth, 0),
+            pitch: near(from.pitch, self.pitch, 1),
+            length: 1.0 + near(from.length - 1.0, self.length, 2),
+        }
+        .rounded()
+    }
+}
