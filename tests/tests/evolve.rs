@@ -27,7 +27,7 @@ fn a_grammar_is_found_from_nothing_and_grows_with_other_seeds() {
     }
     let summary: serde_json::Value = serde_json::from_slice(&read(&dir.path("run/summary.json"))).unwrap();
     assert_eq!((&summary["generator"], &summary["optimizer"]), (&"lsystem".into(), &"rules".into()));
-    assert_eq!(summary["objective"], "both");
+    assert_eq!(summary["objective"], "overlap");
     let grammar = summary["grammar"].as_str().unwrap();
     assert!(said.contains(grammar) && summary["grammar_length"].as_u64().unwrap() > 20);
     assert!(String::from_utf8(read(&dir.path("run/best.toml"))).unwrap().contains(grammar));

@@ -2,8 +2,9 @@
 
 use super::Quest;
 use super::units::Units;
-use crate::evaluator::{Agreement, Comparisons, Likeness, PreparedView};
-use pleach_silhouette::{Bitmap, Detail, Frame, Layer, LayerPainter, View};
+use crate::evaluator::{Comparisons, Likeness, PreparedView};
+use crate::objective::Objective;
+use pleach_silhouette::{Bitmap, Detail, Frame, Layer, LayerPainter, Stack, View};
 use pleach_tree::{CheckedParams, Draws, Growth, Tree, Workspace};
 
 /// The pictures of the goals, and what all hands share.
@@ -14,14 +15,28 @@ pub(super) struct Scene<'a> {
     pub(super) placed: Vec<(View, Frame)>,
 }
 
+/// How one picture compares with its goal, each in 0..=1.
+pub(super) struct Looks {
+    /// What is made large.
+    pub(super) value: f64,
+    pub(super) iou: f64,
+    pub(super) likeness: f64,
+}
+
+/// Likeness from which on overlap alone counts: as much as two trees of a species have at best. As
+/// [`Objective::Overlap`], which asks for less: whole trees do not come so far.
+const ALIKE: f64 = 0.93;
+
 /// As fine as a search draws.
 pub(super) const DETAIL: Detail = Detail::Half;
 
 impl Scene<'_> {
-    /// Shows `picture` of goal number `view`.
-    pub(super) fn compare(&self, view: usize, picture: &Bitmap, memory: &mut Comparisons) -> Agreement {
-        let objective = self.quest.settings.objective;
-        self.views[view].compare(picture, objective, Likeness::IfNeeded, memory)
+    /// What `picture` of goal number `view` is worth, and its overlap and likeness.
+    pub(super) fn compare(&self, view: usize, picture: &Bitmap, memory: &mut Comparisons) -> Looks {
+        let found = self.views[view].compare(picture, Objective::Blend, Likeness::Always, memory);
+        let likeness = found.likeness.unwrap_or_default();
+        let overlap = f64::midpoint(found.iou, found.value);
+        Looks { value: overlap * (likeness / ALIKE).min(1.0).powi(2), iou: found.iou, likeness }
     }
 }
 
@@ -63,12 +78,25 @@ impl Hand {
         problem.start.generator.grow(&scene.params, &growth, &mut self.workspace, &mut self.tree).is_ok()
     }
 
-    /// Draws a part of the tree into the layer of each view.
-    pub(super) fn draw(&mut self, scene: &Scene<'_>, units: &Units, part: usize, layers: &mut Vec<Layer>) {
+    /// Takes a part of the tree to draw.
+    pub(super) fn take(&mut self, units: &Units, part: usize) {
         units.copy(&self.tree, part, &mut self.part);
-        layers.resize_with(self.painters.len(), Layer::default);
-        for (painter, layer) in self.painters.iter_mut().zip(layers) {
-            painter.draw(&self.part, scene.quest.problem.foliage.into(), layer);
-        }
+    }
+
+    /// The layer of what was taken, view by view.
+    pub(super) fn layers(&mut self, scene: &Scene<'_>) -> Vec<Layer> {
+        let parts = scene.quest.problem.foliage.into();
+        let draw = |painter: &mut LayerPainter| {
+            let mut layer = Layer::default();
+            painter.draw(&self.part, parts, &mut layer);
+            layer
+        };
+        self.painters.iter_mut().map(draw).collect()
+    }
+
+    /// Shows what was taken in the place of `old` in goal number `view`.
+    pub(super) fn show(&mut self, scene: &Scene<'_>, view: usize, stack: &Stack, old: &Layer) {
+        let parts = scene.quest.problem.foliage.into();
+        self.painters[view].exchanged(&self.part, parts, stack, old, &mut self.picture);
     }
 }

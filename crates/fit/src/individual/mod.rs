@@ -8,6 +8,10 @@
 //! One tree in which all stems of a generation have other draws is a candidate for each of them at once. Every
 //! stem with what it carries is a [layer](pleach_silhouette::Layer) of the picture, so that a trial takes one
 //! layer out and puts another in, whatever the number of other stems.
+//!
+//! What is made large is overlap, pixel by pixel and in coarser cells, of trees that are as like the goal as two trees of
+//! a species are at best. Draws far from a stem's own have a price, so that what the picture does not ask for stays as
+//! the species would have it.
 
 mod hand;
 mod plan;
@@ -18,7 +22,6 @@ mod units;
 use crate::budget::Clock;
 use crate::error::FitError;
 use crate::genome::{Genome, Score};
-use crate::objective::Objective;
 use crate::problem::FitProblem;
 use pleach_tree::{Individual, Limits, Species};
 use std::sync::atomic::AtomicBool;
@@ -31,8 +34,6 @@ pub struct IndividualSettings {
     pub time: Option<Duration>,
     /// Trees that are grown, each a candidate for every stem of a generation; none is no bound.
     pub trees: Option<u64>,
-    /// What is made small.
-    pub objective: Objective,
     /// Most stems with draws of their own.
     pub max_stems: usize,
 }
@@ -50,8 +51,7 @@ impl IndividualSettings {
     /// With so many trees; the same bits on any machine.
     #[must_use]
     pub fn trees(trees: u64) -> Self {
-        let objective = Objective::default();
-        Self { time: None, trees: Some(trees), objective, max_stems: Self::MAX_STEMS }
+        Self { time: None, trees: Some(trees), max_stems: Self::MAX_STEMS }
     }
 }
 
@@ -75,10 +75,10 @@ pub struct IndividualProgress {
 pub struct FoundIndividual {
     /// The species with its individual.
     pub species: Species,
-    /// The score of the tree that the search for the kind has found, and that of the individual, both by what
-    /// this search makes small, with their likeness.
+    /// The score of the tree that the search began with, by [`Objective::Overlap`](crate::Objective::Overlap),
+    /// with its likeness.
     pub before: Score,
-    /// See `before`.
+    /// The same of the individual.
     pub score: Score,
     /// Trees grown.
     pub trees: u64,

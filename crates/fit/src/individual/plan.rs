@@ -6,9 +6,9 @@ pub(super) const BATCH: u32 = 8;
 /// Batches of a stage.
 const BATCHES: u32 = 4;
 /// Of the first, in which whole trees are dealt.
-const FIRST_BATCHES: u32 = 12;
+const FIRST_BATCHES: u32 = 4;
 /// Generations with more stems are left as they are.
-pub(super) const MAX_UNITS: usize = 4000;
+pub(super) const MAX_UNITS: usize = 6000;
 
 /// Some batches of one kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub(super) struct Stage {
 pub(super) fn stages(generations: u16) -> impl Iterator<Item = Stage> {
     let whole = [
         Stage { generation: 0, reseeds: true, reach: 1.0, batches: FIRST_BATCHES },
-        Stage { generation: 0, reseeds: false, reach: 0.3, batches: BATCHES },
+        Stage { generation: 0, reseeds: false, reach: 0.3, batches: 1 },
     ];
     let stage = |generation, reseeds, reach| Stage { generation, reseeds, reach, batches: BATCHES };
     let round = move |round: u32| {

@@ -2,12 +2,14 @@
 
 use super::hand::{Hand, Scene};
 use super::plan::{self, BATCH, MAX_UNITS, Stage};
-use super::state::{Exchange, State, Worth};
+use super::state::{Deal, State};
 use super::units::Units;
 use super::{FoundIndividual, IndividualProgress, Quest};
 use crate::budget::Clock;
 use crate::error::FitError;
 use crate::evaluator::{Evaluator, PreparedView};
+use crate::objective::Objective;
+use pleach_silhouette::Layer;
 use pleach_tree::individual::Trial;
 use pleach_tree::{Individual, Spread};
 use rayon::prelude::*;
@@ -25,7 +27,7 @@ pub(super) fn search(
 ) -> Result<Option<FoundIndividual>, FitError> {
     let Quest { problem, genome, settings, limits, stop } = *quest;
     let from = clock.elapsed();
-    let evaluator = Evaluator::new(problem, settings.objective, limits)?;
+    let evaluator = Evaluator::new(problem, Objective::Overlap, limits)?;
     let generator = &problem.start.generator;
     let spreads = generator.spreads(&genome.values);
     let Ok(params) = generator.space().check(genome.values.clone()) else { return Ok(None) };
@@ -48,7 +50,6 @@ pub(super) fn search(
             .max(share(trees as f64, settings.trees.map(|all| all as f64)))
     };
     let generations = hands.with(&scene, |hand| deepest(hand));
-    // Whether anything was kept since the stages began anew.
     'stages: for stage in plan::stages(generations) {
         if state.generation != stage.generation {
             let individual = state.individual.clone();
@@ -103,26 +104,34 @@ fn deepest(hand: &Hand) -> u16 {
 }
 
 /// Makes the exchanges that are still worth it, the best first.
-fn keep(scene: &Scene<'_>, hands: &Hands, state: &mut State, mut better: Vec<(f64, Exchange)>) {
+fn keep(scene: &Scene<'_>, hands: &Hands, state: &mut State, mut better: Vec<Better>) {
     // Stable, so that ties are in the order of the trees.
-    better.sort_by(|a, b| a.0.total_cmp(&b.0));
+    better.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let most = scene.quest.settings.max_stems;
-    for (_, exchange) in better {
-        if !state.has_room(exchange.unit, most) {
+    for Better { deal, layers, .. } in better {
+        if !state.has_room(deal.unit, most) {
             continue;
         }
-        let worth = hands.with(scene, |hand| hand.tried(scene, state, &exchange));
+        let worth = hands.with(scene, |hand| state.tried_again(scene, &deal, &layers, hand));
         if worth.cost < state.cost - LEAST_GAIN {
-            state.exchange(exchange, worth);
+            state.exchange(&deal, layers, worth);
         }
     }
+}
+
+/// A deal that makes the cost smaller.
+struct Better {
+    /// The cost after it.
+    cost: f64,
+    deal: Deal,
+    /// What its parts cover, view by view.
+    layers: Vec<Layer>,
 }
 
 /// What one tree of candidates has brought.
 struct Found {
     trials: u64,
-    /// Cost after each exchange that makes it smaller.
-    better: Vec<(f64, Exchange)>,
+    better: Vec<Better>,
 }
 
 /// Trees that are grown beside each other.
@@ -152,24 +161,17 @@ impl Batch<'_> {
             for (part, unit) in (1..).zip(&units.units) {
                 let Some((known, kept)) = state.find(unit.address) else { continue };
                 let draw = trial.draw(unit.address, unit.level, &kept);
-                let mut layers = Vec::new();
-                hand.draw(scene, &units, part, &mut layers);
                 let spread = spreads[unit.level.min(spreads.len() - 1)];
-                let exchange = Exchange { unit: known, draw, reseeds, spread, layers };
-                let worth = hand.tried(scene, state, &exchange);
+                let deal = Deal { unit: known, draw, reseeds, spread };
+                hand.take(&units, part);
                 found.trials += 1;
+                let Some(worth) = state.tried(scene, &deal, hand) else { continue };
                 if worth.cost < state.cost - LEAST_GAIN {
-                    found.better.push((worth.cost, exchange));
+                    found.better.push(Better { cost: worth.cost, deal, layers: hand.layers(scene) });
                 }
             }
         });
         found
-    }
-}
-
-impl Hand {
-    fn tried(&mut self, scene: &Scene<'_>, state: &State, exchange: &Exchange) -> Worth {
-        state.tried(scene, exchange, &mut self.picture, &mut self.comparisons)
     }
 }
 

@@ -33,13 +33,13 @@ struct Pane {
     picture: Bitmap,
 }
 
-/// Other draws of one unit, drawn.
-pub(super) struct Exchange {
+/// Other draws of one unit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Deal {
     pub(super) unit: usize,
     pub(super) draw: Draw,
     pub(super) reseeds: bool,
     pub(super) spread: Spread,
-    pub(super) layers: Vec<Layer>,
 }
 
 /// What a picture of all views is worth.
@@ -69,8 +69,8 @@ impl State {
             .collect();
         let mut layers = Vec::with_capacity(units.units.len());
         for part in 0..=units.units.len() {
-            let mut of_part = Vec::new();
-            hand.draw(scene, &units, part, &mut of_part);
+            hand.take(&units, part);
+            let of_part = hand.layers(scene);
             for (pane, layer) in panes.iter_mut().zip(&of_part) {
                 pane.stack.add(layer);
             }
@@ -122,42 +122,61 @@ impl State {
         self.individual.len() < most || self.individual.get(&self.paths[unit]).is_some()
     }
 
-    /// What the picture would be worth after `exchange`.
-    pub(super) fn tried(
+    /// What the picture would be worth with `deal`, for which `hand` has taken the part of its tree; none where
+    /// the one picture is the same as before, or plainly further from the goal.
+    pub(super) fn tried(&self, scene: &Scene<'_>, deal: &Deal, hand: &mut Hand) -> Option<Worth> {
+        let mut sum = Sum::default();
+        for (view, pane) in self.panes.iter().enumerate() {
+            hand.picture.clone_from(&pane.picture);
+            hand.show(scene, view, &pane.stack, &self.layers[deal.unit][view]);
+            if self.panes.len() == 1
+                && !is_worth_a_look(&hand.picture, &pane.picture, &scene.views[view].goal)
+            {
+                return None;
+            }
+            sum.add(scene, view, &hand.picture, &mut hand.comparisons);
+        }
+        Some(self.with_prices(sum.mean(), deal))
+    }
+
+    /// What the picture would be worth with `deal`, whose parts cover `layers`.
+    pub(super) fn tried_again(
         &self,
         scene: &Scene<'_>,
-        exchange: &Exchange,
-        picture: &mut Bitmap,
-        comparisons: &mut Comparisons,
+        deal: &Deal,
+        layers: &[Layer],
+        hand: &mut Hand,
     ) -> Worth {
         let mut sum = Sum::default();
-        for (view, (pane, new)) in self.panes.iter().zip(&exchange.layers).enumerate() {
-            picture.clone_from(&pane.picture);
-            pane.stack.exchanged(&self.layers[exchange.unit][view], new, picture);
-            sum.add(scene, view, picture, comparisons);
+        for (view, (pane, new)) in self.panes.iter().zip(layers).enumerate() {
+            hand.picture.clone_from(&pane.picture);
+            pane.stack.exchanged(&self.layers[deal.unit][view], new, &mut hand.picture);
+            sum.add(scene, view, &hand.picture, &mut hand.comparisons);
         }
-        let mut worth = sum.mean();
-        worth.cost += self.prices_after(exchange);
-        worth
+        self.with_prices(sum.mean(), deal)
+    }
+
+    fn with_prices(&self, worth: Worth, deal: &Deal) -> Worth {
+        Worth { cost: worth.cost + self.prices_after(deal), ..worth }
     }
 
     /// What a stem's draws cost.
-    fn price(&self, exchange: &Exchange) -> f64 {
-        PRICE * exchange.draw.price(&exchange.spread) / self.count() as f64
+    fn price(&self, deal: &Deal) -> f64 {
+        PRICE * deal.draw.price(&deal.spread) / self.count() as f64
     }
 
-    fn prices_after(&self, exchange: &Exchange) -> f64 {
-        let path = &self.paths[exchange.unit];
-        let stays = |other: &StemPath| if exchange.reseeds { !other.is_on(path) } else { other != path };
+    fn prices_after(&self, deal: &Deal) -> f64 {
+        let path = &self.paths[deal.unit];
+        let stays = |other: &StemPath| if deal.reseeds { !other.is_on(path) } else { other != path };
         // In one order, whichever stems were exchanged first.
         let others: f64 = self.prices.iter().filter(|(other, _)| stays(other)).map(|(_, price)| price).sum();
-        others + self.price(exchange)
+        others + self.price(deal)
     }
 
     /// Exchanges the draws of a unit.
-    pub(super) fn exchange(&mut self, exchange: Exchange, worth: Worth) {
-        let price = self.price(&exchange);
-        let Exchange { unit, draw, reseeds, layers, .. } = exchange;
+    pub(super) fn exchange(&mut self, deal: &Deal, layers: Vec<Layer>, worth: Worth) {
+        let price = self.price(deal);
+        let Deal { unit, draw, reseeds, .. } = *deal;
         let path = self.paths[unit].clone();
         if reseeds {
             self.individual.clear_above(&path);
@@ -173,6 +192,14 @@ impl State {
         self.layers[unit] = layers;
         self.take(worth);
     }
+}
+
+/// Whether `picture` may be worth more than the picture `before`: not if it is the same, or if three of four pixels
+/// that changed are wrong now.
+fn is_worth_a_look(picture: &Bitmap, before: &Bitmap, goal: &Bitmap) -> bool {
+    let changed = picture.differing(before);
+    let worse = picture.differing(goal) as f64 - before.differing(goal) as f64;
+    changed > 0 && worse <= 0.5 * changed as f64
 }
 
 /// What pictures are worth, without prices.
@@ -199,11 +226,11 @@ struct Sum {
 
 impl Sum {
     fn add(&mut self, scene: &Scene<'_>, view: usize, picture: &Bitmap, comparisons: &mut Comparisons) {
-        let agreement = scene.compare(view, picture, comparisons);
+        let looks = scene.compare(view, picture, comparisons);
         self.views += 1.0;
-        self.cost += 1.0 - agreement.value;
-        self.iou += agreement.iou;
-        self.likeness += agreement.likeness.unwrap_or_default();
+        self.cost += 1.0 - looks.value;
+        self.iou += looks.iou;
+        self.likeness += looks.likeness;
     }
 
     fn mean(&self) -> Worth {

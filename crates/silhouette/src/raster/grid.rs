@@ -239,6 +239,35 @@ impl Grid {
         }
     }
 
+    /// Words of a row of samples.
+    pub(super) fn line_mut(&mut self, row: usize, across: Range<usize>) -> &mut [u64] {
+        &mut self.words[row * self.words_per_row..][across]
+    }
+
+    /// Sets all samples of the pixels of row `y` that are black already: no more can be seen of them.
+    pub(super) fn saturate(&mut self, y: u32, across: Range<usize>, half: Half) {
+        for word in across {
+            let full = spread(half.black(y, counts(self.pixel_rows(y), self.words_per_row, word)));
+            if full != 0 {
+                for row in y * self.down..(y + 1) * self.down {
+                    self.words[row as usize * self.words_per_row + word] |= full;
+                }
+            }
+        }
+    }
+
+    /// Writes the pixels of a part of row `y` to `out`, a row of pixels, and clears their samples.
+    pub(super) fn resolve_and_clear(&mut self, y: u32, across: Range<usize>, half: Half, out: &mut [u64]) {
+        for word in across.clone() {
+            let shift = word % 8 * 8;
+            let black = half.black(y, counts(self.pixel_rows(y), self.words_per_row, word));
+            out[word / 8] = out[word / 8] & !(0xff << shift) | black << shift;
+        }
+        for row in (y * self.down) as usize..((y + 1) * self.down) as usize {
+            self.line_mut(row, across.clone()).fill(0);
+        }
+    }
+
     fn pixel_rows(&self, y: u32) -> &[u64] {
         let start = (y * self.down) as usize * self.words_per_row;
         &self.words[start..start + self.down as usize * self.words_per_row]
@@ -266,6 +295,15 @@ impl Half {
         // Gathers the eight top bits into one byte.
         (black >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56
     }
+}
+
+/// A byte of ones for each bit of a byte.
+#[inline]
+fn spread(byte: u64) -> u64 {
+    // A copy of the byte in each byte, then bit k of byte k alone, moved to its top and from there down to all eight.
+    let bits = byte.wrapping_mul(LOW_BITS) & 0x8040_2010_0804_0201;
+    let tops = (bits + (HIGH_BITS - LOW_BITS)) & HIGH_BITS;
+    (tops >> 7).wrapping_mul(0xff)
 }
 
 const EVERY_OTHER: u64 = 0x0001_0001_0001_0001;

@@ -79,6 +79,30 @@ impl LayerPainter {
         self.rasterizer.grid.take(out.across.clone(), samples, &mut out.words);
     }
 
+    /// Rewrites `picture`, which is that of `stack`, where it would be another one with `parts` of `tree` in the place
+    /// of the layer `old`.
+    ///
+    /// Quicker than to draw a layer for [`Stack::exchanged`]: what lies behind pixels that are black without it is
+    /// not drawn.
+    pub fn exchanged(&mut self, tree: &Tree, parts: Parts, stack: &Stack, old: &Layer, picture: &mut Bitmap) {
+        let (columns, rows) = self.extent(tree, parts);
+        let words = (columns.start / ACROSS) as usize..columns.end.div_ceil(ACROSS) as usize;
+        let across = join(words, old.across.clone());
+        let rows = join(rows, old.rows.clone());
+        for y in rows.clone() {
+            let lines = (y * self.down) as usize..((y + 1) * self.down) as usize;
+            for row in lines.clone() {
+                let rest = self.rasterizer.grid.line_mut(row, across.clone());
+                stack.without(old, row, &across, rest);
+            }
+            self.rasterizer.grid.saturate(y, across.clone(), stack.half);
+        }
+        self.rasterizer.sample_onto(tree, &self.camera, self.down, parts);
+        for y in rows {
+            self.rasterizer.grid.resolve_and_clear(y, across.clone(), stack.half, picture.row_mut(y));
+        }
+    }
+
     /// Columns and rows of pixels outside which `parts` of `tree` cover nothing.
     fn extent(&self, tree: &Tree, parts: Parts) -> (Range<u32>, Range<u32>) {
         let Frame { width, height, .. } = self.frame;
@@ -232,29 +256,31 @@ impl Stack {
     /// Rewrites `picture`, which is that of the stack, where it would be another one with `new` in the place of
     /// `old`, which has been laid on.
     pub fn exchanged(&self, old: &Layer, new: &Layer, picture: &mut Bitmap) {
-        let join = |a: Range<usize>, b: Range<usize>| match (a.is_empty(), b.is_empty()) {
-            (true, _) => b,
-            (_, true) => a,
-            _ => a.start.min(b.start)..a.end.max(b.end),
-        };
-        let rows = |layer: &Layer| layer.rows.start as usize..layer.rows.end as usize;
         let across = join(old.across.clone(), new.across.clone());
-        let down = join(rows(old), rows(new));
-        self.rewrite(across, down.start as u32..down.end as u32, old, new, picture);
+        self.rewrite(across, join(old.rows.clone(), new.rows.clone()), old, new, picture);
+    }
+
+    /// The samples of a row without the layer `old`.
+    fn without(&self, old: &Layer, row: usize, across: &Range<usize>, out: &mut [u64]) {
+        let line = row * self.words_per_row;
+        let any = &self.any[line..][across.clone()];
+        let twice = &self.twice[line..][across.clone()];
+        let gone = Line::new(old, row, across);
+        for (i, ((word, any), twice)) in out.iter_mut().zip(any).zip(twice).enumerate() {
+            let gone = gone.word(i);
+            *word = (any & !gone) | (twice & gone);
+        }
     }
 
     fn rewrite(&self, across: Range<usize>, rows: Range<u32>, old: &Layer, new: &Layer, out: &mut Bitmap) {
-        let mut counts = vec![0_u64; across.len()];
+        let (mut counts, mut samples) = (vec![0_u64; across.len()], vec![0_u64; across.len()]);
         for y in rows {
             counts.fill(0);
             for row in (y * self.down) as usize..((y + 1) * self.down) as usize {
-                let line = row * self.words_per_row;
-                let any = &self.any[line..][across.clone()];
-                let twice = &self.twice[line..][across.clone()];
-                let (gone, come) = (Line::new(old, row, &across), Line::new(new, row, &across));
-                for (i, ((sum, any), twice)) in counts.iter_mut().zip(any).zip(twice).enumerate() {
-                    let gone = gone.word(i);
-                    *sum += count((any & !gone) | (twice & gone) | come.word(i));
+                self.without(old, row, &across, &mut samples);
+                let come = Line::new(new, row, &across);
+                for (i, (sum, samples)) in counts.iter_mut().zip(&samples).enumerate() {
+                    *sum += count(samples | come.word(i));
                 }
             }
             let row = out.row_mut(y);
@@ -263,6 +289,15 @@ impl Stack {
                 row[word / 8] = row[word / 8] & !(0xff << shift) | self.half.black(y, sum) << shift;
             }
         }
+    }
+}
+
+/// The least range that has both.
+fn join<T: Ord + Copy>(a: Range<T>, b: Range<T>) -> Range<T> {
+    match (a.is_empty(), b.is_empty()) {
+        (true, _) => b,
+        (_, true) => a,
+        _ => a.start.min(b.start)..a.end.max(b.end),
     }
 }
 

@@ -87,8 +87,9 @@ pub fn individuals_are_read_back(family: &dyn Family) {
         let one = species.with_individual(SEED, individual.clone());
         let text = one.to_toml(&[]);
         if species.generator.spreads(values).is_empty() {
-            let error =
-                SpeciesDoc::parse("again.toml", &text).and_then(|doc| doc.species(family)).unwrap_err();
+            let error = SpeciesDoc::parse("again.toml", &text)
+                .and_then(|doc| doc.species(family))
+                .expect_err("refused");
             let has_no_addresses = |problem: &Problem| problem.to_string().contains("stems with addresses");
             assert!(error.issues.iter().any(|issue| has_no_addresses(&issue.problem)), "{name}: {error}");
             continue;

@@ -113,7 +113,7 @@ pub(super) struct SearchArgs {
 #[command(next_help_heading = "This very tree")]
 pub(super) struct IndividualArgs {
     /// How long single branches are dealt anew until the tree lies on the picture: a time such as 20s,
-    /// `Ntrees` for as many trees whatever the time, or off. By default a third of --timeout, or half as many trees as
+    /// `Ntrees` for as many trees whatever the time, or off. By default a third of --timeout, or an eighth as many trees as
     /// --evaluations
     #[arg(long, value_name = "TIME|Ntrees|off")]
     pub(super) individual: Option<individual::Effort>,

@@ -28,7 +28,7 @@ pub(super) enum Effort {
 
 /// The share of the time, and of the trees, of a fit.
 const SHARE_OF_TIME: u32 = 3;
-const SHARE_OF_TREES: u64 = 2;
+const SHARE_OF_TREES: u64 = 8;
 /// Trees where the search is bounded by something else.
 const TREES: u64 = 400;
 

@@ -123,3 +123,25 @@ fn pictures_may_be_of_any_width() {
         assert!(off <= 1 + whole.ink() / 50, "{width}: {off} pixels");
     }
 }
+
+/// What is hidden need not be drawn: the picture is the same.
+#[test]
+fn an_exchange_shows_the_same_with_and_without_a_layer() {
+    for (tree, view, frame) in cases() {
+        let [a, b] = layers(&tree, &view, &frame);
+        let [other, _] = halves(&grown("lombardy_poplar", 5));
+        let mut painter = LayerPainter::new(&view, &frame, Detail::Half);
+        let mut c = Layer::default();
+        painter.draw(&other, Parts::LEAFY, &mut c);
+        let stack = stacked(&[&a, &b], &frame);
+        for (old, new, tree) in [(&a, &c, &other), (&b, &c, &other), (&a, &a, &halves(&tree)[0])] {
+            let (mut with, mut without) = (picture(&stack), picture(&stack));
+            stack.exchanged(old, new, &mut with);
+            painter.exchanged(tree, Parts::LEAFY, &stack, old, &mut without);
+            assert!(with == without);
+        }
+        let mut again = Layer::default();
+        painter.draw(&other, Parts::LEAFY, &mut again);
+        assert!(again == c, "nothing is left over");
+    }
+}
