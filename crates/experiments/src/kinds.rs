@@ -1,6 +1,7 @@
 //! The kinds of experiments, each with what its file says.
 
 use super::families::FamiliesSpec;
+use super::individual::IndividualSpec;
 use super::likeness::LikenessSpec;
 use super::needle::NeedleSpec;
 use super::robustness::RobustnessSpec;
@@ -22,6 +23,7 @@ pub(super) enum Spec {
     Robustness(RobustnessSpec),
     Rules(RulesSpec),
     Families(FamiliesSpec),
+    Individual(IndividualSpec),
     Yao(YaoSpec),
     Stylised(StylisedSpec),
 }
@@ -37,6 +39,7 @@ impl Spec {
             Kind::Treefit => Self::Treefit(source.parse::<TreefitSpec>()?.checked(source)?),
             Kind::Needle => Self::Needle(source.parse::<NeedleSpec>()?.checked(source)?),
             Kind::Families => Self::Families(source.parse::<FamiliesSpec>()?.checked(source)?),
+            Kind::Individual => Self::Individual(source.parse::<IndividualSpec>()?.checked(source)?),
             Kind::Robustness => Self::Robustness(source.parse::<RobustnessSpec>()?.checked(source)?),
             Kind::Rules => Self::Rules(source.parse::<RulesSpec>()?.checked(source)?),
             Kind::Yao => Self::Yao(source.parse::<YaoSpec>()?.checked(source)?),

@@ -7,6 +7,7 @@ mod blend;
 mod families;
 mod fits;
 mod growth;
+mod individual;
 mod journal;
 mod kinds;
 mod likeness;
@@ -95,6 +96,7 @@ impl Spec {
             Self::Needle(spec) => spec,
             Self::Yao(spec) => spec,
             Self::Robustness(spec) => spec,
+            Self::Individual(spec) => spec,
             Self::Rules(spec) => spec,
             Self::Families(spec) => spec,
             Self::Stylised(spec) => spec,

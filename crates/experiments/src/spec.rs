@@ -30,6 +30,8 @@ pub(super) enum Kind {
     Needle,
     /// Spoilt input of every sort.
     Robustness,
+    /// Goals' own trees, branch by branch.
+    Individual,
     /// Grammars evolved from nothing.
     Rules,
     /// Which family of generators a goal is taken for.
@@ -51,6 +53,7 @@ impl Kind {
             Self::Treefit => "treefit",
             Self::Needle => "needle",
             Self::Robustness => "robustness",
+            Self::Individual => "individual",
             Self::Rules => "rules",
             Self::Families => "families",
             Self::Yao => "yao",
