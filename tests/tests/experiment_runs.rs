@@ -96,7 +96,13 @@ fn options_are_checked_before_anything_runs() {
                    [[goals]]\nspecies = \"palm\"\nseed = 3\n";
     let rules =
         "kind = \"rules\"\nseconds = 5\nrepetitions = 1\n[[goals]]\nfile = \"goal.png\"\nheight = 10\n";
+    let individual =
+        "kind = \"individual\"\nseconds = 5\n[[goals]]\nspecies = \"palm\"\nseed = 3\ngroup = \"own\"\n";
     let cases: &[(&str, &str, &str, &[&str])] = &[
+        (individual, "seconds = 5", "seconds = 0", &[":2:11: ", "from 0.1 to 86400"]),
+        (individual, "\"palm\"", "\"plam\"", &["did you mean `palm`"]),
+        (individual, "seed = 3\n", "", &[":3:1: ", "a `species` with a `seed`"]),
+        (individual, "seed = 3", "seed = 3\nfile = \"goal.png\"", &[":3:1: ", "a `file` with its `height`"]),
         (rules, "seconds = 5", "seconds = 0", &[":2:11: ", "from 0.1 to 86400"]),
         (rules, "repetitions = 1", "repetitions = 0", &[":3:15: ", "from 1 to 10000"]),
         (rules, "height = 10", "height = 0", &[":6:10: ", "a height in metres from 0.001 to 1000"]),
@@ -241,5 +247,25 @@ fn grammars_that_evolve_leave_a_row_a_species_and_a_sheet() {
     assert!(lines[1].starts_with("goal,1,") && lines[2].starts_with("goal,2,"), "{rows}");
     assert!(dir.path("sheet.png").exists());
     let _ = dir.run(["grow", "fits/goal.toml", "--seed", "9", "-o", "tree.glb"]).ok();
+    dir.run(["experiment", "check", "."]).fails(1, &["nothing to check"]);
+}
+
+#[test]
+fn goals_own_trees_are_searched_and_shown() {
+    let dir = Dir::new();
+    let goals = "kind = \"individual\"\nseconds = 2\n[[goals]]\nspecies = \"acer\"\nseed = 3\nleaves = false\n\
+                 group = \"bare\"\n[[goals]]\nspecies = \"palm\"\nseed = 3\ntwo_views = true\ngroup = \"two-views\"\n";
+    let _ = dir.file("experiment.toml", goals);
+    let run = dir.run(["experiment", "run", "."]);
+    assert!(run.ok().contains("medians of each group"), "{run}");
+    let rows = String::from_utf8(read(&dir.path("results.csv"))).unwrap();
+    let lines: Vec<&str> = rows.lines().collect();
+    assert!(lines[0].starts_with("goal,group,best_ellipse_iou,kind_iou,"), "{rows}");
+    assert!(
+        lines[1].starts_with("acer_bare,bare,") && lines[2].starts_with("palm_two_views,two-views,"),
+        "{rows}"
+    );
+    assert!(dir.path("sheet.png").exists());
+    let _ = dir.run(["grow", "fits/acer_bare.toml", "-o", "tree.glb"]).ok();
     dir.run(["experiment", "check", "."]).fails(1, &["nothing to check"]);
 }

@@ -105,7 +105,7 @@ fn there_are_no_more_draws_than_are_asked_for() {
 
 #[test]
 fn stems_without_addresses_have_no_draws() {
-    let (problem, genome) = start("coffey_figure_9");
+    let (problem, genome) = start("coffey_fan");
     let none = individual(&problem, &genome, IndividualSettings::trees(8), &|| Duration::ZERO, &GO, |_| ());
     assert!(none.unwrap().is_none());
 }

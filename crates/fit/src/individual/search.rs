@@ -71,6 +71,9 @@ pub(super) fn search(
             if share >= 1.0 {
                 break 'stages;
             }
+            if share >= stage.until {
+                break;
+            }
             let numbers: Vec<u32> = (number..number + BATCH).collect();
             number += BATCH;
             let batch = Batch { scene: &scene, hands: &hands, state: &state, stage, spreads: &spreads };
