@@ -19,8 +19,7 @@ pub const KEYS: [Key; 1] = [Key {
     name: "stems",
     form: Form::Stems,
     default: "none",
-    doc: "stems with draws of their own in the tree of seed `tree_seed`: number of each stem from the trunk up, \
-          seed of its draws, azimuth and pitch in degrees, factor of its length",
+    doc: "stems with other draws: where each is from the trunk up, their seed, degrees about and away, factor of length",
 }];
 
 fn places(value: f64) -> f64 {
