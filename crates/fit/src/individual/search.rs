@@ -1,7 +1,7 @@
 //! The search for an individual.
 
 use super::hand::{Hand, Scene};
-use super::plan::{self, BATCH, MAX_UNITS, Stage};
+use super::plan::{self, BATCH, Stage};
 use super::state::{Deal, State};
 use super::units::Units;
 use super::{FoundIndividual, IndividualProgress, Quest};
@@ -49,20 +49,14 @@ pub(super) fn search(
         share(passed, settings.time.map(|time| time.as_secs_f64()))
             .max(share(trees as f64, settings.trees.map(|all| all as f64)))
     };
-    let generations = hands.with(&scene, |hand| deepest(hand));
-    'stages: for stage in plan::stages(generations) {
+    let generations = hands.with(&scene, |hand| plan::generations(&hand.tree));
+    'stages: for stage in plan::stages(&generations) {
         if state.generation != stage.generation {
             let individual = state.individual.clone();
             let next = hands.with(&scene, |hand| State::new(&scene, individual, stage.generation, hand));
             // It has grown before.
             let Some(next) = next else { break };
             state = next.priced_as(state);
-        }
-        if state.count() == 0 || state.count() > MAX_UNITS {
-            if used(trees) >= 1.0 {
-                break;
-            }
-            continue;
         }
         for _ in 0..stage.batches {
             let share = used(trees);
@@ -95,15 +89,6 @@ pub(super) fn search(
         evaluator.with_generator(std::sync::Arc::clone(&species.generator)).evaluate_with_likeness(genome);
     let elapsed = clock.elapsed().saturating_sub(from);
     Ok(Some(FoundIndividual { species, before, score, trees, trials, elapsed }))
-}
-
-/// Number of generations of the tree that `hand` has grown last.
-fn deepest(hand: &Hand) -> u16 {
-    let mut generations: Vec<u16> = Vec::with_capacity(hand.tree.stems.len());
-    for stem in &hand.tree.stems {
-        generations.push(stem.parent.map_or(1, |parent| generations[parent as usize].saturating_add(1)));
-    }
-    generations.into_iter().max().unwrap_or(0)
 }
 
 /// Makes the exchanges that are still worth it, the best first.

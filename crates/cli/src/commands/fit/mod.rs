@@ -76,8 +76,8 @@ A finished fit is replaced only by a fit of the same goal with the same options,
 only once the new one is complete; until then that one is in the folder `unfinished` inside.
 
 Asked to stop (ctrl-C), a fit writes what it has found and ends with code 130; --resume goes on with it \
-and comes to what it would have come to. The first guess and the judging of the result, which need some \
-seconds before and after the search, are then made again.
+and comes to what it would have come to. The first guess, the judging of the result, and the search for \
+this very tree are then made again.
 
 With several goals, the budget is for each. A goal that fails is named and the others go on. With --resume \
 a batch goes on where it stopped, and skips what was finished with the same options; with others it is \

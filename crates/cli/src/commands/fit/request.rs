@@ -103,6 +103,9 @@ fn options(
     settings: &FitSettings,
 ) -> anyhow::Result<BTreeMap<&'static str, String>> {
     let (search, budget) = (&fit.search, &settings.budget);
+    // As it was given: with what is kept for this very tree.
+    let kept = fit.individual_settings()?.and_then(|individual| individual.time).unwrap_or_default();
+    let timeout = budget.timeout.map(|time| time + kept);
     let optional = |value: Option<String>| value.unwrap_or_else(|| "nothing".to_owned());
     let list = |patterns: &[String]| optional((!patterns.is_empty()).then(|| patterns.join(" ")));
     let mut options = BTreeMap::from([
@@ -132,7 +135,7 @@ fn options(
         ),
         ("robust", settings.robust.to_string()),
         ("individual", fit.individual.individual.unwrap_or_default().to_string()),
-        ("timeout", optional(budget.timeout.map(|time| format!("{}s", time.as_secs_f64())))),
+        ("timeout", optional(timeout.map(|time| format!("{}s", time.as_secs_f64())))),
         ("evaluations", optional(budget.evaluations.map(|count| count.to_string()))),
         ("generations", optional(budget.generations.map(|count| count.to_string()))),
         ("target-iou", optional(budget.target_iou.map(|iou| iou.to_string()))),
