@@ -159,6 +159,7 @@ fn cut_short(line: &str) -> String {
     match line.split(' ').nth(1) {
         Some("fit") => {
             set("--evaluations", "20");
+            set("--individual", "8trees");
             // These say themselves where the search begins.
             if !["--evolve-rules", "--volume-from"].iter().any(|option| line.contains(option)) {
                 set("--from", "palm");

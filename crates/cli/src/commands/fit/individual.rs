@@ -52,10 +52,15 @@ impl Effort {
                 IndividualSettings::time(time)
             }
             (Self::Time(time), None) => IndividualSettings::time(time),
-            (Self::Share, Some(whole)) => IndividualSettings::time(whole / SHARE_OF_TIME),
-            (Self::Share, None) => {
-                IndividualSettings::trees(evaluations.map_or(TREES, |count| count.div_ceil(SHARE_OF_TREES)))
-            }
+            // Whatever comes first, as for the search.
+            (Self::Share, whole) => IndividualSettings {
+                time: whole.map(|whole| whole / SHARE_OF_TIME),
+                ..IndividualSettings::trees(match (evaluations, whole) {
+                    (Some(count), _) => count.div_ceil(SHARE_OF_TREES),
+                    (None, Some(_)) => u64::MAX,
+                    (None, None) => TREES,
+                })
+            },
         }))
     }
 }
