@@ -60,13 +60,13 @@ pub(super) fn search(
         }
         for _ in 0..stage.batches {
             let share = used(trees);
+            if share < 1.0 && share >= stage.until {
+                break;
+            }
             let likeness = state.likeness;
             tell(&IndividualProgress { trees, trials, iou: state.iou, likeness, used: share.min(1.0) });
             if share >= 1.0 {
                 break 'stages;
-            }
-            if share >= stage.until {
-                break;
             }
             let numbers: Vec<u32> = (number..number + BATCH).collect();
             number += BATCH;
