@@ -33,12 +33,16 @@ pub(super) fn report(summary: &Summary, goal: &Path, folder: &Path) -> String {
         );
     }
     let individual = summary.individual.as_ref().map_or_else(String::new, |one| one.beside(&summary.scores));
+    let tree = summary
+        .individual
+        .as_ref()
+        .map_or_else(String::new, |_| format!("tree     {}\n", folder.join("individual.toml").display()));
     let rules = summary.rules.as_ref();
     let rules = rules.map_or_else(String::new, |rules| {
         format!("the grammar, of {} words and signs:\n\n{}\n", rules.grammar_length, rules.grammar)
     });
     format!(
-        "{rules}{}\n\n{}{judged}{individual}{}{}\n{}species  {}\noverlay  {}",
+        "{rules}{}\n\n{}{judged}{individual}{}{}\n{}species  {}\n{tree}overlay  {}",
         crate::commands::score::card(&summary.scores),
         sizes(summary),
         work(summary),
