@@ -4,25 +4,9 @@
 
 use pleach_tests::{Dir, read, target};
 
-fn fit<'a>(goal: &'a str, out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    [
-        &[
-            "fit",
-            goal,
-            "--out",
-            out,
-            "--size",
-            "64",
-            "--from",
-            "acer",
-            "--tree-seed",
-            "5",
-            "--evaluations",
-            "40",
-        ],
-        more,
-    ]
-    .concat()
+fn fit<'a>(goal: &'a str, out: &'a str, evaluations: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let start = ["--size", "64", "--from", "acer", "--tree-seed", "5", "--evaluations", evaluations];
+    [&["fit", goal, "--out", out], &start[..], more].concat()
 }
 
 fn text(dir: &Dir, file: &str) -> String {
@@ -32,7 +16,7 @@ fn text(dir: &Dir, file: &str) -> String {
 #[test]
 fn a_fit_ends_with_the_kind_and_with_this_very_tree() {
     let (dir, goal) = (Dir::new(), target("acer.png"));
-    let run = dir.run(fit(&goal, "run", &["--individual", "64trees"]));
+    let run = dir.run(fit(&goal, "run", "40", &["--individual", "64trees"]));
     let said = run.ok();
     assert!(
         said.contains("the kind") && said.contains("this very tree") && said.contains("of its stems"),
@@ -72,7 +56,7 @@ fn a_fit_ends_with_the_kind_and_with_this_very_tree() {
 #[test]
 fn nobody_has_to_have_one() {
     let (dir, goal) = (Dir::new(), target("acer.png"));
-    let said = dir.run(fit(&goal, "run", &["--individual", "off"])).ok();
+    let said = dir.run(fit(&goal, "run", "40", &["--individual", "off"])).ok();
     assert!(!said.contains("this very tree") && !dir.path("run/individual.toml").exists(), "{said}");
     let summary: serde_json::Value = serde_json::from_slice(&read(&dir.path("run/summary.json"))).unwrap();
     assert!(summary["individual"].is_null());
@@ -87,42 +71,15 @@ fn nobody_has_to_have_one() {
 fn threads_change_nothing_and_a_fit_that_is_searched_on_has_one_again() {
     let (dir, goal) = (Dir::new(), target("acer.png"));
     let on = |threads: &str| {
-        let _ = dir.run(fit(&goal, threads, &["--individual", "24trees", "--threads", threads])).ok();
+        let _ = dir.run(fit(&goal, threads, "40", &["--individual", "24trees", "--threads", threads])).ok();
         read(&dir.path(threads).join("individual.toml"))
     };
     let one = on("1");
     assert_eq!(one, on("2"));
     assert_eq!(one, on("8"));
-    let more = [
-        "fit",
-        &goal,
-        "--out",
-        "1",
-        "--size",
-        "64",
-        "--from",
-        "acer",
-        "--tree-seed",
-        "5",
-        "--evaluations",
-        "20",
-    ];
-    let _ = dir.run([&more[..], &["--individual", "24trees", "--continue"]].concat()).ok();
-    let longer = [
-        "fit",
-        &goal,
-        "--out",
-        "60",
-        "--size",
-        "64",
-        "--from",
-        "acer",
-        "--tree-seed",
-        "5",
-        "--evaluations",
-        "60",
-    ];
-    let _ = dir.run([&longer[..], &["--individual", "24trees"]].concat()).ok();
+    let individual = ["--individual", "24trees"];
+    let _ = dir.run(fit(&goal, "1", "20", &[&individual[..], &["--continue"]].concat())).ok();
+    let _ = dir.run(fit(&goal, "60", "60", &individual)).ok();
     assert_eq!(text(&dir, "1/individual.toml"), text(&dir, "60/individual.toml"));
 }
 
@@ -132,8 +89,8 @@ fn threads_change_nothing_and_a_fit_that_is_searched_on_has_one_again() {
 fn a_killed_run_ends_in_the_same_tree() {
     let (dir, goal) = (Dir::new(), target("acer.png"));
     let more = ["--individual", "600trees"];
-    let _ = dir.run(fit(&goal, "whole", &more)).ok();
-    let mut killed = dir.command(fit(&goal, "parts", &more)).spawn().unwrap();
+    let _ = dir.run(fit(&goal, "whole", "40", &more)).ok();
+    let mut killed = dir.command(fit(&goal, "parts", "40", &more)).spawn().unwrap();
     // The search of 40 trees is over long before; what is killed is what comes after it.
     while !dir.path("parts/checkpoint").exists() {
         std::thread::sleep(std::time::Duration::from_millis(5));
@@ -142,7 +99,7 @@ fn a_killed_run_ends_in_the_same_tree() {
     killed.kill().unwrap();
     let _ = killed.wait();
     assert!(!dir.path("parts/summary.json").exists(), "it was killed before its end");
-    let _ = dir.run(fit(&goal, "parts", &[&more[..], &["--resume"]].concat())).ok();
+    let _ = dir.run(fit(&goal, "parts", "40", &[&more[..], &["--resume"]].concat())).ok();
     assert_eq!(text(&dir, "whole/individual.toml"), text(&dir, "parts/individual.toml"));
 }
 
