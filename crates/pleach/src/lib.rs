@@ -106,19 +106,19 @@ pub use pleach_tree::leaf_shape::{BlossomShape, LeafShape, Outline, OutlineError
 pub use pleach_tree::species::{Appearance, Color, Season};
 pub use pleach_tree::stats::Bounds;
 pub use pleach_tree::{
-    Blame, Blob, CheckedParams, Conflict, Family, Foliage, Generator, GrowError, Growth, Key, Knot, Leaf,
-    Limits, MalformedTree, ModelId, Param, ParamSpace, Parts, Slot, Species, SpeciesDoc, SpeciesError, Stem,
-    StemKind, Tree, TreeStats, Variation, Workspace,
+    Address, Blame, Blob, CheckedParams, Conflict, Draw, Draws, Family, Foliage, Generator, GrowError,
+    Growth, Individual, Key, Knot, Leaf, Limits, MalformedTree, ModelId, Param, ParamSpace, Parts, Slot,
+    Species, SpeciesDoc, SpeciesError, Spread, Stem, StemKind, Tree, TreeStats, Variation, Workspace,
 };
 /// What generators of your own are made of; `docs/a-generator.md` shows how.
 pub use pleach_tree::{param, random, species};
 
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
-    Budget, Candidate, Control, FirstGuess, FitError, FitProblem, FitSettings, Fitted, Genome, GoalSettings,
-    GoalView, GuessLibrary, GuessSettings, Guessing, Judged, Judging, Objective, Observer, Optimizer,
-    Outcome, Progress, RulesSettings, Score, Scored, Start, StopReason, TreeSeed, Unknown, Verdict, fit,
-    fit_goal, fit_goal_with,
+    Budget, Candidate, Control, FirstGuess, FitError, FitProblem, FitSettings, Fitted, FoundIndividual,
+    Genome, GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing, IndividualSettings, Judged,
+    Judging, Objective, Observer, Optimizer, Outcome, Progress, RulesSettings, Score, Scored, Start,
+    StopReason, TreeSeed, Unknown, Verdict, fit, fit_goal, fit_goal_with, individual,
 };
 
 #[cfg(feature = "blend")]
