@@ -89,9 +89,11 @@ impl State {
         let (cost, iou, likeness) = (f64::INFINITY, 0.0, 0.0);
         let mut state =
             Self { generation, individual, prices, by_address, paths, layers, panes, cost, iou, likeness };
-        let pictures = |view: usize| &state.panes[view].picture;
-        let worth = worth(scene, pictures, &mut hand.comparisons);
-        state.take(worth);
+        let mut sum = Sum::default();
+        for (view, pane) in state.panes.iter().enumerate() {
+            sum.add(scene, view, &pane.picture, &mut hand.comparisons);
+        }
+        state.take(sum.mean());
         Some(state)
     }
 
@@ -200,19 +202,6 @@ fn is_worth_a_look(picture: &Bitmap, before: &Bitmap, goal: &Bitmap) -> bool {
     let changed = picture.differing(before);
     let worse = picture.differing(goal) as f64 - before.differing(goal) as f64;
     changed > 0 && worse <= 0.5 * changed as f64
-}
-
-/// What pictures are worth, without prices.
-fn worth<'p>(
-    scene: &Scene<'_>,
-    picture: impl Fn(usize) -> &'p Bitmap,
-    comparisons: &mut Comparisons,
-) -> Worth {
-    let mut sum = Sum::default();
-    for view in 0..scene.views.len() {
-        sum.add(scene, view, picture(view), comparisons);
-    }
-    sum.mean()
 }
 
 /// Sums over views.

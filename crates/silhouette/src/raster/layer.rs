@@ -68,10 +68,7 @@ impl LayerPainter {
 
     /// Draws `parts` of `tree` into `out`.
     pub fn draw(&mut self, tree: &Tree, parts: Parts, out: &mut Layer) {
-        let (columns, rows) = self.extent(tree, parts);
-        // A word has eight pixels, as a pixel has eight samples across.
-        out.across = (columns.start / ACROSS) as usize..columns.end.div_ceil(ACROSS) as usize;
-        out.rows = rows;
+        (out.across, out.rows) = self.extent(tree, parts);
         out.down = self.down;
         out.words.clear();
         self.rasterizer.sample_onto(tree, &self.camera, self.down, parts);
@@ -85,13 +82,11 @@ impl LayerPainter {
     /// Quicker than to draw a layer for [`Stack::exchanged`]: what lies behind pixels that are black without it is
     /// not drawn.
     pub fn exchanged(&mut self, tree: &Tree, parts: Parts, stack: &Stack, old: &Layer, picture: &mut Bitmap) {
-        let (columns, rows) = self.extent(tree, parts);
-        let words = (columns.start / ACROSS) as usize..columns.end.div_ceil(ACROSS) as usize;
+        let (words, rows) = self.extent(tree, parts);
         let across = join(words, old.across.clone());
         let rows = join(rows, old.rows.clone());
         for y in rows.clone() {
-            let lines = (y * self.down) as usize..((y + 1) * self.down) as usize;
-            for row in lines.clone() {
+            for row in (y * self.down) as usize..((y + 1) * self.down) as usize {
                 let rest = self.rasterizer.grid.line_mut(row, across.clone());
                 stack.without(old, row, &across, rest);
             }
@@ -103,11 +98,14 @@ impl LayerPainter {
         }
     }
 
-    /// Columns and rows of pixels outside which `parts` of `tree` cover nothing.
-    fn extent(&self, tree: &Tree, parts: Parts) -> (Range<u32>, Range<u32>) {
+    /// Words of samples across and rows of pixels outside which `parts` of `tree` cover nothing.
+    fn extent(&self, tree: &Tree, parts: Parts) -> (Range<usize>, Range<u32>) {
         let Frame { width, height, .. } = self.frame;
+        // A word has eight pixels, as a pixel has eight samples across.
+        let words =
+            |columns: Range<u32>| (columns.start / ACROSS) as usize..columns.end.div_ceil(ACROSS) as usize;
         if !self.camera.is_orthographic() {
-            return (0..width, 0..height);
+            return (words(0..width), 0..height);
         }
         let mut extent =
             Extent { camera: &self.camera, low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
@@ -142,7 +140,7 @@ impl LayerPainter {
             let (first, end) = (at(extent.low[axis] - 1.0), at(extent.high[axis] + 2.0));
             first..end.max(first)
         };
-        (pixels(0, width), pixels(1, height))
+        (words(pixels(0, width)), pixels(1, height))
     }
 }
 

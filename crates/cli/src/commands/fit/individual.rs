@@ -105,7 +105,7 @@ pub(super) struct IndividualSummary {
     pub(super) stems: usize,
     #[serde(flatten)]
     pub(super) scores: ScoreCard,
-    /// What the search made small, of the tree that it began with and of this one.
+    /// By the objective `overlap`, of the tree that the search began with and of this one.
     pub(super) cost_before: f64,
     pub(super) cost: f64,
     /// Trees grown, and single stems tried.

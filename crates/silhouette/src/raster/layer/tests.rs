@@ -1,4 +1,5 @@
 use super::*;
+use crate::view::Projection;
 use pleach_tree::{Growth, Stem};
 
 /// Half of the stems of a tree with what they bear, by turns.
@@ -43,9 +44,10 @@ fn grown(name: &str, seed: u64) -> Tree {
     species.grow_with(&growth).unwrap()
 }
 
-/// Trees with leaves, blossoms and blobs, whole, cut off by the frame, from the side and from above.
+/// Trees with leaves, blossoms and blobs, whole, cut off by the frame, from the side and from above, from near by.
 fn cases() -> Vec<(Tree, View, Frame)> {
-    let views = [View::FRONT, View::degrees(37.0, 20.0)];
+    let near = Projection::Perspective { distance: 60.0 };
+    let views = [View::FRONT, View::degrees(37.0, 20.0), View { projection: near, ..View::FRONT }];
     let mut cases = Vec::new();
     for name in ["acer", "hill_cherry", "palm", "stylised_oak"] {
         for view in views {
