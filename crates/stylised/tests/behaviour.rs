@@ -169,16 +169,7 @@ proptest! {
     ) {
         let species = species(&[]);
         let space = species.generator.space().clone();
-        let value = |slot: pleach_tree::Slot| {
-            let ((low, high), (from, to)) = (space.kind_of(slot).range(), space.search_range(slot));
-            let (end, part) = drawn[slot.index()];
-            space.kind_of(slot).repair(match end {
-                0 => low,
-                1 => high,
-                _ => from + (to - from) * part,
-            })
-        };
-        let mut values: Vec<f64> = space.slots().map(value).collect();
+        let mut values = pleach_tree::conformance::at_ends_or_between(&space, &drawn);
         // The two finest levels are for few, and the same code.
         let subdivision = space.find("subdivision").unwrap().0;
         values[subdivision] = values[subdivision].min(1.0);

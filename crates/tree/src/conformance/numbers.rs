@@ -31,6 +31,25 @@ fn random(species: &Species, case: u64) -> CheckedParams {
     checked(space, space.slots().map(value).collect())
 }
 
+/// Allowed values for tests, one for each slot of `space`: 0 is the lowest, 1 the highest, and anything else that part
+/// of the way through the search range.
+///
+/// # Panics
+/// If there are fewer than slots.
+#[must_use]
+pub fn at_ends_or_between(space: &ParamSpace, drawn: &[(u32, f64)]) -> Vec<f64> {
+    let value = |slot: Slot| {
+        let ((low, high), (from, to)) = (space.kind_of(slot).range(), space.search_range(slot));
+        let (end, part) = drawn[slot.index()];
+        space.kind_of(slot).repair(match end {
+            0 => low,
+            1 => high,
+            _ => from + (to - from) * part,
+        })
+    };
+    space.slots().map(value).collect()
+}
+
 fn checked(space: &Arc<ParamSpace>, values: Vec<f64>) -> CheckedParams {
     space.check(values).unwrap_or_else(|error| panic!("values are allowed: {error}"))
 }
