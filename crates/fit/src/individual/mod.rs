@@ -13,6 +13,7 @@
 //! a species are at best. Draws far from a stem's own have a price, so that what the picture does not ask for stays as
 //! the species would have it.
 
+mod chosen;
 mod hand;
 mod plan;
 mod search;

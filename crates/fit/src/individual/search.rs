@@ -1,8 +1,9 @@
 //! The search for an individual.
 
+use super::chosen::Chosen;
 use super::hand::{Hand, Scene};
 use super::plan::{self, BATCH, Stage};
-use super::state::{Deal, State};
+use super::state::{Deal, LEAST_GAIN, State};
 use super::units::Units;
 use super::{FoundIndividual, IndividualProgress, Quest};
 use crate::budget::Clock;
@@ -10,14 +11,17 @@ use crate::error::FitError;
 use crate::evaluator::{Evaluator, PreparedView};
 use crate::objective::Objective;
 use pleach_silhouette::Layer;
+use pleach_tree::Spread;
 use pleach_tree::individual::Trial;
-use pleach_tree::{Individual, Spread};
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
 
-/// What has to be gained for draws to be exchanged.
-const LEAST_GAIN: f64 = 2e-5;
+/// The part of the stems with draws of their own that are kept on trial beyond those that may stay: what is
+/// dropped is dropped for many at once, for the price of a tree.
+const ON_TRIAL: usize = 4;
+/// The used share of the budget from which on none are.
+const LAST: f64 = 0.9;
 
 /// See [`super::individual`].
 pub(super) fn search(
@@ -38,8 +42,7 @@ pub(super) fn search(
     let placed = evaluator.placed(genome);
     let scene = Scene { quest, params, views, placed };
     let hands = Hands::default();
-    let Some(mut state) = hands.with(&scene, |hand| State::new(&scene, Individual::default(), 0, hand))
-    else {
+    let Some(mut state) = hands.with(&scene, |hand| State::new(&scene, Chosen::default(), 0, hand)) else {
         return Ok(None);
     };
     let (mut trees, mut trials, mut number) = (0, 0, 0);
@@ -52,11 +55,11 @@ pub(super) fn search(
     let generations = hands.with(&scene, |hand| plan::generations(&hand.tree));
     'stages: for stage in plan::stages(&generations) {
         if state.generation != stage.generation {
-            let individual = state.individual.clone();
-            let next = hands.with(&scene, |hand| State::new(&scene, individual, stage.generation, hand));
+            let chosen = state.chosen.clone();
+            let next = hands.with(&scene, |hand| State::new(&scene, chosen, stage.generation, hand));
             // It has grown before.
             let Some(next) = next else { break };
-            state = next.priced_as(state);
+            state = next;
         }
         for _ in 0..stage.batches {
             let share = used(trees);
@@ -80,10 +83,15 @@ pub(super) fn search(
             trials += found.iter().map(|found| found.trials).sum::<u64>();
             let better = found.into_iter().flat_map(|found| found.better).collect();
             keep(&scene, &hands, &mut state, better);
+            let most = settings.max_stems;
+            let on_trial = if used(trees) < LAST { most / ON_TRIAL } else { 0 };
+            if state.chosen.len() > most + on_trial {
+                state = hands.with(&scene, |hand| pruned(&scene, &state, most, hand)).unwrap_or(state);
+            }
         }
     }
     let kind = problem.species(genome).map_err(crate::space::SpaceError::Start)?;
-    let species = kind.with_individual(genome.tree_seed, state.individual);
+    let species = kind.with_individual(genome.tree_seed, state.chosen.individual);
     let before = evaluator.evaluate_with_likeness(genome);
     let score =
         evaluator.with_generator(std::sync::Arc::clone(&species.generator)).evaluate_with_likeness(genome);
@@ -97,14 +105,21 @@ fn keep(scene: &Scene<'_>, hands: &Hands, state: &mut State, mut better: Vec<Bet
     better.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let most = scene.quest.settings.max_stems;
     for Better { deal, layers, .. } in better {
-        if !state.has_room(deal.unit, most) {
-            continue;
-        }
         let worth = hands.with(scene, |hand| state.tried_again(scene, &deal, &layers, hand));
-        if worth.cost < state.cost - LEAST_GAIN {
+        if worth.cost < state.cost - state.least_gain(deal.unit, most) {
             state.exchange(&deal, layers, worth);
         }
     }
+}
+
+/// `state` with at most `most` stems that have draws of their own.
+fn pruned(scene: &Scene<'_>, state: &State, most: usize, hand: &mut Hand) -> Option<State> {
+    // Without some of its draws a tree may have too much of something; without all it has grown before.
+    (0..=most).rev().find_map(|most| {
+        let mut chosen = state.chosen.clone();
+        chosen.prune(most);
+        State::new(scene, chosen, state.generation, hand)
+    })
 }
 
 /// A deal that makes the cost smaller.
@@ -142,7 +157,7 @@ impl Batch<'_> {
         let Stage { generation, reseeds, reach, .. } = stage;
         let trial = Trial { generation, number, reach, reseeds, spreads: spreads.to_vec() };
         hands.with(scene, |hand| {
-            if !hand.grow(scene, &state.individual.draws().with_trial(trial.clone())) {
+            if !hand.grow(scene, &state.chosen.individual.draws().with_trial(trial.clone())) {
                 return;
             }
             let units = Units::new(&hand.tree, generation);

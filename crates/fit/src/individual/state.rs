@@ -1,21 +1,21 @@
 //! The individual so far, as pictures that stems can be exchanged in.
 
+use super::chosen::Chosen;
 use super::hand::{DETAIL, Hand, Scene};
 use super::units::{Unit, Units};
 use crate::evaluator::Comparisons;
 use pleach_silhouette::{Bitmap, Layer, Stack};
-use pleach_tree::{Address, Draw, Individual, Spread, individual::StemPath};
-use std::collections::BTreeMap;
+use pleach_tree::{Address, Draw, Spread, individual::StemPath};
 
 /// What all draws together cost at most, if every stem of a generation lay at the edge of its spread.
 const PRICE: f64 = 0.02;
+/// What has to be gained for draws to be exchanged.
+pub(super) const LEAST_GAIN: f64 = 2e-5;
 
 /// A tree cut at one generation.
 pub(super) struct State {
     pub(super) generation: u16,
-    pub(super) individual: Individual,
-    /// What the draws of each stem cost.
-    prices: BTreeMap<StemPath, f64>,
+    pub(super) chosen: Chosen,
     /// Units by the hash of their address.
     by_address: Vec<(u64, usize)>,
     paths: Vec<StemPath>,
@@ -51,14 +51,9 @@ pub(super) struct Worth {
 }
 
 impl State {
-    /// The tree of `individual`, cut at `generation`; none if it does not grow.
-    pub(super) fn new(
-        scene: &Scene<'_>,
-        individual: Individual,
-        generation: u16,
-        hand: &mut Hand,
-    ) -> Option<Self> {
-        if !hand.grow(scene, &individual.draws()) {
+    /// The tree of `chosen`, cut at `generation`; none if it does not grow.
+    pub(super) fn new(scene: &Scene<'_>, chosen: Chosen, generation: u16, hand: &mut Hand) -> Option<Self> {
+        if !hand.grow(scene, &chosen.individual.draws()) {
             return None;
         }
         let units = Units::new(&hand.tree, generation);
@@ -85,22 +80,15 @@ impl State {
             units.units.iter().enumerate().map(|(i, unit)| (unit.address.bits(), i)).collect();
         by_address.sort_unstable();
         let paths = units.units.iter().map(|Unit { stem, .. }| hand.tree.path_of(*stem)).collect();
-        let prices = BTreeMap::new();
         let (cost, iou, likeness) = (f64::INFINITY, 0.0, 0.0);
-        let mut state =
-            Self { generation, individual, prices, by_address, paths, layers, panes, cost, iou, likeness };
+        let mut state = Self { generation, chosen, by_address, paths, layers, panes, cost, iou, likeness };
         let mut sum = Sum::default();
         for (view, pane) in state.panes.iter().enumerate() {
             sum.add(scene, view, &pane.picture, &mut hand.comparisons);
         }
-        state.take(sum.mean());
+        let worth = sum.mean();
+        state.take(Worth { cost: worth.cost + state.chosen.price(), ..worth });
         Some(state)
-    }
-
-    /// The same, with the prices of `before`.
-    pub(super) fn priced_as(self, before: Self) -> Self {
-        let paid: f64 = before.prices.values().sum();
-        Self { prices: before.prices, cost: self.cost + paid, ..self }
     }
 
     fn take(&mut self, worth: Worth) {
@@ -116,12 +104,16 @@ impl State {
     pub(super) fn find(&self, address: Address) -> Option<(usize, Draw)> {
         let place = self.by_address.binary_search_by_key(&address.bits(), |&(bits, _)| bits).ok()?;
         let unit = self.by_address[place].1;
-        Some((unit, self.individual.get(&self.paths[unit]).copied().unwrap_or(Draw::OWN)))
+        Some((unit, self.chosen.individual.get(&self.paths[unit]).copied().unwrap_or(Draw::OWN)))
     }
 
-    /// Whether another stem may have draws of its own.
-    pub(super) fn has_room(&self, unit: usize, most: usize) -> bool {
-        self.individual.len() < most || self.individual.get(&self.paths[unit]).is_some()
+    /// What has to be gained by other draws of a unit where at most `most` stems are to have some: more than by
+    /// the least of them.
+    pub(super) fn least_gain(&self, unit: usize, most: usize) -> f64 {
+        if self.chosen.len() < most || self.chosen.has(&self.paths[unit]) {
+            return LEAST_GAIN;
+        }
+        self.chosen.least_gain().max(LEAST_GAIN)
     }
 
     /// What the picture would be worth with `deal`, for which `hand` has taken the part of its tree; none where
@@ -159,7 +151,8 @@ impl State {
     }
 
     fn with_prices(&self, worth: Worth, deal: &Deal) -> Worth {
-        Worth { cost: worth.cost + self.prices_after(deal), ..worth }
+        let others = self.chosen.price_beside(&self.paths[deal.unit], deal.reseeds);
+        Worth { cost: worth.cost + others + self.price(deal), ..worth }
     }
 
     /// What a stem's draws cost.
@@ -167,25 +160,11 @@ impl State {
         PRICE * deal.draw.price(&deal.spread) / self.count() as f64
     }
 
-    fn prices_after(&self, deal: &Deal) -> f64 {
-        let path = &self.paths[deal.unit];
-        let stays = |other: &StemPath| if deal.reseeds { !other.is_on(path) } else { other != path };
-        // In one order, whichever stems were exchanged first.
-        let others: f64 = self.prices.iter().filter(|(other, _)| stays(other)).map(|(_, price)| price).sum();
-        others + self.price(deal)
-    }
-
     /// Exchanges the draws of a unit.
     pub(super) fn exchange(&mut self, deal: &Deal, layers: Vec<Layer>, worth: Worth) {
-        let price = self.price(deal);
+        let (price, gain) = (self.price(deal), self.cost - worth.cost);
         let Deal { unit, draw, reseeds, .. } = *deal;
-        let path = self.paths[unit].clone();
-        if reseeds {
-            self.individual.clear_above(&path);
-            self.prices.retain(|other, _| !other.is_on(&path));
-        }
-        self.individual.set(path.clone(), draw);
-        self.prices.insert(path, price);
+        self.chosen.set(self.paths[unit].clone(), draw, reseeds, price, gain);
         for ((pane, old), new) in self.panes.iter_mut().zip(&self.layers[unit]).zip(&layers) {
             pane.stack.exchanged(old, new, &mut pane.picture);
             pane.stack.remove(old);

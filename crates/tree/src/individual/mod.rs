@@ -65,6 +65,11 @@ impl Individual {
         self.stems.insert(stem, draw.rounded());
     }
 
+    /// Gives `stem` its own draws back.
+    pub fn unset(&mut self, stem: &StemPath) {
+        self.stems.remove(stem);
+    }
+
     /// Gives all stems that `stem` carries their own draws back.
     pub fn clear_above(&mut self, stem: &StemPath) {
         self.stems.retain(|path, _| path == stem || !path.is_on(stem));
