@@ -175,7 +175,8 @@ impl RulesSpec {
         let view = &fitted.problem.goals[0];
         let card = ScoreCard::new(&draw(&species, tree_seed, Foliage::All, view)?, &view.goal)?;
         let (objective, genome) = (fitted.settings.objective, &fitted.best.genome);
-        let fresh = fresh_seeds(&fitted.problem, objective, Limits::default(), genome, FRESH, stop::flag())?;
+        let fresh =
+            fresh_seeds(&fitted.problem, objective, Limits::default(), genome, FRESH, stop::flag().into())?;
         if seed == 1 && !stop::is_raised() {
             files::make_folder(&folder.join("fits"))?;
             let name = goal.name();

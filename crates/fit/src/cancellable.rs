@@ -4,9 +4,11 @@
 //! judging of a result are worth nothing in part: asked to stop, they end in [`FitError::Interrupted`]
 //! after the trees that are growing, and are done again when the run is resumed.
 
+use crate::budget::Clock;
 use crate::error::FitError;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// An error once `stop` is raised.
 pub(crate) fn check(stop: &AtomicBool) -> Result<(), FitError> {
@@ -24,9 +26,71 @@ pub(crate) fn map<I: Sync, O: Send>(
     items.par_iter().with_max_len(1).map(answer).collect()
 }
 
+/// Until when work goes on: it ends in an error once it is asked to, and with less once it is late.
+#[derive(Clone, Copy)]
+pub struct Until<'a> {
+    stop: &'a AtomicBool,
+    late: Option<(&'a dyn Clock, Duration)>,
+}
+
+impl<'a> From<&'a AtomicBool> for Until<'a> {
+    /// Never late.
+    fn from(stop: &'a AtomicBool) -> Self {
+        Self { stop, late: None }
+    }
+}
+
+impl<'a> Until<'a> {
+    /// The same, but late once `clock` shows `time`.
+    #[must_use]
+    pub fn or_late(self, clock: &'a dyn Clock, time: Option<Duration>) -> Self {
+        Self { late: time.map(|time| (clock, time)), ..self }
+    }
+
+    pub(crate) fn is_late(&self) -> bool {
+        self.late.is_some_and(|(clock, time)| clock.elapsed() >= time)
+    }
+
+    /// [`map`], but for those at the end of `items` for which it is late; those at the front, two for each
+    /// thread, are done however late it is.
+    pub(crate) fn map<I: Sync, O: Send>(
+        &self,
+        items: &[I],
+        of: impl Fn(&I) -> O + Sync,
+    ) -> Result<Vec<O>, FitError> {
+        if self.late.is_none() {
+            return map(items, self.stop, of);
+        }
+        let mut all = Vec::with_capacity(items.len());
+        for some in items.chunks(2 * rayon::current_num_threads()) {
+            if !all.is_empty() && self.is_late() {
+                break;
+            }
+            all.extend(map(some, self.stop, &of)?);
+        }
+        Ok(all)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_late_is_left_out_but_for_the_first() {
+        let (stop, items) = (AtomicBool::new(false), [1, 2, 3, 4, 5, 6, 7, 8, 9]);
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let done = |clock: &dyn Clock, time| {
+            Until::from(&stop).or_late(clock, time).map(&items, |i| i + 1).unwrap().len()
+        };
+        let calls = std::sync::atomic::AtomicU64::new(0);
+        let ticks = || Duration::from_secs(calls.fetch_add(1, Ordering::Relaxed));
+        let late = || Duration::from_secs(9);
+        one.install(|| {
+            assert_eq!(done(&ticks, Some(Duration::from_secs(2))), 6);
+            assert_eq!((done(&late, Some(Duration::from_secs(9))), done(&late, None)), (2, 9));
+        });
+    }
 
     #[test]
     fn answers_come_in_order_and_none_after_the_flag() {

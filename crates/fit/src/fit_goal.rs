@@ -6,7 +6,7 @@ use crate::control::{Control, Outcome};
 use crate::error::FitError;
 use crate::genome::Scored;
 use crate::guess::{Candidate, FirstGuess, GuessLibrary, GuessSettings, References};
-use crate::individual::{FoundIndividual, IndividualSettings, individual};
+use crate::individual::{FoundIndividual, IndividualSettings, individuals};
 use crate::judged::{Judge, Judged, Judging};
 use crate::problem::FitProblem;
 use crate::run::fit;
@@ -16,6 +16,7 @@ use crate::verdict::Verdict;
 use pleach_silhouette::score::ScoreCard;
 use pleach_tree::Species;
 use pleach_tree::param::SlotError;
+use std::time::Duration;
 
 /// How a goal is fitted, from the first guess to the judging of the result.
 #[derive(Clone, Debug)]
@@ -76,8 +77,9 @@ pub struct Fitted {
     pub best: Scored,
     /// What it is worth; none if the fit was interrupted or nobody asked.
     pub judged: Option<Judged>,
-    /// This very tree; none if nobody asked, the fit was interrupted, or stems of the generator have no addresses.
-    pub individual: Option<FoundIndividual>,
+    /// This very tree, or several that all lie on the goal, with the best first; none if nobody asked, the fit was
+    /// interrupted, or stems of the generator have no addresses.
+    pub individuals: Vec<FoundIndividual>,
 }
 
 impl Fitted {
@@ -185,18 +187,20 @@ pub fn fit_goal_with(
             Err(error) => return Err(error),
         }
     }
-    let mut found = None;
-    if let (Some(how), false) = (settings.individual, outcome.stop == StopReason::Interrupted) {
+    let mut found = Vec::new();
+    let time_for_individuals = time_for_individuals(settings, outcome.elapsed, judged.as_ref());
+    let individual = settings.individual.map(|how| IndividualSettings { time: time_for_individuals, ..how });
+    if let (Some(how), false) = (individual, outcome.stop == StopReason::Interrupted) {
         let Control { clock, stop, observers, .. } = &mut control;
         let tell = |progress: &_| observers.iter_mut().for_each(|observer| observer.individual(progress));
-        match individual(&begun.problem, &best.genome, how, *clock, stop, tell) {
-            Ok(individual) => found = individual,
+        match individuals(&begun.problem, &best.genome, how, *clock, stop, tell) {
+            Ok(individuals) => found = individuals,
             Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
             Err(error) => return Err(error),
         }
     }
     let Begun { problem, settings, guess } = begun;
-    Ok(Fitted { problem, settings, guess, outcome, best, judged, individual: found })
+    Ok(Fitted { problem, settings, guess, outcome, best, judged, individuals: found })
 }
 
 /// Finds out where the search begins.
@@ -220,4 +224,21 @@ fn begin(
     };
     let settings = FitSettings { start: guess.start(), ..search.clone() };
     Ok(Begun { problem: guess.problem(problem), settings, guess: Some(guess) })
+}
+
+/// What is left for individuals of the time of the whole fit, of which the search took `searched`.
+fn time_for_individuals(
+    settings: &GoalSettings,
+    searched: Duration,
+    judged: Option<&Judged>,
+) -> Option<Duration> {
+    let IndividualSettings { time, takes_rest, .. } = settings.individual?;
+    let time = time?;
+    let Some(search) = settings.search.budget.timeout else { return Some(time) };
+    let for_judging = settings.judging.and_then(|judging| judging.time).unwrap_or_default();
+    let judging = judged.map_or(Duration::ZERO, |judged| judged.elapsed);
+    // A search or a judging that ended late takes from it, one that ended early may give to it.
+    let left = (search + for_judging + time).saturating_sub(searched + judging);
+    let rest = if takes_rest { for_judging.saturating_sub(judging) } else { Duration::ZERO };
+    Some(left.min(time + rest))
 }

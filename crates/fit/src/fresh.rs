@@ -1,6 +1,6 @@
 //! What parameters are worth with other seeds than the one that was fitted.
 
-use crate::cancellable;
+use crate::cancellable::Until;
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
 use crate::genome::{Genome, Score};
@@ -8,7 +8,6 @@ use crate::objective::Objective;
 use crate::problem::FitProblem;
 use pleach_tree::Limits;
 use serde::Serialize;
-use std::sync::atomic::AtomicBool;
 
 /// Mean and spread of a score over seeds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -39,28 +38,28 @@ const FIRST: u64 = 1000;
 
 /// Grows `count` other trees of `genome`'s parameters and scores them against the goals of `problem`.
 ///
-/// `None` if one of them does not grow within `limits`.
+/// Of fewer trees, but two at least, where it gets late. `None` if one of them does not grow within `limits`.
 ///
 /// # Errors
-/// A problem that [`Evaluator::new`] refuses, or [`FitError::Interrupted`] once `stop` is raised.
+/// A problem that [`Evaluator::new`] refuses, or [`FitError::Interrupted`] once asked to stop.
 pub fn fresh_seeds(
     problem: &FitProblem,
     objective: Objective,
     limits: Limits,
     genome: &Genome,
     count: usize,
-    stop: &AtomicBool,
+    until: Until<'_>,
 ) -> Result<Option<FreshSeeds>, FitError> {
     let seeds = (0..count as u64).map(|i| genome.tree_seed.wrapping_add(FIRST + i));
     let trees: Vec<Genome> = seeds.map(|tree_seed| Genome { tree_seed, ..genome.clone() }).collect();
     let evaluator = Evaluator::new(problem, objective, limits)?;
-    let scores = cancellable::map(&trees, stop, |tree| evaluator.evaluate_with_likeness(tree))?;
+    let scores = until.map(&trees, |tree| evaluator.evaluate_with_likeness(tree))?;
     if scores.is_empty() || scores.iter().any(|score| !score.cost.is_finite()) {
         return Ok(None);
     }
     let spread = |of: fn(&Score) -> f64| Spread::new(scores.iter().map(of));
     Ok(Some(FreshSeeds {
-        count,
+        count: scores.len(),
         iou: spread(|score| score.iou),
         pixel_accuracy: spread(|score| score.accuracy),
         likeness: spread(|score| score.likeness.unwrap_or_default()),

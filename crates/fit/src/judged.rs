@@ -3,6 +3,7 @@
 
 use crate::begun::Begun;
 use crate::budget::Clock;
+use crate::cancellable::Until;
 use crate::error::FitError;
 use crate::fresh::{FreshSeeds, fresh_seeds};
 use crate::genome::Scored;
@@ -20,12 +21,15 @@ use std::time::Duration;
 pub struct Judging {
     /// Trees of other seeds.
     pub seeds: usize,
+    /// Time by the caller's clock; where it is short there are fewer trees and fewer numbers are tried, and where
+    /// there is none to spare, numbers that the goal does not show stay as they are.
+    pub time: Option<Duration>,
 }
 
 impl Default for Judging {
-    /// By sixteen seeds.
+    /// By sixteen seeds, whatever the time.
     fn default() -> Self {
-        Self { seeds: 16 }
+        Self { seeds: 16, time: None }
     }
 }
 
@@ -45,6 +49,11 @@ pub struct Judged {
     /// What judging took, by the caller's clock.
     pub elapsed: Duration,
 }
+
+/// The shares of the time at which other seeds, numbers, and numbers that go back have had enough of it.
+const UNTIL_FRESH: f64 = 0.3;
+const UNTIL_PROFILED: f64 = 0.7;
+const UNTIL_PUT_BACK: f64 = 0.85;
 
 /// Cost beyond which a change is seen, where no spread over seeds is known.
 const TOLERANCE: f64 = 0.01;
@@ -68,25 +77,33 @@ impl Judge<'_> {
         best: &Scored,
         library: &mut GuessLibrary,
     ) -> Result<(Scored, Judged), FitError> {
-        let Self { begun: Begun { problem, settings, guess }, candidates, clock, stop, .. } = *self;
+        let Self { begun: Begun { problem, settings, guess }, judging, candidates, clock, stop } = *self;
         let from = clock.elapsed();
-        let first = self.held_out(best)?;
+        let until = |share: f64| {
+            let time = judging.time.map(|time| from + time.mul_f64(share));
+            Until::from(stop).or_late(clock, time)
+        };
+        let first = self.held_out(best, until(UNTIL_FRESH))?;
         let tolerance = first.as_ref().map_or(TOLERANCE, |fresh| fresh.cost.sd);
-        let profiles = profile(problem, settings, best, tolerance, stop)?;
+        let profiles = profile(problem, settings, best, tolerance, until(UNTIL_PROFILED))?;
         let (kept, put_back) = match &settings.start {
-            Start::Random => (best.clone(), Vec::new()),
-            Start::Lists(lists) => {
-                reset_unidentified(problem, settings, best, &profiles, &lists[0], tolerance, stop)?
+            // Other numbers would have to be judged again.
+            Start::Lists(lists) if !until(UNTIL_PROFILED).is_late() => {
+                let until = until(UNTIL_PUT_BACK);
+                reset_unidentified(problem, settings, best, &profiles, &lists[0], tolerance, until)?
             }
+            _ => (best.clone(), Vec::new()),
         };
         // Numbers that no tree reads went back for the reader of the file; the trees are the same.
         let held_out = if same_trees(problem, &best.genome.values, &kept.genome.values, &put_back) {
             first
         } else {
-            self.held_out(&kept)?
+            self.held_out(&kept, until(1.0))?
         };
         let references = match guess {
             Some(guess) => guess.references.clone(),
+            // Without trees there is the ellipse.
+            None if until(1.0).is_late() => library.references(problem, settings, &[], stop)?,
             None => library.references(problem, settings, candidates, stop)?,
         };
         let settled = settled(problem, settings, &kept.genome)?;
@@ -96,10 +113,10 @@ impl Judge<'_> {
 
     /// Other trees of the same numbers, in the limits of growing: a search gives up trees that are no
     /// trouble to grow.
-    fn held_out(&self, best: &Scored) -> Result<Option<FreshSeeds>, FitError> {
+    fn held_out(&self, best: &Scored, until: Until<'_>) -> Result<Option<FreshSeeds>, FitError> {
         let Begun { problem, settings, .. } = self.begun;
         let limits = Limits::default();
-        fresh_seeds(problem, settings.objective, limits, &best.genome, self.judging.seeds, self.stop)
+        fresh_seeds(problem, settings.objective, limits, &best.genome, self.judging.seeds, until)
     }
 }
 

@@ -11,7 +11,7 @@
 //! | the search alone | [`fit`], [`FitSettings`], [`Control`], [`Outcome`] |
 //! | what is made small | [`Objective`], [`Evaluator`]: grow, draw, score, without allocating |
 //! | optimisers | [`Optimizer`], [`Method`], [`Search`]; with argmin: [`ArgminSolver`] |
-//! | this very tree | [`individual()`]: draws of single stems, [`IndividualSettings`], [`FoundIndividual`] |
+//! | this very tree | [`individuals`]: draws of single stems, [`IndividualSettings`], [`FoundIndividual`] |
 //! | what a result is worth | [`fresh_seeds`], [`profile()`], [`Verdict`] |
 //! | watching and stopping | [`Observer`], [`Budget`], [`StopReason`], [`Clock`] |
 //!
@@ -61,6 +61,7 @@ mod verdict;
 
 pub use begun::Begun;
 pub use budget::{Budget, Clock, StopReason};
+pub use cancellable::Until;
 pub use checkpoint::{BodyProblem, CheckpointError};
 pub use control::{CheckpointSettings, Control, Outcome};
 pub use error::{FitError, ObserverError};
@@ -74,7 +75,7 @@ pub use guess::{
     first_guess,
 };
 pub use history::{COLUMNS, Column, Row};
-pub use individual::{FoundIndividual, IndividualProgress, IndividualSettings, individual};
+pub use individual::{FoundIndividual, IndividualProgress, IndividualSettings, individuals};
 pub use judged::{Judged, Judging};
 pub use method::{
     Cma, CmaSettings, Evolution, EvolutionSettings, Hewitt, HewittSettings, Merge, Method, MethodSettings,

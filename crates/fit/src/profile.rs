@@ -1,6 +1,6 @@
 //! What a picture cannot tell: how far each number can move before anyone sees it.
 
-use crate::cancellable;
+use crate::cancellable::Until;
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
 use crate::genome::{Genome, Scored};
@@ -11,7 +11,6 @@ use crate::space::{Gene, SearchSpace};
 use pleach_tree::Slot;
 use serde::Serialize;
 use std::collections::VecDeque;
-use std::sync::atomic::AtomicBool;
 
 /// How well a goal determines a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -23,6 +22,8 @@ pub enum Identifiability {
     Loosely,
     /// Neither does, or the number is not active.
     NotSeen,
+    /// It was late before all moves were tried.
+    NotTried,
 }
 
 /// What is known of one free number after a fit.
@@ -47,14 +48,14 @@ const SPENT_ON_RETURN: f64 = 0.1;
 /// by more than `tolerance`, best the spread of one seed's cost.
 ///
 /// # Errors
-/// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once `stop`
-/// is raised.
+/// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once asked to
+/// stop.
 pub fn profile(
     problem: &FitProblem,
     settings: &FitSettings,
     best: &Scored,
     tolerance: f64,
-    stop: &AtomicBool,
+    until: Until<'_>,
 ) -> Result<Vec<Profile>, FitError> {
     let (space, evaluator) = prepare(problem, settings)?;
     let mut moves: Vec<Genome> = Vec::new();
@@ -74,19 +75,25 @@ pub fn profile(
         }
         plan.push((slot, of_gene));
     }
-    let scores = cancellable::map(&moves, stop, |genome| evaluator.score(genome))?;
+    let scores = until.map(&moves, |genome| evaluator.score(genome))?;
     Ok(plan
         .into_iter()
         .map(|(slot, of_gene)| {
             let mut rises = [[None; 2]; 2];
+            let mut is_late = false;
             for Move { place: (step, side), number } in of_gene {
-                let rise = scores[number].cost - best.score.cost;
+                let Some(score) = scores.get(number) else {
+                    is_late = true;
+                    continue;
+                };
+                let rise = score.cost - best.score.cost;
                 let known: &mut Option<f64> = &mut rises[step][side];
                 *known = Some(known.map_or(rise, |least| least.min(rise)));
             }
             let is_seen = |step: usize| rises[step].iter().flatten().any(|rise| *rise > tolerance);
             let seen = match (is_seen(0), is_seen(1)) {
                 (true, _) => Identifiability::Determined,
+                _ if is_late => Identifiability::NotTried,
                 (_, true) => Identifiability::Loosely,
                 _ => Identifiability::NotSeen,
             };
@@ -130,8 +137,8 @@ fn alternatives(gene: &Gene, value: f64) -> Vec<((usize, usize), f64)> {
 /// a tree's. Returns the individual, with its score, and the slots that went all the way.
 ///
 /// # Errors
-/// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once `stop`
-/// is raised.
+/// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once asked to
+/// stop.
 pub fn reset_unidentified(
     problem: &FitProblem,
     settings: &FitSettings,
@@ -139,12 +146,12 @@ pub fn reset_unidentified(
     profiles: &[Profile],
     start: &[f64],
     tolerance: f64,
-    stop: &AtomicBool,
+    until: Until<'_>,
 ) -> Result<(Scored, Vec<Slot>), FitError> {
     let (space, evaluator) = prepare(problem, settings)?;
     let hidden = space.hidden_jitters(&best.genome.values);
     let most = best.score.cost + SPENT_ON_RETURN * tolerance;
-    let back = Back { space: &space, evaluator: &evaluator, most, stop };
+    let back = Back { space: &space, evaluator: &evaluator, most, until };
     let moved: Vec<(Slot, f64)> = profiles
         .iter()
         .filter(|profile| profile.seen == Identifiability::NotSeen && !hidden.contains(&profile.slot))
@@ -170,7 +177,7 @@ struct Back<'a> {
     evaluator: &'a Evaluator,
     /// Largest cost.
     most: f64,
-    stop: &'a AtomicBool,
+    until: Until<'a>,
 }
 
 impl Back<'_> {
@@ -185,25 +192,26 @@ impl Back<'_> {
                 genome
             })
             .collect();
-        let costs = cancellable::map(&alone, self.stop, |genome| {
+        // The clock stays on this thread.
+        let Self { space, evaluator, .. } = *self;
+        let costs = self.until.map(&alone, |genome| {
             let slot = genome.values.iter().zip(&kept.genome.values).position(|(a, b)| a != b);
             // What is not active leaves the tree and its score as they are.
-            if slot.is_some_and(|slot| self.is_active(&kept.genome, Slot::new(slot))) {
-                self.evaluator.score(genome).cost
+            if slot.is_some_and(|slot| is_active(space, &kept.genome, Slot::new(slot))) {
+                evaluator.score(genome).cost
             } else {
                 kept.score.cost
             }
         })?;
-        let mut order: Vec<usize> = (0..moves.len()).filter(|&i| costs[i] <= self.most).collect();
+        let mut order: Vec<usize> = (0..costs.len()).filter(|&i| costs[i] <= self.most).collect();
         order.sort_by(|&a, &b| costs[a].total_cmp(&costs[b]));
         let mut waiting: VecDeque<(Slot, f64)> = order.into_iter().map(|i| moves[i]).collect();
         let mut slots = Vec::new();
-        while !waiting.is_empty() {
+        while !waiting.is_empty() && !self.until.is_late() {
             let steps = self.steps(&kept.genome, &waiting);
             let trials: Vec<&Genome> =
                 steps.iter().filter(|step| step.is_read).map(|step| &step.genome).collect();
-            let mut scores =
-                cancellable::map(&trials, self.stop, |genome| self.evaluator.score(genome))?.into_iter();
+            let mut scores = self.until.map(&trials, |genome| evaluator.score(genome))?.into_iter();
             for Step { slot, genome, is_read } in steps {
                 waiting.pop_front();
                 let score = if is_read { scores.next() } else { Some(kept.score) };
@@ -220,11 +228,6 @@ impl Back<'_> {
         Ok(slots)
     }
 
-    fn is_active(&self, genome: &Genome, slot: Slot) -> bool {
-        let gene = self.space.genes().iter().find(|gene| gene.slot() == Some(slot));
-        gene.is_none_or(|gene| self.space.is_active(&genome.values, gene))
-    }
-
     /// The next steps from `from`: as many as there are threads to grow their trees.
     ///
     /// Most numbers that are not seen do go back, so a step is tried before the one before it is known to
@@ -234,7 +237,7 @@ impl Back<'_> {
         let mut trials = rayon::current_num_threads();
         let mut steps = Vec::new();
         for &(slot, value) in waiting {
-            let is_read = self.is_active(&genome, slot);
+            let is_read = is_active(self.space, &genome, slot);
             if is_read && trials == 0 {
                 break;
             }
@@ -244,6 +247,11 @@ impl Back<'_> {
         }
         steps
     }
+}
+
+fn is_active(space: &SearchSpace, genome: &Genome, slot: Slot) -> bool {
+    let gene = space.genes().iter().find(|gene| gene.slot() == Some(slot));
+    gene.is_none_or(|gene| space.is_active(&genome.values, gene))
 }
 
 /// A number that goes back, after all those before it in a list have.

@@ -5,7 +5,7 @@
 mod common;
 
 use common::goal_of;
-use pleach_fit::{FitError, FitProblem, FoundIndividual, Genome, GoalView, IndividualSettings, individual};
+use pleach_fit::{FitError, FitProblem, FoundIndividual, Genome, GoalView, IndividualSettings, individuals};
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::{Foliage, Parts};
 use std::cell::Cell;
@@ -22,7 +22,7 @@ fn start(species: &str) -> (FitProblem, Genome) {
 }
 
 fn found(problem: &FitProblem, genome: &Genome, settings: IndividualSettings) -> FoundIndividual {
-    individual(problem, genome, settings, &|| Duration::ZERO, &GO, |_| ()).unwrap().unwrap()
+    individuals(problem, genome, settings, &|| Duration::ZERO, &GO, |_| ()).unwrap().remove(0)
 }
 
 /// Everything that is the same on every machine.
@@ -106,8 +106,8 @@ fn there_are_no_more_draws_than_are_asked_for() {
 #[test]
 fn stems_without_addresses_have_no_draws() {
     let (problem, genome) = start("coffey_fan");
-    let none = individual(&problem, &genome, IndividualSettings::trees(8), &|| Duration::ZERO, &GO, |_| ());
-    assert!(none.unwrap().is_none());
+    let none = individuals(&problem, &genome, IndividualSettings::trees(8), &|| Duration::ZERO, &GO, |_| ());
+    assert!(none.unwrap().is_empty());
 }
 
 /// By the clock, by the flag, and told of on the way.
@@ -121,13 +121,13 @@ fn it_ends_when_it_should() {
     };
     let mut told = Vec::new();
     let two = IndividualSettings::time(Duration::from_secs(2));
-    let found = individual(&problem, &genome, two, &clock, &GO, |progress| told.push(*progress));
-    let found = found.unwrap().unwrap();
+    let found = individuals(&problem, &genome, two, &clock, &GO, |progress| told.push(*progress));
+    let found = found.unwrap().remove(0);
     assert!((16..400).contains(&found.trees), "{} trees", found.trees);
     assert!(told.windows(2).all(|w| w[0].trees < w[1].trees && w[0].used <= w[1].used));
     assert_eq!((told[0].trees, told.last().unwrap().used), (0, 1.0));
 
     let stop = AtomicBool::new(true);
-    let stopped = individual(&problem, &genome, two, &clock, &stop, |_| ());
+    let stopped = individuals(&problem, &genome, two, &clock, &stop, |_| ());
     assert!(matches!(stopped, Err(FitError::Interrupted)));
 }

@@ -45,14 +45,16 @@ fn several_seeds_are_judged_by_their_mean() {
 #[test]
 fn other_seeds_of_the_truth_are_alike_but_not_the_same() {
     let problem = goal_of("lombardy_poplar", 1, 96);
-    let fresh = fresh_seeds(&problem, Objective::Iou, FIT_LIMITS, &truth(&problem), 8, &GO).unwrap().unwrap();
+    let fresh = fresh_seeds(&problem, Objective::Iou, FIT_LIMITS, &truth(&problem), 8, (&GO).into())
+        .unwrap()
+        .unwrap();
     assert_eq!(fresh.count, 8);
     assert!((0.6..0.95).contains(&fresh.iou.mean), "{fresh:?}");
     assert!(fresh.iou.sd > 0.001 && fresh.iou.sd < 0.1, "{fresh:?}");
     assert!((fresh.iou.mean + fresh.cost.mean - 1.0).abs() < 1e-12);
     // Trees that do not grow have no mean.
     let none = pleach_tree::Limits { stems: 3, ..FIT_LIMITS };
-    assert_eq!(fresh_seeds(&problem, Objective::Iou, none, &truth(&problem), 8, &GO).unwrap(), None);
+    assert_eq!(fresh_seeds(&problem, Objective::Iou, none, &truth(&problem), 8, (&GO).into()).unwrap(), None);
 }
 
 #[test]
@@ -60,7 +62,7 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     let problem = goal_of("palm", 1, 96);
     let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
     let best = Scored { genome: truth(&problem), score: Score::from_cost(0.0) };
-    let profiles = profile(&problem, &settings, &best, 0.05, &GO).unwrap();
+    let profiles = profile(&problem, &settings, &best, 0.05, (&GO).into()).unwrap();
     let space = problem.start.generator.space();
     let seen = |name: &str| {
         let slot = space.select(name).unwrap()[0];
@@ -76,7 +78,8 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     let slot = |name: &str| space.select(name).unwrap()[0];
     start[slot("length[3]").index()] = 0.123;
     start[slot("g_scale").index()] = 5.0;
-    let (kept, slots) = reset_unidentified(&problem, &settings, &best, &profiles, &start, 0.05, &GO).unwrap();
+    let (kept, slots) =
+        reset_unidentified(&problem, &settings, &best, &profiles, &start, 0.05, (&GO).into()).unwrap();
     assert_eq!(slots, [slot("length[3]")]);
     assert_eq!(kept.genome.values[slot("length[3]").index()], 0.123);
     assert_eq!(kept.genome.values[slot("g_scale").index()], base(&problem)[slot("g_scale").index()]);
@@ -98,18 +101,19 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
         };
         let clock = || std::time::Duration::ZERO;
         let stop = std::sync::atomic::AtomicBool::new(false);
-        let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
+        let best = fit(&problem, &settings, Control::new(&clock, (&stop).into())).unwrap().best.unwrap();
         let kept: Vec<f64> = slots.iter().map(|&slot| best.genome.values[slot.index()]).collect();
         (kept, settled(&problem, &settings, &best.genome).unwrap(), settings, best)
     };
     let (kept, told, settings, best) = result(Freedom::default(), "evolution");
     assert!(kept.iter().all(|value| *value == 0.0) && told == slots, "{kept:?} {told:?}");
-    let profiles = profile(&problem, &settings, &best, 0.01, &GO).unwrap();
+    let profiles = profile(&problem, &settings, &best, 0.01, (&GO).into()).unwrap();
     let unseen = |slot| profiles.iter().any(|p| p.slot == slot && p.seen == Identifiability::NotSeen);
     assert!(slots.iter().all(|&slot| unseen(slot)));
     // Nor do they go back to the start.
     let (kept, _) =
-        reset_unidentified(&problem, &settings, &best, &profiles, base(&problem), 0.01, &GO).unwrap();
+        reset_unidentified(&problem, &settings, &best, &profiles, base(&problem), 0.01, (&GO).into())
+            .unwrap();
     assert!(slots.iter().all(|&slot| kept.genome.values[slot.index()] == 0.0));
 
     // The dissertation's algorithm searches them, and what is fixed stays.
@@ -126,16 +130,16 @@ fn asked_to_stop_nothing_is_judged() {
     let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
     let best = Scored { genome: truth(&problem), score: Score::from_cost(0.0) };
     let stop = AtomicBool::new(true);
-    let fresh = fresh_seeds(&problem, Objective::Iou, FIT_LIMITS, &truth(&problem), 8, &stop);
+    let fresh = fresh_seeds(&problem, Objective::Iou, FIT_LIMITS, &truth(&problem), 8, (&stop).into());
     assert!(matches!(fresh, Err(FitError::Interrupted)));
-    let profiled = profile(&problem, &settings, &best, 0.05, &stop);
+    let profiled = profile(&problem, &settings, &best, 0.05, (&stop).into());
     assert!(matches!(profiled, Err(FitError::Interrupted)));
-    let profiles = profile(&problem, &settings, &best, 0.05, &GO).unwrap();
+    let profiles = profile(&problem, &settings, &best, 0.05, (&GO).into()).unwrap();
     // Something that is read but not seen: the tolerance is large.
     let all: Vec<_> =
         profiles.into_iter().map(|p| pleach_fit::Profile { seen: Identifiability::NotSeen, ..p }).collect();
     let start = pleach_generators::preset("acer").unwrap().params.values().to_vec();
-    let back = reset_unidentified(&problem, &settings, &best, &all, &start, 0.05, &stop);
+    let back = reset_unidentified(&problem, &settings, &best, &all, &start, 0.05, (&stop).into());
     assert!(matches!(back, Err(FitError::Interrupted)));
 }
 
@@ -154,7 +158,9 @@ fn going_back_step_by_step_is_the_same_on_any_number_of_threads() {
     let run = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         // Room for some of the numbers and not for others.
-        pool.install(|| reset_unidentified(&problem, &settings, &best, &all, &start, 2.0, &GO).unwrap())
+        pool.install(|| {
+            reset_unidentified(&problem, &settings, &best, &all, &start, 2.0, (&GO).into()).unwrap()
+        })
     };
     let (kept, slots) = run(1);
     let differing = (0..space.len()).filter(|&slot| base(&problem)[slot] != start[slot]).count();
@@ -187,8 +193,8 @@ fn nothing_is_searched_that_nobody_would_draw() {
         };
         let problem = problem.with_values(start.to_vec()).unwrap();
         let (clock, stop) = (|| std::time::Duration::ZERO, AtomicBool::new(false));
-        let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
-        let profiles = profile(&problem, &settings, &best, 0.02, &GO).unwrap();
+        let best = fit(&problem, &settings, Control::new(&clock, (&stop).into())).unwrap().best.unwrap();
+        let profiles = profile(&problem, &settings, &best, 0.02, (&GO).into()).unwrap();
         assert!(profiles.iter().any(|p| p.slot == slot("taper[1]")));
         let tapers = space.select("taper").unwrap().into_iter().map(|slot| best.genome.values[slot.index()]);
         tapers.fold(0.0, f64::max)

@@ -118,7 +118,7 @@ pub use pleach_fit::{
     Budget, Candidate, Control, FirstGuess, FitError, FitProblem, FitSettings, Fitted, FoundIndividual,
     Genome, GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing, IndividualSettings, Judged,
     Judging, Objective, Observer, Optimizer, Outcome, Progress, RulesSettings, Score, Scored, Start,
-    StopReason, TreeSeed, Unknown, Verdict, fit, fit_goal, fit_goal_with, individual,
+    StopReason, TreeSeed, Unknown, Verdict, fit, fit_goal, fit_goal_with, individuals,
 };
 
 #[cfg(feature = "blend")]

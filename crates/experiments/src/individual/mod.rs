@@ -200,8 +200,8 @@ impl IndividualSpec {
         let clock = || started.elapsed();
         let fitted = fit_goal_with(&problem, &settings, library, Control::new(&clock, stop::flag()))?;
         let seconds = clock().as_secs_f64();
-        let Fitted { best, individual, problem, .. } = &fitted;
-        let found = individual.as_ref().context("a generator whose stems have addresses was fitted")?;
+        let Fitted { best, individuals, problem, .. } = &fitted;
+        let found = individuals.first().context("a generator whose stems have addresses was fitted")?;
         let (kind, seed, foliage) = (fitted.species()?, best.genome.tree_seed, problem.foliage);
         let card = |species: &Species, view: &GoalView| {
             ScoreCard::new(&draw(species, seed, foliage, view)?, &view.goal).map_err(anyhow::Error::from)
@@ -218,7 +218,8 @@ impl IndividualSpec {
                 .map(|card| Fixed(card.likeness)))
         };
         let objective = fitted.settings.objective;
-        let fresh = fresh_seeds(problem, objective, Limits::default(), &best.genome, FRESH, stop::flag())?;
+        let fresh =
+            fresh_seeds(problem, objective, Limits::default(), &best.genome, FRESH, stop::flag().into())?;
         let natural = Natural::of(&found.species, front, foliage)?;
         if !stop::is_raised() {
             files::make_folder(&folder.join("fits"))?;

@@ -146,7 +146,7 @@ pub(super) fn fit(
     let judged = problem.clean.as_ref().unwrap_or(&problem.fit);
     let judged = FitProblem { start: fitted.problem.start.clone(), ..judged.clone() };
     let (objective, genome) = (fitted.settings.objective, &fitted.best.genome);
-    let fresh = fresh_seeds(&judged, objective, Limits::default(), genome, FRESH, stop::flag())?;
+    let fresh = fresh_seeds(&judged, objective, Limits::default(), genome, FRESH, stop::flag().into())?;
     let clean = problem.clean.as_ref().map(|clean| alike(&clean.goals[0])).transpose()?;
     let held_out = problem.held_out.as_ref().map(alike).transpose()?;
     let ceiling = problem.ceiling;

@@ -107,7 +107,8 @@ fn seeds_of(goal: &OwnGoal) -> anyhow::Result<Option<Ceiling>> {
     let species = pleach_generators::species(&goal.species)?;
     let own = FitProblem { start: species.clone(), ..problem.fit };
     let truth = Genome::new(species.params.values().to_vec(), goal.seed);
-    let fresh = fresh_seeds(&own, Objective::default(), Limits::default(), &truth, FRESH, stop::flag())?;
+    let fresh =
+        fresh_seeds(&own, Objective::default(), Limits::default(), &truth, FRESH, stop::flag().into())?;
     Ok(fresh.map(|fresh| Ceiling { likeness: fresh.likeness.mean, iou: fresh.iou.mean }))
 }
 

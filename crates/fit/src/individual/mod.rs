@@ -37,11 +37,19 @@ pub struct IndividualSettings {
     pub trees: Option<u64>,
     /// Most stems with draws of their own.
     pub max_stems: usize,
+    /// How many trees are found, each dealt anew from the trunk up: one picture leaves their depth open. They share
+    /// the time and the trees. At most [`Self::MAX_COUNT`] are.
+    pub count: u8,
+    /// In a whole fit: whether the time that judging leaves is theirs as well.
+    pub takes_rest: bool,
 }
 
 impl IndividualSettings {
     /// Most stems with draws of their own unless something else is said: as many lines as a person still reads.
     pub const MAX_STEMS: usize = 400;
+
+    /// Most trees that are found.
+    pub const MAX_COUNT: u8 = 64;
 
     /// For so long by the caller's clock.
     #[must_use]
@@ -52,22 +60,24 @@ impl IndividualSettings {
     /// With so many trees; the same bits on any machine.
     #[must_use]
     pub fn trees(trees: u64) -> Self {
-        Self { time: None, trees: Some(trees), max_stems: Self::MAX_STEMS }
+        Self { time: None, trees: Some(trees), max_stems: Self::MAX_STEMS, count: 1, takes_rest: false }
     }
 }
 
 /// How far a search for an individual is, between two batches of trees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IndividualProgress {
-    /// Trees grown.
+    /// Which tree is searched, from 0.
+    pub number: u8,
+    /// Trees grown for it.
     pub trees: u64,
-    /// Single stems that were tried.
+    /// Single stems of it that were tried.
     pub trials: u64,
     /// Intersection over union.
     pub iou: f64,
     /// Likeness.
     pub likeness: f64,
-    /// The used share of the budget, in 0..=1.
+    /// The used share of the whole budget, in 0..=1.
     pub used: f64,
 }
 
@@ -97,7 +107,7 @@ impl FoundIndividual {
     }
 }
 
-/// Where the search for an individual begins, and what bounds it.
+/// Where the search for individuals begins, and what bounds that of each.
 pub(crate) struct Quest<'a> {
     pub(crate) problem: &'a FitProblem,
     pub(crate) genome: &'a Genome,
@@ -106,21 +116,43 @@ pub(crate) struct Quest<'a> {
     pub(crate) stop: &'a AtomicBool,
 }
 
-/// Searches the individual of `problem`'s goals among the trees of the kind that `genome` is; none where stems
-/// have no addresses, or the tree does not grow.
+/// Searches individuals of `problem`'s goals among the trees of the kind that `genome` is, and returns them with
+/// the best first. The first that is searched begins as the tree of the kind's own seed; further ones are dealt anew
+/// from the trunk up. There are none where stems have no addresses, or the tree does not grow.
 ///
-/// The same problem, genome and number of trees give the same individual on any number of threads.
+/// The same problem, genome and number of trees give the same individuals on any number of threads.
 ///
 /// # Errors
 /// Problems that [`crate::Evaluator::new`] refuses, and [`FitError::Interrupted`] once `stop` is raised.
-pub fn individual(
+pub fn individuals(
     problem: &FitProblem,
     genome: &Genome,
     settings: IndividualSettings,
     clock: &dyn Clock,
     stop: &AtomicBool,
-    tell: impl FnMut(&IndividualProgress),
-) -> Result<Option<FoundIndividual>, FitError> {
-    let quest = Quest { problem, genome, settings, limits: Limits::DEFAULT, stop };
-    search::search(&quest, clock, tell)
+    mut tell: impl FnMut(&IndividualProgress),
+) -> Result<Vec<FoundIndividual>, FitError> {
+    let count = settings.count.clamp(1, IndividualSettings::MAX_COUNT);
+    let from = clock.elapsed();
+    let mut all = Vec::new();
+    for number in 0..count {
+        // What one leaves of the time is there for those after it.
+        let left = u32::from(count - number);
+        let passed = clock.elapsed().saturating_sub(from);
+        let share = IndividualSettings {
+            time: settings.time.map(|time| time.saturating_sub(passed) / left),
+            trees: settings.trees.map(|trees| trees.div_ceil(u64::from(count))),
+            ..settings
+        };
+        let quest = Quest { problem, genome, settings: share, limits: Limits::DEFAULT, stop };
+        let tell = |progress: &IndividualProgress| {
+            tell(&IndividualProgress {
+                used: (f64::from(number) + progress.used) / f64::from(count),
+                ..*progress
+            });
+        };
+        all.extend(search::search(&quest, number, clock, tell)?);
+    }
+    all.sort_by(|a: &FoundIndividual, b| a.score.cost.total_cmp(&b.score.cost));
+    Ok(all)
 }

@@ -11,8 +11,8 @@ use crate::error::FitError;
 use crate::evaluator::{Evaluator, PreparedView};
 use crate::objective::Objective;
 use pleach_silhouette::Layer;
-use pleach_tree::Spread;
 use pleach_tree::individual::Trial;
+use pleach_tree::{Draw, Spread};
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
@@ -23,9 +23,13 @@ const ON_TRIAL: usize = 4;
 /// The used share of the budget from which on none are.
 const LAST: f64 = 0.9;
 
-/// See [`super::individual`].
+/// Numbers of trials that one tree may use up, so that no two have the same.
+const NUMBERS: u32 = 1 << 24;
+
+/// Searches one tree, the one of this number; see [`super::individuals`].
 pub(super) fn search(
     quest: &Quest<'_>,
+    which: u8,
     clock: &dyn Clock,
     mut tell: impl FnMut(&IndividualProgress),
 ) -> Result<Option<FoundIndividual>, FitError> {
@@ -42,14 +46,19 @@ pub(super) fn search(
     let placed = evaluator.placed(genome);
     let scene = Scene { quest, params, views, placed };
     let hands = Hands::default();
-    let Some(mut state) = hands.with(&scene, |hand| State::new(&scene, Chosen::default(), 0, hand)) else {
-        return Ok(None);
-    };
-    let (mut trees, mut trials, mut number) = (0, 0, 0);
-    let used = |trees: u64| {
-        let passed = clock.elapsed().saturating_sub(from).as_secs_f64();
-        let share = |of: f64, all: Option<f64>| all.map_or(0.0, |all| of / all);
-        share(passed, settings.time.map(|time| time.as_secs_f64()))
+    let mut number = u32::from(which) * NUMBERS;
+    let begun = hands.with(&scene, |hand| {
+        let own = State::new(&scene, Chosen::default(), 0, hand)?;
+        Some(if which == 0 { own } else { dealt_anew(&scene, own, &mut number, &spreads, hand) })
+    });
+    let Some(mut state) = begun else { return Ok(None) };
+    let (mut trees, mut trials) = (0, 0);
+    // The longest batch so far: another that would end late by more than half of it is not begun.
+    let mut longest = 0.0_f64;
+    let passed = || clock.elapsed().saturating_sub(from).as_secs_f64();
+    let used = |trees: u64, longest: f64| {
+        let share = |of: f64, all: Option<f64>| all.map_or(0.0, |all| of / all.max(f64::MIN_POSITIVE));
+        share(passed() + longest / 2.0, settings.time.map(|time| time.as_secs_f64()))
             .max(share(trees as f64, settings.trees.map(|all| all as f64)))
     };
     let generations = hands.with(&scene, |hand| plan::generations(&hand.tree));
@@ -62,15 +71,23 @@ pub(super) fn search(
             state = next;
         }
         for _ in 0..stage.batches {
-            let share = used(trees);
+            let share = used(trees, longest);
             if share < 1.0 && share >= stage.until {
                 break;
             }
             let likeness = state.likeness;
-            tell(&IndividualProgress { trees, trials, iou: state.iou, likeness, used: share.min(1.0) });
+            tell(&IndividualProgress {
+                number: which,
+                trees,
+                trials,
+                iou: state.iou,
+                likeness,
+                used: share.min(1.0),
+            });
             if share >= 1.0 {
                 break 'stages;
             }
+            let begun = passed();
             let numbers: Vec<u32> = (number..number + BATCH).collect();
             number += BATCH;
             let batch = Batch { scene: &scene, hands: &hands, state: &state, stage, spreads: &spreads };
@@ -84,10 +101,11 @@ pub(super) fn search(
             let better = found.into_iter().flat_map(|found| found.better).collect();
             keep(&scene, &hands, &mut state, better);
             let most = settings.max_stems;
-            let on_trial = if used(trees) < LAST { most / ON_TRIAL } else { 0 };
+            let on_trial = if used(trees, longest) < LAST { most / ON_TRIAL } else { 0 };
             if state.chosen.len() > most + on_trial {
                 state = hands.with(&scene, |hand| pruned(&scene, &state, most, hand)).unwrap_or(state);
             }
+            longest = longest.max(passed() - begun);
         }
     }
     let kind = problem.species(genome).map_err(crate::space::SpaceError::Start)?;
@@ -97,6 +115,26 @@ pub(super) fn search(
         evaluator.with_generator(std::sync::Arc::clone(&species.generator)).evaluate_with_likeness(genome);
     let elapsed = clock.elapsed().saturating_sub(from);
     Ok(Some(FoundIndividual { species, before, score, trees, trials, elapsed }))
+}
+
+/// The tree `own` with other draws of its trunks, and so of all that they carry; the same where no such tree grows.
+fn dealt_anew(scene: &Scene<'_>, own: State, number: &mut u32, spreads: &[Spread], hand: &mut Hand) -> State {
+    const TRIES: usize = 8;
+    for _ in 0..TRIES {
+        let trial =
+            Trial { generation: 0, number: *number, reach: 1.0, reseeds: true, spreads: spreads.to_vec() };
+        *number += 1;
+        let mut chosen = Chosen::default();
+        for path in own.paths() {
+            let draw = trial.draw(path.address(), 0, &Draw::OWN);
+            // They make the tree another one, and stay.
+            chosen.set(path.clone(), draw, true, 0.0, f64::INFINITY);
+        }
+        if let Some(state) = State::new(scene, chosen, 0, hand) {
+            return state;
+        }
+    }
+    own
 }
 
 /// Makes the exchanges that are still worth it, the best first.

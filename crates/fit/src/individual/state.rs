@@ -95,6 +95,11 @@ impl State {
         (self.cost, self.iou, self.likeness) = (worth.cost, worth.iou, worth.likeness);
     }
 
+    /// Where the units are.
+    pub(super) fn paths(&self) -> &[StemPath] {
+        &self.paths
+    }
+
     /// Number of units.
     pub(super) fn count(&self) -> usize {
         self.paths.len()

@@ -4,7 +4,7 @@ use super::goal::MaskSource;
 use super::{individual, options, outlined, start, views};
 use crate::input;
 use anyhow::ensure;
-use pleach_fit::{Objective, RulesSettings, UnknownObjective};
+use pleach_fit::{IndividualSettings, Objective, RulesSettings, UnknownObjective};
 use pleach_generators::GeneratorChoice;
 use pleach_tree::Family as _;
 use std::num::NonZeroU32;
@@ -113,17 +113,23 @@ pub(super) struct SearchArgs {
 #[command(next_help_heading = "This very tree")]
 pub(super) struct IndividualArgs {
     /// How long single branches are dealt anew until the tree lies on the picture: a time such as 20s,
-    /// `Ntrees` for as many trees whatever the time, or off. By default a third of --timeout, or an eighth as many trees as
-    /// --evaluations
+    /// `Ntrees` for as many trees whatever the time, or off. By default a third of --timeout and what judging leaves of
+    /// its share, or an eighth as many trees as --evaluations
     #[arg(long, value_name = "TIME|Ntrees|off")]
     pub(super) individual: Option<individual::Effort>,
+    /// How many trees lie on the goal in the end, each dealt anew from the trunk up: one picture leaves their
+    /// depth open. They share the time of --individual
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u8).range(1..=i64::from(IndividualSettings::MAX_COUNT)))]
+    pub(super) individuals: u8,
 }
 
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "When to stop (whatever comes first; after a minute if nothing is said)")]
 pub(super) struct BudgetArgs {
-    /// After this time, such as 90s, 10m or 2h. The first guess counts; it is made in full, and a first
-    /// few trees are tried whatever time is left. So does --individual. Judging the result comes on top
+    /// After this time, such as 90s, 10m or 2h: for all of the fit, from the first guess to the last file. The first
+    /// guess is made in full, and a few trees are tried whatever time is left. The result is judged by fewer trees
+    /// where time is short, which is said
     #[arg(long, value_name = "TIME", value_parser = options::duration)]
     pub(super) timeout: Option<Duration>,
     /// After this many trees were grown and compared

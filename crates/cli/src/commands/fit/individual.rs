@@ -55,6 +55,7 @@ impl Effort {
             // Whatever comes first, as for the search.
             (Self::Share, whole) => IndividualSettings {
                 time: whole.map(|whole| whole / SHARE_OF_TIME),
+                takes_rest: true,
                 ..IndividualSettings::trees(match (evaluations, whole) {
                     (Some(count), _) => count.div_ceil(SHARE_OF_TREES),
                     (None, Some(_)) => u64::MAX,

@@ -16,9 +16,10 @@ pub(super) fn comments(judged: &Judged, space: &ParamSpace) -> Vec<String> {
     sentences.into_iter().filter_map(of).collect()
 }
 
-/// How many numbers are determined, loosely determined, and not seen.
-pub(super) fn counts(judged: &Judged) -> [usize; 3] {
-    [Identifiability::Determined, Identifiability::Loosely, Identifiability::NotSeen]
+/// How many numbers are determined, loosely determined, not seen, and not tried for want of time.
+pub(super) fn counts(judged: &Judged) -> [usize; 4] {
+    use Identifiability::{Determined, Loosely, NotSeen, NotTried};
+    [Determined, Loosely, NotSeen, NotTried]
         .map(|seen| judged.profiles.iter().filter(|profile| profile.seen == seen).count())
 }
 
@@ -39,6 +40,7 @@ pub(super) fn table(judged: &Judged, best: &Genome, space: &ParamSpace) -> Vec<V
             Identifiability::Determined => "determined",
             Identifiability::Loosely => "loosely",
             Identifiability::NotSeen => "not-seen",
+            Identifiability::NotTried => "not-tried",
         };
         let mut row = vec![
             space.slot_name(profile.slot),

@@ -14,6 +14,8 @@ mod progress;
 mod report;
 mod request;
 mod run_folder;
+mod several;
+mod shares;
 mod signals;
 mod start;
 mod summary;
@@ -23,11 +25,12 @@ mod watch;
 
 use crate::interrupted::Interrupted;
 use crate::{input, output};
-use anyhow::bail;
+use anyhow::{bail, ensure};
 use args::{BudgetArgs, GoalArgs, IndividualArgs, SearchArgs};
 use options::Settings;
 use pleach_fit::{Budget, FitSettings, GuessLibrary, IndividualSettings, RulesSettings};
 use run_folder::{Mode, RunFolder};
+use shares::Shares;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use task::{Ended, Task, how_to_go_on};
@@ -49,7 +52,8 @@ const EXAMPLES: &str = "Examples:
   pleach fit goal.png --robust 4  parameters of which every seed is like it
   pleach fit goal.png --from acer --free crown --free leaves --fix leaf_shape
   pleach fit goal.png --evolve-rules --timeout 2m  a grammar from nothing
-  pleach fit goal.png --individual 2m  longer for this very tree, branch by branch
+  pleach fit goal.png --individual 2m --timeout 3m  longer for this very tree, branch by branch
+  pleach fit goal.png --individuals 8  eight trees on one goal: depth is free
   pleach fit front.png --view 90=side.png --holdout-view 45=corner.png
   pleach fit goal.png --volume-from goal  a crown that follows the outline
   pleach fit front.png --view auto=other.png --free-frame  from who knows where
@@ -69,7 +73,8 @@ agreement, orange is missing, blue is too much), render.png, history.csv (a row 
 parameters.csv (how well the goal determines each parameter) and summary.json; with --mask auto mask.png, \
 with further views an overlay of each. That is the kind; individual.toml is this very tree, whose branches \
 were dealt anew one by one until they lie on the picture, with individual.png, overlay-individual.png and \
-individual-render.png. Most of them are written while the search runs, too. The file \
+individual-render.png. With --individuals there are individual-2.toml and so on, and individuals.png, a sheet of \
+all trees from the front and from the side. Most of them are written while the search runs, too. The file \
 `checkpoint` is there while a fit is unfinished, `search-state` once it is finished, for --continue.
 
 A finished fit is replaced only by a fit of the same goal with the same options, or with --overwrite, and \
@@ -202,7 +207,7 @@ impl Fit {
         interrupted.map_or(Ok(()), |interrupted| Err(interrupted.into()))
     }
 
-    /// The time for the whole fit but for judging, if it is bounded.
+    /// The time for the whole fit, if it is bounded.
     fn timeout(&self) -> Option<Duration> {
         let BudgetArgs { timeout, evaluations, generations, .. } = &self.budget;
         timeout.or(evaluations.or(*generations).is_none().then_some(Duration::from_secs(60)))
@@ -217,7 +222,16 @@ impl Fit {
             return Ok(None);
         }
         let effort = self.individual.individual.unwrap_or_default();
-        effort.settings(self.timeout(), self.budget.evaluations)
+        let one = effort.settings(self.timeout(), self.budget.evaluations)?;
+        let count = self.individual.individuals;
+        ensure!(one.is_some() || count == 1, "--individuals asks for trees, and --individual is off");
+        Ok(one.map(|one| IndividualSettings { count, ..one }))
+    }
+
+    /// How the time is shared out, if it is bounded.
+    fn shares(&self) -> anyhow::Result<Option<Shares>> {
+        let individual = self.individual_settings()?;
+        Ok(self.timeout().map(|whole| Shares::new(whole, individual.as_ref())))
     }
 
     fn settings(&self) -> anyhow::Result<Settings> {
@@ -226,18 +240,11 @@ impl Fit {
             return Ok(Settings::Help);
         }
         let budget = &self.budget;
-        let whole = self.timeout();
-        let timeout = match (whole, self.individual_settings()?) {
-            (Some(whole), Some(IndividualSettings { time: Some(time), .. })) => {
-                Some(whole.saturating_sub(time))
-            }
-            (whole, _) => whole,
-        };
         Ok(Settings::Fit(Box::new(FitSettings {
             optimizer: options::optimizer(&search.optimizer, &search.settings)?,
             rules: search.evolve_rules.then(RulesSettings::default),
             budget: Budget {
-                timeout,
+                timeout: self.shares()?.map(|shares| shares.search),
                 evaluations: budget.evaluations,
                 generations: budget.generations,
                 target_iou: budget.target_iou,

@@ -1,7 +1,8 @@
 //! What a fit says at its end.
 
+use super::several;
 use super::summary::{Counts, Summary};
-use pleach_fit::{Kindred, References};
+use pleach_fit::{Judging, Kindred, References};
 use std::path::Path;
 
 /// The score card that ends a fit, the verdict, and what to do next. `goal` is the picture and `folder`
@@ -12,9 +13,10 @@ pub(super) fn report(summary: &Summary, goal: &Path, folder: &Path) -> String {
     judged.extend(summary.holdout_views.iter().map(|view| view.line("held out")));
     if let Some(fresh) = &summary.fresh_seeds {
         judged += &format!(
-            "{} other seeds: likeness {:.3} ± {:.3}, IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels (an empty \
+            "{} other seeds{}: likeness {:.3} ± {:.3}, IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels (an empty \
              picture {:.2} %)\n",
             fresh.count,
+            if fresh.count < Judging::default().seeds { " (there was time for no more)" } else { "" },
             fresh.likeness.mean,
             fresh.likeness.sd,
             fresh.iou.mean,
@@ -27,16 +29,26 @@ pub(super) fn report(summary: &Summary, goal: &Path, folder: &Path) -> String {
     if let Some(references) = &summary.references {
         judged += &beside(references);
     }
-    if let Some(Counts { determined, loosely, not_seen }) = summary.determined {
+    if let Some(Counts { determined, loosely, not_seen, not_tried }) = summary.determined {
+        let late = if not_tried > 0 {
+            format!(", {not_tried} were not tried for want of time")
+        } else {
+            String::new()
+        };
         judged += &format!(
-            "of the parameters the goal determines {determined}, loosely {loosely}; {not_seen} are not seen\n"
+            "of the parameters the goal determines {determined}, loosely {loosely}; {not_seen} are not seen{late}\n"
         );
     }
-    let individual = summary.individual.as_ref().map_or_else(String::new, |one| one.beside(&summary.scores));
-    let tree = summary
-        .individual
-        .as_ref()
-        .map_or_else(String::new, |_| format!("tree     {}\n", folder.join("individual.toml").display()));
+    let mut individual =
+        summary.individual.as_ref().map_or_else(String::new, |one| one.beside(&summary.scores));
+    let mut tree = String::new();
+    if summary.individual.is_some() {
+        tree += &format!("tree     {}\n", folder.join("individual.toml").display());
+    }
+    if let Some(several) = &summary.individuals {
+        individual += &several.line();
+        tree += &format!("trees    {}\n", folder.join(several::SHEET).display());
+    }
     let rules = summary.rules.as_ref();
     let rules = rules.map_or_else(String::new, |rules| {
         format!("the grammar, of {} words and signs:\n\n{}\n", rules.grammar_length, rules.grammar)

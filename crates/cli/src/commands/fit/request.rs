@@ -13,6 +13,7 @@ use serde_json::Value;
 use sha2::{Digest as _, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// The files and options that decide what comes of a fit.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -103,8 +104,11 @@ fn options(
     settings: &FitSettings,
 ) -> anyhow::Result<BTreeMap<&'static str, String>> {
     let (search, budget) = (&fit.search, &settings.budget);
-    // As it was given: with what is kept for this very tree.
-    let kept = fit.individual_settings()?.and_then(|individual| individual.time).unwrap_or_default();
+    // As it was given: with what is not for the search.
+    let kept = match (fit.timeout(), fit.shares()?) {
+        (Some(whole), Some(shares)) => whole.saturating_sub(shares.search),
+        _ => Duration::ZERO,
+    };
     let timeout = budget.timeout.map(|time| time + kept);
     let optional = |value: Option<String>| value.unwrap_or_else(|| "nothing".to_owned());
     let list = |patterns: &[String]| optional((!patterns.is_empty()).then(|| patterns.join(" ")));
@@ -134,6 +138,7 @@ fn options(
             },
         ),
         ("robust", settings.robust.to_string()),
+        ("individuals", fit.individual.individuals.to_string()),
         ("individual", fit.individual.individual.unwrap_or_default().to_string()),
         ("timeout", optional(timeout.map(|time| format!("{}s", time.as_secs_f64())))),
         ("evaluations", optional(budget.evaluations.map(|count| count.to_string()))),

@@ -5,6 +5,7 @@ use super::individual::{self, IndividualSummary};
 use super::judged;
 use super::request::{Request, method_settings};
 use super::run_folder::{Claim, SUMMARY};
+use super::several::{self, Several};
 use super::start::{self, LooksLike, looks_like};
 use super::views::ViewScore;
 use crate::files;
@@ -50,6 +51,8 @@ pub(super) struct Summary {
     pub(super) fresh_seeds: Option<FreshSeeds>,
     /// The goal's own tree; the scores above are of the tree of the kind that the search has found.
     pub(super) individual: Option<IndividualSummary>,
+    /// With `--individuals`: all trees of the goal, the best first.
+    pub(super) individuals: Option<Several>,
     /// What likeness and IoU stand beside, at the search's size.
     pub(super) references: Option<References>,
     pub(super) verdict: Option<Verdict>,
@@ -122,6 +125,8 @@ pub(super) struct Counts {
     pub(super) determined: usize,
     pub(super) loosely: usize,
     pub(super) not_seen: usize,
+    /// For want of time.
+    pub(super) not_tried: usize,
 }
 
 /// Rules that were searched.
@@ -175,7 +180,8 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
     drawn.write_silhouettes(&goal.bitmap, &claim.file("best.png"), &claim.file("overlay.png"))?;
     drawn.write_render(&claim.file("render.png"), RENDER_SIZE)?;
     write_history(&claim.file("history.csv"), &outcome.history)?;
-    let individual = match (&fitted.individual, results.individual) {
+    let individuals = several::write(claim, drawing, &fitted.individuals, species)?;
+    let individual = match (fitted.individuals.first(), results.individual) {
         (Some(found), Some(drawn)) => Some(individual::write(claim, &goal.bitmap, found, drawn)?),
         _ => None,
     };
@@ -193,11 +199,12 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         scores,
         fresh_seeds: judged.as_ref().and_then(|judged| judged.held_out),
         individual,
+        individuals,
         references: fitted.references().cloned(),
         verdict,
         determined: judged.as_ref().map(|judged| {
-            let [determined, loosely, not_seen] = judged::counts(judged);
-            Counts { determined, loosely, not_seen }
+            let [determined, loosely, not_seen, not_tried] = judged::counts(judged);
+            Counts { determined, loosely, not_seen, not_tried }
         }),
         evaluations: outcome.evaluations,
         generations: outcome.generations,

@@ -11,7 +11,7 @@ use super::watch::Watch;
 use super::{Fit, views};
 use pleach_fit::{
     CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalSettings, GoalView, GuessLibrary,
-    fit_goal_with,
+    Judging, fit_goal_with,
 };
 use pleach_silhouette::goal::{Encoded, Goal};
 use serde_json::Value;
@@ -74,7 +74,9 @@ impl Task {
             }
             None => from.plan(generator, self.args.leaves(), &problem.start, &search)?,
         };
-        let settings = GoalSettings { individual: fit.individual_settings()?, ..settings };
+        let time = fit.shares()?.map(|shares| shares.judging);
+        let judging = settings.judging.map(|judging| Judging { time, ..judging });
+        let settings = GoalSettings { individual: fit.individual_settings()?, judging, ..settings };
         let request = self.request(fit, &goals.source, &search)?;
         let mut claim = self.folder.clone().claim(mode, &request)?;
 
@@ -111,7 +113,7 @@ impl Task {
         let drawing = drawing(&fitted.problem, fitted.settings.limits);
         let drawn = drawing.draw(&fitted.best)?;
         let individual =
-            fitted.individual.as_ref().map(|found| drawing.draw_individual(found)).transpose()?;
+            fitted.individuals.first().map(|found| drawing.draw_individual(found)).transpose()?;
         let (height, foliage) = (self.args.height, fitted.problem.foliage);
         let placements = pleach_fit::placements(&fitted.problem.goals, &fitted.best.genome.nuisances);
         // The first is the goal's own.

@@ -114,9 +114,10 @@ impl Observer for Watch<'_, '_> {
                 Err(_) => bar,
             }
         });
-        let IndividualProgress { trials, iou, likeness, used, .. } = progress;
+        let IndividualProgress { number, trials, iou, likeness, used, .. } = progress;
         bar.set_position((used * STEPS) as u64);
-        bar.set_message(format!("likeness {likeness:.3}, IoU {iou:.3}; {trials} branches tried"));
+        let which = if *number == 0 { String::new() } else { format!("tree {}: ", number + 1) };
+        bar.set_message(format!("{which}likeness {likeness:.3}, IoU {iou:.3}; {trials} branches tried"));
     }
 }
 

@@ -7,6 +7,7 @@ mod lock;
 mod swap;
 
 use super::request::Request;
+use super::several;
 use crate::{files, output};
 use anyhow::{Context, bail, ensure};
 use lock::Lock;
@@ -22,7 +23,7 @@ const CHECKPOINT: &str = "checkpoint";
 /// The same of a finished one, for `--continue`.
 const STATE: &str = "search-state";
 /// What a fit writes into its folder; overlays of further views beside it.
-const FILES: [&str; 13] = [
+const FILES: [&str; 14] = [
     "best.toml",
     "best.png",
     "overlay.png",
@@ -30,6 +31,7 @@ const FILES: [&str; 13] = [
     "individual.toml",
     "individual.png",
     "individual-render.png",
+    several::SHEET,
     "mask.png",
     "history.csv",
     "parameters.csv",
@@ -40,7 +42,9 @@ const FILES: [&str; 13] = [
 
 /// Whether a file of this name in a run folder is written by fits.
 fn is_ours(name: &str) -> bool {
-    FILES.contains(&name) || (name.starts_with("overlay-") && name.ends_with(".png"))
+    FILES.contains(&name)
+        || several::is_file(name)
+        || (name.starts_with("overlay-") && name.ends_with(".png"))
 }
 
 /// What to do about what is in the folder.
