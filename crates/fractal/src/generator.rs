@@ -1,9 +1,9 @@
 //! The generator: values, and what becomes of them.
 
-use crate::grow::{Scratch, grow};
+use crate::grow::{Scratch, grow, spreads};
 use crate::model::Model;
 use crate::params::{Id, is_active, space};
-use pleach_tree::{CheckedParams, Generator, GrowError, Growth, ParamSpace, Slot, Tree, Workspace};
+use pleach_tree::{CheckedParams, Generator, GrowError, Growth, ParamSpace, Slot, Spread, Tree, Workspace};
 use std::sync::Arc;
 
 /// What species files call the generator.
@@ -35,5 +35,9 @@ impl Generator for Fractal {
     ) -> Result<(), GrowError> {
         let model = Model::new(params.values_in(space())?);
         grow(&model, growth, workspace.scratch::<Scratch>(), tree)
+    }
+
+    fn spreads(&self, values: &[f64]) -> Vec<Spread> {
+        spreads(&Model::new(values))
     }
 }

@@ -5,7 +5,7 @@ use crate::frame::{Angle, Frame};
 use crate::model::{Dimensions, Model, ThicknessRule};
 use crate::purpose::{APICAL, AZIMUTH, COUNT, DAUGHTER, DROP, LEAF, LEAN, LEAN_AZIMUTH, POLAR, SCALE};
 use glam::DVec3;
-use pleach_tree::{Foliage, GrowError, Growth, Key, Knot, Leaf, Stem, StemKind, Tree};
+use pleach_tree::{Address, Foliage, GrowError, Growth, Key, Knot, Leaf, Spread, Stem, StemKind, Tree};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -26,6 +26,9 @@ struct Branch {
 #[derive(Clone, Copy, Debug)]
 struct Shoot {
     first: Branch,
+    address: Address,
+    /// Among those that its parent carries.
+    number: u32,
     parent: Option<u32>,
     level: u16,
     kind: StemKind,
@@ -37,10 +40,15 @@ struct Shoot {
 #[derive(Clone, Copy, Debug)]
 struct Daughter {
     frame: Frame,
-    /// Length over its parent's.
+    /// Length over its parent's, but for what an individual makes of it: by this its sisters get thick.
     scale: f64,
+    /// Its own key, by which it is left out or not.
+    own: Key,
     key: Key,
-    is_central: bool,
+    /// What its length is multiplied by.
+    length: f64,
+    /// Its stem, where it begins one.
+    stem: Option<(Address, u32)>,
 }
 
 /// Memory that is kept from tree to tree.
@@ -63,16 +71,34 @@ pub(crate) fn grow(
     }
     tree.leaf_shapes.push(Arc::clone(model.leaf_shape.outline()));
     scratch.waiting.clear();
+    let address = Address::trunk(0);
+    let draw = growth.draw(address, 0);
+    let frame = match (model.dimensions, draw.azimuth, draw.pitch) {
+        (_, 0.0, 0.0) => Frame::TRUNK,
+        (Dimensions::Plane, _, pitch) => Frame::TRUNK.in_plane(Angle::new(pitch)),
+        (Dimensions::Space, azimuth, pitch) => {
+            let turned = Frame::TRUNK.turned(Angle::new(azimuth));
+            turned.leaning(Angle::new(pitch), Angle::new(azimuth))
+        }
+    };
     let trunk = Branch {
         foot: DVec3::ZERO,
-        frame: Frame::TRUNK,
-        length: model.trunk_length,
+        frame,
+        length: model.trunk_length * draw.length,
         radius: model.trunk_radius,
         generation: 0,
-        key: Key::root(growth.seed),
+        key: draw.key(Key::root(growth.seed)),
     };
     let kind = StemKind::Trunk;
-    scratch.waiting.push(Shoot { first: trunk, parent: None, level: 0, kind, offset: 0.0 });
+    scratch.waiting.push(Shoot {
+        first: trunk,
+        address,
+        number: 0,
+        parent: None,
+        level: 0,
+        kind,
+        offset: 0.0,
+    });
     let mut grower = Grower { model, growth, scratch, tree, work: 1 };
     while let Some(shoot) = grower.scratch.waiting.pop() {
         grower.stem(&shoot)?;
@@ -96,13 +122,15 @@ impl Grower<'_> {
             return Err(GrowError::TooManyStems { limit: limits.stems, blame: count::blame(self.model) });
         }
         let (index, first_knot) = (self.tree.stems.len() as u32, self.tree.knots.len() as u32);
-        let &Shoot { first, parent, level, kind, offset } = shoot;
-        self.tree.stems.push(Stem { parent, level, kind, number: 0, offset, first_knot, knot_count: 1 });
+        let &Shoot { first, address, number, parent, level, kind, offset } = shoot;
+        self.tree.stems.push(Stem { parent, level, kind, number, offset, first_knot, knot_count: 1 });
         self.knot(first.foot, first.radius)?;
         let (mut branch, mut length) = (first, 0.0);
+        // Numbers of the stems that this one carries, from its foot up.
+        let mut carried = 0;
         loop {
             let tip = branch.foot + branch.frame.along * branch.length;
-            self.daughters(&branch);
+            self.daughters(&branch, address, level, &mut carried);
             self.work += self.scratch.daughters.len() as u64;
             if self.work > limits.work {
                 return Err(GrowError::TooMuchWork { limit: limits.work, blame: count::blame(self.model) });
@@ -125,15 +153,15 @@ impl Grower<'_> {
                 let next = Branch {
                     foot: tip,
                     frame: daughter.frame,
-                    length: branch.length * daughter.scale,
+                    length: branch.length * daughter.scale * daughter.length,
                     radius: thickness.of(daughter),
                     generation: branch.generation + 1,
                     key: daughter.key,
                 };
-                if daughter.is_central {
+                let Some((address, number)) = daughter.stem else {
                     central = Some(next);
                     continue;
-                }
+                };
                 // Without central branches a node is a fork of its stem.
                 let (level, kind) = match self.model.has_central() {
                     true => (level + 1, StemKind::Branch),
@@ -141,6 +169,8 @@ impl Grower<'_> {
                 };
                 self.scratch.waiting.push(Shoot {
                     first: next,
+                    address,
+                    number,
                     parent: Some(index),
                     level,
                     kind,
@@ -166,8 +196,9 @@ impl Grower<'_> {
         Ok(())
     }
 
-    /// What could grow from the tip of `branch`, the central daughter first.
-    fn daughters(&mut self, branch: &Branch) {
+    /// What could grow from the tip of `branch`, which is of the stem at `address`, the central daughter first.
+    fn daughters(&mut self, branch: &Branch, address: Address, level: u16, carried: &mut u32) {
+        let growth = self.growth;
         let (model, key, daughters) = (self.model, branch.key, &mut self.scratch.daughters);
         daughters.clear();
         if branch.generation >= model.generations {
@@ -181,24 +212,48 @@ impl Grower<'_> {
             daughters.push(Daughter {
                 frame: leader(model, &branch.frame, key),
                 scale,
+                own: key,
                 key,
-                is_central: true,
+                length: 1.0,
+                stem: None,
             });
         }
         let sides = &model.side_branches;
         let count = Model::sides(model.noise.vary(sides.nominal, sides.deviation, key, COUNT));
         for number in 0..count {
-            let key = key.child(DAUGHTER, number + 1);
-            let scale = Model::side_scale(scale(model, key));
+            let own = key.child(DAUGHTER, number + 1);
+            let (address, level) = match model.has_central() {
+                true => (address.child(*carried), usize::from(level) + 1),
+                false => (address.fork(*carried), usize::from(level)),
+            };
+            let draw = growth.draw(address, level);
+            let key = draw.key(own);
             let polar = model.noise.vary(model.polar.nominal, model.polar.deviation, key, POLAR);
             let frame = match model.dimensions {
-                Dimensions::Plane => branch.frame.in_plane(Angle::new(polar * Model::fan(number, count))),
+                Dimensions::Plane => {
+                    let fan = Model::fan(number, count);
+                    let away = if fan < 0.0 { -draw.pitch } else { draw.pitch };
+                    branch.frame.in_plane(Angle::new(polar * fan + away))
+                }
                 Dimensions::Space => {
                     let azimuth = azimuth(model, key) + TAU * f64::from(number) / f64::from(count);
-                    branch.frame.branch(Angle::new(polar), Angle::new(azimuth))
+                    branch.frame.branch(Angle::new(polar + draw.pitch), Angle::new(azimuth + draw.azimuth))
                 }
             };
-            daughters.push(Daughter { frame, scale, key, is_central: false });
+            let length = match draw.seed {
+                0 => 1.0,
+                // Its sisters keep what they were beside its own length.
+                _ => Model::side_scale(scale(model, key)) / Model::side_scale(scale(model, own)),
+            };
+            daughters.push(Daughter {
+                frame,
+                scale: Model::side_scale(scale(model, own)),
+                own,
+                key,
+                length: draw.length * length,
+                stem: Some((address, *carried)),
+            });
+            *carried += 1;
         }
     }
 
@@ -250,11 +305,23 @@ fn scale(model: &Model, key: Key) -> f64 {
     model.noise.vary(model.scale.nominal, model.scale.deviation, key, SCALE)
 }
 
+/// How far draws of single stems may lie from their own, level by level.
+pub(crate) fn spreads(model: &Model) -> Vec<Spread> {
+    let part = if model.scale.nominal > 0.0 { model.scale.deviation / model.scale.nominal } else { 0.0 };
+    let stems = Spread::of_stems(Spread {
+        azimuth: model.azimuth.deviation,
+        pitch: model.polar.deviation,
+        length: part,
+    });
+    // Where branches are forks, all are of one level.
+    if model.has_central() { vec![Spread::of_trunks(), stems] } else { vec![Spread { length: 0.0, ..stems }] }
+}
+
 /// Whether a daughter of `parent` is long enough, and not left out by chance.
 fn is_grown(model: &Model, parent: &Branch, daughter: &Daughter) -> bool {
     let is_long = parent.length * daughter.scale >= MIN_LENGTH * model.trunk_length;
     let may_drop = model.drop > 0.0 && parent.generation + 1 >= model.drop_from;
-    is_long && !(may_drop && daughter.key.unit(DROP, 0) < model.drop)
+    is_long && !(may_drop && daughter.own.unit(DROP, 0) < model.drop)
 }
 
 /// Radii at a node. Branches that were left out count: they were there when the others got thick.

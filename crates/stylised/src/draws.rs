@@ -1,9 +1,9 @@
 //! Which draw is whose: the modules of a tree, by which their parts are addressed.
 
 use glam::{DQuat, DVec3, dvec3};
-use pleach_tree::Key;
 use pleach_tree::random::Purpose;
 use pleach_tree::trig::sin_cos;
+use pleach_tree::{Draw, Key};
 use std::f64::consts::TAU;
 
 /// What a part's key is for: its module.
@@ -13,6 +13,11 @@ pub(crate) const SEGMENTS: Purpose = 3;
 pub(crate) const BRANCHES: Purpose = 4;
 pub(crate) const FOLIAGE: Purpose = 5;
 pub(crate) const SPHERES: Purpose = 6;
+
+/// How a trunk turns and leans that has drawn this.
+pub(crate) fn turned(draw: &Draw) -> DQuat {
+    DQuat::from_rotation_z(draw.azimuth) * DQuat::from_rotation_y(draw.pitch)
+}
 
 /// Three uniform numbers in [−1, 1).
 pub(crate) fn signed3(key: Key, purpose: Purpose, index: u32) -> DVec3 {

@@ -1,11 +1,13 @@
 //! Stylised trees as a generator.
 
+use crate::draws::turned;
 use crate::foliage;
 use crate::params::{Numbers, SPACE, is_active};
 use crate::skeleton::Skeleton;
 use crate::write::{Budget, Writer};
 use pleach_tree::{
-    CheckedParams, Foliage, Generator, GrowError, Growth, Key, ParamSpace, Slot, Tree, Workspace,
+    Address, CheckedParams, Foliage, Generator, GrowError, Growth, Key, ParamSpace, Slot, Spread, Tree,
+    Workspace,
 };
 use std::sync::Arc;
 
@@ -46,16 +48,24 @@ impl Generator for Stylised {
         let numbers = Numbers::new(params)?;
         tree.clear();
         let Scratch { skeleton, foliage: scratch } = workspace.scratch();
-        let key = Key::root(growth.seed);
+        let draw = growth.draw(Address::trunk(0), 0);
+        let key = draw.key(Key::root(growth.seed));
+        let turn = ((draw.azimuth, draw.pitch) != (0.0, 0.0)).then(|| turned(&draw));
         // A skeleton has a few hundred vertices at most: only foliage is counted in detail.
         let mut budget = Budget::new(&growth.limits);
-        skeleton.grow(&numbers, key);
+        skeleton.grow(&numbers, growth, key);
         budget.spend(skeleton.knots.len() as u64, "branch_quantity")?;
-        let mut writer = Writer { tree, limits: &growth.limits, scale: numbers.scale };
+        let mut writer = Writer { tree, limits: &growth.limits, scale: numbers.scale, turn };
         writer.skeleton(skeleton)?;
         if growth.foliage == Foliage::All {
             foliage::grow(scratch, &numbers, skeleton, key, &mut budget, &mut writer)?;
         }
         Ok(())
+    }
+
+    fn spreads(&self, _: &[f64]) -> Vec<Spread> {
+        // Azimuths of branches are drawn within a tenth of a turn, and elevations between two angles.
+        let branches = Spread::of_stems(Spread::from_degrees(20.0, 40.0, 0.0));
+        vec![Spread::of_trunks(), branches]
     }
 }

@@ -1,7 +1,7 @@
 //! From units of the sliders to a tree in metres, within the limits.
 
 use crate::skeleton::{Chain, Skeleton};
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 use pleach_tree::{Blame, Blob, GrowError, Knot, Limits, Stem, Tree};
 
 /// Steps of work that are left.
@@ -39,9 +39,16 @@ pub(crate) struct Writer<'a> {
     pub(crate) limits: &'a Limits,
     /// Metres for one unit of the sliders.
     pub(crate) scale: f64,
+    /// How the whole tree is turned about its foot, if it is.
+    pub(crate) turn: Option<DQuat>,
 }
 
 impl Writer<'_> {
+    /// Where a point is in metres.
+    fn place(&self, point: DVec3) -> DVec3 {
+        self.turn.map_or(point, |turn| turn * point) * self.scale
+    }
+
     /// Writes all stems.
     ///
     /// # Errors
@@ -62,18 +69,16 @@ impl Writer<'_> {
             parent: chain.parent,
             level: chain.level,
             kind: chain.kind,
-            number: 0,
+            number: chain.number,
             offset: chain.offset * self.scale,
             first_knot: self.tree.knots.len() as u32,
             knot_count: knots.len() as u32,
         });
-        let scale = self.scale;
-        self.tree.knots.extend(knots.iter().map(|knot| Knot {
-            point: knot.point * scale,
-            handle_in: knot.handle_in * scale,
-            handle_out: knot.handle_out * scale,
-            radius: knot.radius * scale,
-        }));
+        for knot in knots {
+            let [point, handle_in, handle_out] =
+                [knot.point, knot.handle_in, knot.handle_out].map(|point| self.place(point));
+            self.tree.knots.push(Knot { point, handle_in, handle_out, radius: knot.radius * self.scale });
+        }
         Ok(())
     }
 
@@ -93,6 +98,7 @@ impl Writer<'_> {
                 blame: blame("leaves_quantity"),
             });
         }
+        let placed = vertices.iter().map(|&vertex| self.place(vertex).as_vec3()).collect::<Vec<Vec3>>();
         let tree = &mut *self.tree;
         tree.blobs.push(Blob {
             stem,
@@ -101,8 +107,7 @@ impl Writer<'_> {
             first_triangle: tree.blob_triangles.len() as u32,
             triangle_count: triangles.len() as u32,
         });
-        let scale = self.scale;
-        tree.blob_vertices.extend(vertices.iter().map(|v| -> Vec3 { (*v * scale).as_vec3() }));
+        tree.blob_vertices.extend(placed);
         tree.blob_triangles.extend_from_slice(triangles);
         Ok(())
     }

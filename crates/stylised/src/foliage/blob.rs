@@ -114,7 +114,7 @@ fn on_trunks(numbers: &Numbers, skeleton: &Skeleton, key: Key) -> impl Iterator<
     let trunks = skeleton.trunk_count;
     (0..count).map(move |i| {
         let (trunk, row) = (i % trunks, i / trunks);
-        let key = key.child(FOLIAGE, i);
+        let key = skeleton.key_on(trunk, key.child(FOLIAGE, i));
         let rows = f64::from(count.div_ceil(trunks));
         let down = if row == 0 { 0.0 } else { (f64::from(row) + 0.3 * key.signed(purpose::PLACE, 0)) / rows };
         let path = skeleton.trunk(trunk);

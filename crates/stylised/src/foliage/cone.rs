@@ -40,7 +40,7 @@ pub(super) fn grow(
     let tiers = 2 + (5.0 * numbers.leaves_quantity / 100.0).round() as u32;
     let radius = SPREAD * RADIUS * numbers.leaves_size;
     for trunk in 0..skeleton.trunk_count {
-        let key = key.child(FOLIAGE, trunk);
+        let key = skeleton.key_on(trunk, key.child(FOLIAGE, trunk));
         let path = skeleton.trunk(trunk);
         let length = path.length();
         let (low, above) = (BOTTOM * length, ABOVE * length.max(radius));

@@ -46,7 +46,7 @@ pub(super) fn grow(
         let path = skeleton.trunk(trunk);
         let top = path.at(path.length()).point;
         for i in 0..count {
-            let key = key.child(FOLIAGE, STRIDE * trunk + i);
+            let key = skeleton.key_on(trunk, key.child(FOLIAGE, STRIDE * trunk + i));
             let loose = |purpose: u32| numbers.leaves_randomness * key.signed(purpose, 0);
             let age = f64::from(i) / f64::from(count - 1);
             let frond = Frond {

@@ -7,7 +7,7 @@ use crate::draws::{BRANCHES, SEGMENTS, signed3};
 use crate::params::Numbers;
 use glam::{DVec3, dvec3};
 use pleach_tree::trig::sin_cos;
-use pleach_tree::{Key, StemKind};
+use pleach_tree::{Draw, Growth, Key, StemKind};
 use std::f64::consts::TAU;
 
 /// Radius of a branch of width 1.
@@ -45,6 +45,9 @@ struct Node {
     height: f64,
     /// Part of a turn.
     azimuth: f64,
+    /// Of the branch, on its trunk.
+    number: u32,
+    draw: Draw,
 }
 
 /// Number of branches on a trunk for the slider's `quantity` and a uniform `draw`.
@@ -65,12 +68,12 @@ fn turned(pattern: u32, index: u32, count: u32) -> f64 {
     }
 }
 
-pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, key: Key) {
+pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, growth: &Growth<'_>, key: Key) {
     if numbers.branch_quantity <= 0.0 {
         return;
     }
     for trunk in 0..skeleton.trunk_count {
-        let of_trunk = key.child(SEGMENTS, trunk);
+        let of_trunk = skeleton.key_on(trunk, key.child(SEGMENTS, trunk));
         let count = count(numbers.branch_quantity, of_trunk.unit(of_segment::COUNT, 0));
         let dealt = deal(count, of_trunk, of_segment::DEAL);
         for (segment, &count) in (0..).zip(&dealt) {
@@ -78,7 +81,10 @@ pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, key: Key) {
             let first = of_trunk.unit(of_segment::TURN, segment);
             for index in 0..count {
                 let address = trunk * MAX_OF_TRUNK + segment * MAX_OF_SEGMENT + index;
-                let key = key.child(BRANCHES, address);
+                let own = skeleton.key_on(trunk, key.child(BRANCHES, address));
+                let number = segment * MAX_OF_SEGMENT + index;
+                let draw = growth.draw(skeleton.dealt[trunk as usize].address.child(number), 1);
+                let key = draw.key(own);
                 // From the segment's bottom to its top, with a gap of 0.4 of even spacing at least.
                 let up = (f64::from(index) + 0.5 + 0.3 * key.signed(of_branch::PLACE, 0)) / f64::from(count);
                 let height = (f64::from(SEGMENT_COUNT - 1 - segment) + up) / f64::from(SEGMENT_COUNT);
@@ -87,20 +93,25 @@ pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, key: Key) {
                 let path = skeleton.trunk(trunk);
                 let start = skeleton.zone_starts[trunk as usize];
                 let offset = start + (path.length() - start) * height;
-                let node = Node { place: path.at(offset), offset, height, azimuth };
-                branch(skeleton, numbers, trunk, &node, key);
+                let place = path.at(offset);
+                let node = Node { place, offset, height, azimuth, number, draw };
+                // Whether it lives is its own in any case: foliage elsewhere may depend on it.
+                let is_dead = own.unit(of_branch::IS_DEAD, 0) < numbers.dead_branches;
+                branch(skeleton, numbers, trunk, &node, key, is_dead);
             }
         }
     }
 }
 
-fn branch(skeleton: &mut Skeleton, numbers: &Numbers, trunk: u32, node: &Node, key: Key) {
-    let is_dead = key.unit(of_branch::IS_DEAD, 0) < numbers.dead_branches;
-    let whole = LENGTH * numbers.branch_length * (1.0 - 0.4 * node.height);
+fn branch(skeleton: &mut Skeleton, numbers: &Numbers, trunk: u32, node: &Node, key: Key, is_dead: bool) {
+    let draw = node.draw;
+    let whole = LENGTH * numbers.branch_length * draw.length * (1.0 - 0.4 * node.height);
     let length = if is_dead { whole / 3.0 } else { whole };
     let (low, high) = ELEVATIONS;
     let elevation = (low + (high - low) * key.unit(of_branch::ELEVATION, 0)).to_radians();
-    let ((sin_e, cos_e), (sin_a, cos_a)) = (sin_cos(elevation), sin_cos(TAU * node.azimuth));
+    // Away from the tip is down.
+    let elevation = elevation - draw.pitch;
+    let ((sin_e, cos_e), (sin_a, cos_a)) = (sin_cos(elevation), sin_cos(TAU * node.azimuth + draw.azimuth));
     let along = dvec3(cos_e * cos_a, cos_e * sin_a, sin_e);
     let randomness = numbers.branch_randomness;
     let radius = (RADIUS * numbers.branch_width).min(0.9 * node.place.radius);
@@ -117,8 +128,8 @@ fn branch(skeleton: &mut Skeleton, numbers: &Numbers, trunk: u32, node: &Node, k
         // What hangs to the ground lies on it.
         point.z = point.z.max(radius.min(node.place.point.z));
     }
-    let chain =
-        Chain { kind: StemKind::Branch, level: 1, parent: Some(trunk), offset: node.offset, knots: 0..0 };
+    let Node { number, offset, .. } = *node;
+    let chain = Chain { kind: StemKind::Branch, level: 1, parent: Some(trunk), number, offset, knots: 0..0 };
     let chain = skeleton.push(chain, &points, &radii);
     if !is_dead {
         skeleton.ends.push(BranchEnd { chain, at: points[3], key });

@@ -12,7 +12,7 @@ pub(crate) use path::Path;
 
 use crate::params::Numbers;
 use glam::DVec3;
-use pleach_tree::{Key, Knot, StemKind};
+use pleach_tree::{Address, Draw, Growth, Key, Knot, StemKind};
 use std::ops::Range;
 
 /// A run of knots.
@@ -22,6 +22,8 @@ pub(crate) struct Chain {
     pub(crate) level: u16,
     /// The chain that it grows from.
     pub(crate) parent: Option<u32>,
+    /// Among those of its kind on its parent; roots after branches.
+    pub(crate) number: u32,
     /// How far along the parent it starts.
     pub(crate) offset: f64,
     pub(crate) knots: Range<usize>,
@@ -46,18 +48,28 @@ pub(crate) struct Skeleton {
     pub(crate) trunk_count: u32,
     /// Where along each trunk branches and foliage may grow.
     pub(crate) zone_starts: Vec<f64>,
+    /// Each trunk's address and draws; its key takes the place of the tree's for what it carries.
+    pub(crate) dealt: Vec<Dealt>,
+}
+
+/// Where a trunk is in its tree, and what it has drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Dealt {
+    pub(crate) address: Address,
+    pub(crate) draw: Draw,
 }
 
 impl Skeleton {
-    /// Makes the skeleton of the tree with `numbers` whose key is `key`.
-    pub(crate) fn grow(&mut self, numbers: &Numbers, key: Key) {
+    /// Makes the skeleton of the tree with `numbers` whose key is `key`; of its stems' draws `growth` tells.
+    pub(crate) fn grow(&mut self, numbers: &Numbers, growth: &Growth<'_>, key: Key) {
         self.chains.clear();
         self.knots.clear();
         self.ends.clear();
         self.zone_starts.clear();
-        trunks::grow(self, numbers, key);
-        roots::grow(self, numbers, key);
-        branches::grow(self, numbers, key);
+        self.dealt.clear();
+        trunks::grow(self, numbers, growth, key);
+        roots::grow(self, numbers, growth, key);
+        branches::grow(self, numbers, growth, key);
     }
 
     /// The knots of `chain`.
@@ -68,6 +80,12 @@ impl Skeleton {
     /// The spline of trunk number `trunk`.
     pub(crate) fn trunk(&self, trunk: u32) -> Path<'_> {
         Path::new(self.knots_of(&self.chains[trunk as usize]))
+    }
+
+    /// What `key` becomes on trunk number `trunk`.
+    pub(crate) fn key_on(&self, trunk: u32, key: Key) -> Key {
+        // The first trunk's draws are those of the whole tree, whose key has them already.
+        if trunk == 0 { key } else { self.dealt[trunk as usize].draw.key(key) }
     }
 
     /// Appends a chain through `points` with these radii; its knots' handles make a smooth curve.

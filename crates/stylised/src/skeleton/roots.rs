@@ -5,7 +5,7 @@ use crate::draws::{ROOTS, signed3};
 use crate::params::Numbers;
 use glam::{DVec3, dvec3};
 use pleach_tree::trig::sin_cos;
-use pleach_tree::{Key, StemKind};
+use pleach_tree::{Address, Growth, Key, StemKind};
 use std::f64::consts::TAU;
 
 /// Radius of a root of width 1.
@@ -14,6 +14,9 @@ const RADIUS: f64 = 0.05;
 const REACH: f64 = 0.6;
 /// Most of the way to its neighbor that a root's end is turned.
 const JITTER: f64 = 0.35;
+
+/// Roots are numbered from here on: branches on the first trunk have the numbers before.
+const AFTER_BRANCHES: u32 = 64;
 
 /// What draws of roots are for.
 mod purpose {
@@ -42,7 +45,7 @@ fn angle(index: u32, count: u32, jitter: f64) -> f64 {
     (f64::from(index) + 0.5 + JITTER * jitter) / f64::from(count)
 }
 
-pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, key: Key) {
+pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, growth: &Growth<'_>, key: Key) {
     let tree = key.child(ROOTS, u32::MAX);
     let (randomness, length) = (numbers.root_randomness, numbers.root_length);
     let first = tree.unit(purpose::FIRST, 0);
@@ -52,9 +55,12 @@ pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, key: Key) {
     let foot = dvec3(0.0, 0.0, 0.5 * skeleton.knots[0].radius + 0.5 * radius);
     let is_upper = randomness >= 0.5;
     for root in 0..count {
-        let key = key.child(ROOTS, root);
-        let (sin, cos) = sin_cos(TAU * (first + angle(root, count, key.signed(purpose::ANGLE, 0))));
-        let end = dvec3(cos, sin, 0.0) * (REACH * length) - DVec3::Z * 0.03;
+        let number = AFTER_BRANCHES + root;
+        let draw = growth.draw(Address::trunk(0).child(number), 0);
+        let key = draw.key(key.child(ROOTS, root));
+        let turn = TAU * (first + angle(root, count, key.signed(purpose::ANGLE, 0)));
+        let (sin, cos) = sin_cos(turn + draw.azimuth);
+        let end = dvec3(cos, sin, 0.0) * (REACH * length * draw.length) - DVec3::Z * 0.03;
         let inner = if is_upper { 2 } else { 1 };
         let mut points = vec![foot];
         for i in 1..=inner + 1 {
@@ -79,7 +85,8 @@ pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, key: Key) {
         points[last].z = points[last].z.min(-0.03);
         let radii: Vec<f64> =
             (0..points.len()).map(|i| radius * (1.0 - 0.65 * i as f64 / last as f64)).collect();
-        let chain = Chain { kind: StemKind::Root, level: 0, parent: Some(0), offset: 0.0, knots: 0..0 };
+        let chain =
+            Chain { kind: StemKind::Root, level: 0, parent: Some(0), number, offset: 0.0, knots: 0..0 };
         skeleton.push(chain, &points, &radii);
     }
 }

@@ -1,10 +1,10 @@
 //! One to four trunks that part low (Lorite 2021, §3.5.2 and Appendix B).
 
-use super::{Chain, Skeleton, relax, smooth};
-use crate::draws::{TRUNKS, signed3};
+use super::{Chain, Dealt, Skeleton, relax, smooth};
+use crate::draws::{TRUNKS, signed3, turned};
 use crate::params::{MIN_PARTING_HEIGHT, Numbers};
 use glam::{DVec3, dvec3};
-use pleach_tree::{Key, StemKind};
+use pleach_tree::{Address, Growth, Key, StemKind};
 
 /// Radius of a trunk of width 1.
 const RADIUS: f64 = 0.08;
@@ -68,7 +68,7 @@ fn axes(key: Key) -> [Axis; 4] {
     axes
 }
 
-pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, key: Key) {
+pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, growth: &Growth<'_>, key: Key) {
     let (height, randomness) = (numbers.trunk_height, numbers.trunk_randomness);
     let tree = key.child(TRUNKS, u32::MAX);
     let trunks = count(numbers, tree);
@@ -78,9 +78,12 @@ pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, key: Key) {
     let parting = HEIGHTS[0] * if trunks > 1 { height.powf(0.7) } else { height };
     let lean = if trunks > 1 { 0.0 } else { 0.05 * randomness * height };
     let v1 = dvec3(lean * tree.signed(purpose::INNER, 0), lean * tree.signed(purpose::INNER, 1), parting);
-    let growth = 0.5 * height / (height + 2.0) * (2.0 + f64::from(trunks)) / 6.0 * (1.0 + randomness) / 2.0;
+    let firmness = 0.5 * height / (height + 2.0) * (2.0 + f64::from(trunks)) / 6.0 * (1.0 + randomness) / 2.0;
     for trunk in 0..trunks {
-        let key = key.child(TRUNKS, trunk);
+        let address = if trunk == 0 { Address::trunk(0) } else { Address::trunk(0).fork(trunk) };
+        let draw = growth.draw(address, 0);
+        skeleton.dealt.push(Dealt { address, draw });
+        let key = skeleton.key_on(trunk, key.child(TRUNKS, trunk));
         let random = signed3(key, purpose::END, 0) * (0.25 * randomness * height);
         let tip = if trunks > 1 {
             v1 + end(height, axes[trunk as usize], 0.25 + 0.35 * randomness, random)
@@ -98,8 +101,13 @@ pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, key: Key) {
         }
         points.extend([part(HEIGHTS[1]) + offset(1), part(HEIGHTS[2]) + offset(2), tip]);
         let last = points.len() as f64 - 1.0;
-        relax(&mut points, |i| growth * i as f64 / last);
+        relax(&mut points, |i| firmness * i as f64 / last);
         smooth(&mut points, randomness);
+        // The first trunk turns with the whole tree.
+        if trunk > 0 && (draw.azimuth, draw.pitch) != (0.0, 0.0) {
+            let turn = turned(&draw);
+            points.iter_mut().for_each(|point| *point = v1 + turn * (*point - v1));
+        }
         // Arms share what the trunk below carries, as Leonardo has it, though not quite: thin arms look
         // lost in this style.
         let share = f64::from(trunks).powf(-0.35);
@@ -120,7 +128,7 @@ pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, key: Key) {
         }
         let (kind, parent) = if trunk == 0 { (StemKind::Trunk, None) } else { (StemKind::Fork, Some(0)) };
         let offset = if trunk == 0 { 0.0 } else { skeleton.trunk(0).length_to(1) };
-        let chain = Chain { kind, level: 0, parent, offset, knots: 0..0 };
+        let chain = Chain { kind, level: 0, parent, number: trunk, offset, knots: 0..0 };
         skeleton.push(chain, &points, &radii);
         let below = if trunk == 0 { skeleton.trunk(0).length_to(1) } else { 0.0 };
         skeleton.zone_starts.push(below + bare);

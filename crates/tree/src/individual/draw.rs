@@ -56,7 +56,36 @@ pub struct Spread {
     pub length: f64,
 }
 
+/// Degrees and parts of a length that stems differ by in nature where a species says that they do not.
+const NATURAL: (f64, f64, f64) = (10.0, 4.0, 0.06);
+/// The part of a species' own variation that is given on top of what its stems have drawn.
+const SHARE: f64 = 0.5;
+/// Degrees that a trunk may lean from where it stands; what it does about its axis is free.
+const LEAN: f64 = 2.0;
+/// Bounds of what a species may ask for, radians and a part of the length.
+const MOST_PITCH: f64 = 0.35;
+const MOST_LENGTH: f64 = 0.25;
+
 impl Spread {
+    /// Of trunks: turned freely, hardly leaning. A picture shows the height of a tree, so a trunk has no other
+    /// length.
+    #[must_use]
+    pub fn of_trunks() -> Self {
+        Self::from_degrees(180.0, LEAN, 0.0)
+    }
+
+    /// Of stems that a species varies by `varied`: half of that, and a little where it varies nothing.
+    #[must_use]
+    pub fn of_stems(varied: Self) -> Self {
+        let (azimuth, pitch, length) = NATURAL;
+        let part = |varied: f64, least: f64| (SHARE * varied.abs()).max(least);
+        Self {
+            azimuth: part(varied.azimuth, azimuth.to_radians()).min(std::f64::consts::PI),
+            pitch: part(varied.pitch, pitch.to_radians()).min(MOST_PITCH),
+            length: part(varied.length, length).min(MOST_LENGTH),
+        }
+    }
+
     /// The draw in the middle of `self` that `key` deals, of a stem whose own are `from`: `reach` is the part of the
     /// spread that it may lie away from them.
     pub(super) fn deal(&self, key: Key, from: &Draw, reach: f64) -> Draw {
