@@ -54,6 +54,52 @@ fn a_fit_ends_with_the_kind_and_with_this_very_tree() {
 }
 
 #[test]
+fn several_trees_on_one_goal_have_files_and_a_sheet() {
+    let (dir, goal) = (Dir::new(), target("acer.png"));
+    let several = ["--individual", "48trees", "--individuals", "3"];
+    let said = dir.run(fit(&goal, "run", "40", &several)).ok();
+    assert!(said.contains("3 trees lie on the goal") && said.contains("individuals.png"), "{said}");
+    let summary: serde_json::Value = serde_json::from_slice(&read(&dir.path("run/summary.json"))).unwrap();
+    let trees = summary["individuals"]["trees"].as_array().unwrap();
+    assert_eq!(trees.len(), 3);
+    let shared = summary["individuals"]["side_blurred_iou"].as_f64().unwrap();
+    assert!((0.05..0.95).contains(&shared), "{shared}");
+    let mut texts = Vec::new();
+    for tree in trees {
+        let file = format!("run/{}", tree["file"].as_str().unwrap());
+        let _ = dir.run(["grow", &file, "--stats-only"]).ok();
+        texts.push(text(&dir, &file));
+    }
+    assert!(texts[0] != texts[1] && texts[1] != texts[2]);
+    assert!(read(&dir.path("run/individuals.png")).starts_with(b"\x89PNG"));
+    // A shorter list takes the place of all of it.
+    let _ = dir.run(fit(&goal, "run", "40", &["--individual", "16trees", "--overwrite"])).ok();
+    assert!(!dir.path("run/individual-2.toml").exists() && !dir.path("run/individuals.png").exists());
+
+    dir.run(fit(&goal, "x", "40", &["--individuals", "0"])).fails(2, &["1..=64"]);
+    let none = ["--individual", "off", "--individuals", "2"];
+    dir.run(fit(&goal, "x", "40", &none)).fails(1, &["--individuals", "off"]);
+}
+
+/// Families whose stems have addresses, through their contract.
+#[test]
+fn trees_of_other_families_have_one_too() {
+    let dir = Dir::new();
+    for species in ["coffey_winter_oak", "stylised_oak"] {
+        let goal = format!("{species}.png");
+        let _ = dir.run(["silhouette", species, "--seed", "7", "-o", &goal, "--size", "64"]).ok();
+        let args = ["fit", &goal, "--out", species, "--size", "64", "--from", species, "--evaluations", "20"];
+        let _ = dir.run([&args[..], &["--individual", "48trees"]].concat()).ok();
+        let summary: serde_json::Value =
+            serde_json::from_slice(&read(&dir.path(species).join("summary.json"))).unwrap();
+        let one = &summary["individual"];
+        assert!(one["cost"].as_f64().unwrap() < one["cost_before"].as_f64().unwrap(), "{species}: {one}");
+        let file = format!("{species}/individual.toml");
+        let _ = dir.run(["grow", &file, "-o", "one.glb"]).ok();
+    }
+}
+
+#[test]
 fn nobody_has_to_have_one() {
     let (dir, goal) = (Dir::new(), target("acer.png"));
     let said = dir.run(fit(&goal, "run", "40", &["--individual", "off"])).ok();
@@ -126,9 +172,9 @@ fn mistakes_are_told_with_their_places() {
     dir.run(["grow", "bad.toml", "-o", "x.ply"]).fails(1, &["tree_seed"]);
     let _ = dir.file(
         "bad.toml",
-        "generator = \"fractal\"\ntree_seed = 1\n[individual]\nstems = [[\"0\", 1, 0, 0, 1]]\n",
+        "generator = \"least-cost-path\"\ntree_seed = 1\n[individual]\nstems = [[\"0\", 1, 0, 0, 1]]\n",
     );
-    dir.run(["grow", "bad.toml", "-o", "x.ply"]).fails(1, &["addresses", "fractal"]);
+    dir.run(["grow", "bad.toml", "-o", "x.ply"]).fails(1, &["addresses", "least-cost-path"]);
     // A stem that the tree does not have changes nothing.
     let _ = dir.file("odd.toml", format!("{head}stems = [[\"0/99999/f3\", 1, 0, 0, 1]]\n"));
     let _ = dir.run(["grow", "odd.toml", "-o", "x.ply"]).ok();

@@ -6,6 +6,7 @@ mod common;
 
 use common::goal_of;
 use pleach_fit::{FitError, FitProblem, FoundIndividual, Genome, GoalView, IndividualSettings, individuals};
+use pleach_silhouette::score::blurred_iou;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::{Foliage, Parts};
 use std::cell::Cell;
@@ -33,7 +34,7 @@ fn bits(found: &FoundIndividual) -> String {
 
 #[test]
 fn trees_of_the_kind_come_to_lie_on_the_goal_and_look_more_like_it() {
-    for species in ["hill_cherry", "palm", "acer"] {
+    for species in ["hill_cherry", "palm", "acer", "coffey_winter_oak", "stylised_oak"] {
         let (problem, genome) = start(species);
         let found = found(&problem, &genome, IndividualSettings::trees(120));
         let (before, after) = (found.before, found.score);
@@ -105,9 +106,36 @@ fn there_are_no_more_draws_than_are_asked_for() {
 
 #[test]
 fn stems_without_addresses_have_no_draws() {
-    let (problem, genome) = start("coffey_fan");
+    let (problem, genome) = start("broom_shrub");
     let none = individuals(&problem, &genome, IndividualSettings::trees(8), &|| Duration::ZERO, &GO, |_| ());
     assert!(none.unwrap().is_empty());
+}
+
+/// One picture leaves the depth of a tree open.
+#[test]
+fn several_trees_on_one_goal_differ_from_the_trunk_up() {
+    let (problem, genome) = start("acer");
+    let three = IndividualSettings { count: 3, ..IndividualSettings::trees(180) };
+    let mut told = Vec::new();
+    let all = individuals(&problem, &genome, three, &|| Duration::ZERO, &GO, |p| told.push(*p)).unwrap();
+    assert_eq!(all.len(), 3);
+    assert!(told.windows(2).all(|w| w[0].used <= w[1].used + 1e-12 && w[0].number <= w[1].number));
+    assert!(all.windows(2).all(|w| w[0].score.cost <= w[1].score.cost), "the best first");
+    let goal = &problem.goals[0];
+    let side = |found: &FoundIndividual| {
+        let (tree, mut drawn) = (found.species.grow(1).unwrap(), Bitmap::default());
+        Rasterizer::new().draw(&tree, &View::degrees(90.0, 0.0), &goal.frame, Parts::LEAFY, &mut drawn);
+        drawn
+    };
+    for (i, one) in all.iter().enumerate() {
+        assert!(one.score.iou > one.before.iou, "{:?} {:?}", one.before, one.score);
+        assert!(one.trees >= 60 && one.individual().len() <= IndividualSettings::MAX_STEMS);
+        let sides = all[..i].iter().map(|other| blurred_iou(&side(one), &side(other), 1.5));
+        assert!(sides.into_iter().all(|shared| shared < 0.9), "they are one tree");
+    }
+    // The first is the one that is found alone.
+    let alone = found(&problem, &genome, IndividualSettings::trees(60));
+    assert!(all.iter().any(|one| bits(one) == bits(&alone)));
 }
 
 /// By the clock, by the flag, and told of on the way.
