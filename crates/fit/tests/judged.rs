@@ -101,7 +101,7 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
         };
         let clock = || std::time::Duration::ZERO;
         let stop = std::sync::atomic::AtomicBool::new(false);
-        let best = fit(&problem, &settings, Control::new(&clock, (&stop).into())).unwrap().best.unwrap();
+        let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
         let kept: Vec<f64> = slots.iter().map(|&slot| best.genome.values[slot.index()]).collect();
         (kept, settled(&problem, &settings, &best.genome).unwrap(), settings, best)
     };
@@ -193,7 +193,7 @@ fn nothing_is_searched_that_nobody_would_draw() {
         };
         let problem = problem.with_values(start.to_vec()).unwrap();
         let (clock, stop) = (|| std::time::Duration::ZERO, AtomicBool::new(false));
-        let best = fit(&problem, &settings, Control::new(&clock, (&stop).into())).unwrap().best.unwrap();
+        let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
         let profiles = profile(&problem, &settings, &best, 0.02, (&GO).into()).unwrap();
         assert!(profiles.iter().any(|p| p.slot == slot("taper[1]")));
         let tapers = space.select("taper").unwrap().into_iter().map(|slot| best.genome.values[slot.index()]);

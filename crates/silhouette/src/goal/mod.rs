@@ -18,6 +18,7 @@ pub(crate) mod read;
 pub(crate) mod shape;
 mod shrink;
 mod source;
+mod specks;
 mod structure;
 #[cfg(test)]
 mod tests;
@@ -182,8 +183,17 @@ impl Goal {
         if ink.ink() == ink.area() {
             return Err(GoalError::AllInk { name: name() });
         }
+        if ink.ink() == 0 {
+            return Err(GoalError::NoInk { name: name() });
+        }
+        warnings.extend(shape::warnings(&ink));
+        let is_noisy = warnings.iter().any(|warning| matches!(warning, GoalWarning::Noise { .. }));
+        let clean = is_noisy.then(|| specks::cleaned(&ink)).filter(|clean| clean.ink() > 0);
+        let ink = clean.unwrap_or(ink);
         let bounds = ink.ink_box().ok_or_else(|| GoalError::NoInk { name: name() })?;
-        let top_row = f64::from(bounds.1);
+        let (top, bottom) = specks::rows(&ink, bounds.1, bounds.3);
+        let bounds = (bounds.0, top, bounds.2, bottom);
+        let top_row = f64::from(top);
         let (ground_row, ground) = user_value("the ground row", options.ground_row, height)?
             .unwrap_or_else(|| anchor::ground(&ink, bounds.3));
         if ground_row <= top_row {
@@ -193,7 +203,6 @@ impl Goal {
         let foot = (ground_row.ceil() as u32).min(bounds.3 + 1);
         let (axis_column, axis) = user_value("the axis column", options.axis_column, width)?
             .unwrap_or_else(|| anchor::axis(&ink, bounds, foot));
-        warnings.extend(shape::warnings(&ink));
         let reduction = options
             .max_side
             .map_or(1.0, |side| f64::from(side.max(MIN_SIDE)) / f64::from(width.max(height)))

@@ -28,7 +28,7 @@ pub enum GoalWarning {
         /// The first row of the strip, in pixels of the file from its top edge.
         row: u32,
     },
-    /// Specks all over the picture.
+    /// Specks all over the picture. Those of one pixel, and holes like them, are taken out of the goal.
     Noise {
         /// Pixels of ink that stand alone.
         specks: u64,
@@ -94,8 +94,8 @@ impl fmt::Display for GoalWarning {
             ),
             Self::Noise { specks } => write!(
                 f,
-                "there are specks all over the picture, {specks} of one pixel, and they count as tree; \
-                 smooth the picture first, or use --mask FILE with a clean mask"
+                "there were specks all over the picture, {specks} of one pixel; those, and holes of one pixel, \
+                 were taken out, and a cleaner picture or a --mask FILE makes a better goal"
             ),
             Self::Solid { solidity } => write!(
                 f,
