@@ -4,7 +4,7 @@
 //! cargo run --release -p pleach-experiments --example fits_sheet -- docs/fits.png
 //! ```
 //!
-//! The fits are those of `experiments/treefit`, a thousand trees tried for each.
+//! The fits are those of `experiments/individual`: a minute each, a third of it for the goal's own tree.
 
 #![allow(clippy::print_stdout, reason = "an example says what it has done")]
 
@@ -44,7 +44,7 @@ fn main() -> anyhow::Result<()> {
     let mut pictures = Vec::new();
     for (i, (goal, name, like)) in (0..).zip(GOALS) {
         let (x, y) = (GAP + i % 2 * block, GAP / 2 + i / 2 * row);
-        let texts = [(name, INK), ("fitted to it", GRAY), ("the same with another seed", GRAY)];
+        let texts = [(name, INK), ("this very tree", GRAY), ("another of its kind", GRAY)];
         for (k, (text, color)) in (0..).zip(texts) {
             let at = (f64::from(x + k * SIZE + SIZE / 2), f64::from(y + SIZE + 20));
             let text = text.to_owned();
@@ -52,7 +52,7 @@ fn main() -> anyhow::Result<()> {
         }
         pictures.push((x, y, silhouette(&format!("targets/{goal}.png"))?));
         for (k, further) in [(1, 0), (2, 1)] {
-            let tree = fitted(&format!("experiments/treefit/fits/{goal}.toml"), like, further)?;
+            let tree = fitted(&format!("experiments/individual/fits/{goal}.toml"), like, further)?;
             pictures.push((x + k * SIZE, y, tree));
         }
     }
@@ -89,7 +89,7 @@ fn silhouette(path: &str) -> anyhow::Result<Picture> {
     Ok(Picture { width: SIZE, height: SIZE, rgba })
 }
 
-/// A tree of the fit at `path`, `further` seeds after its own.
+/// A tree of the fit at `path`: its own tree, or one that is `further` seeds after it and of its kind.
 fn fitted(path: &str, like: &str, further: u64) -> anyhow::Result<Picture> {
     let mut species = pleach_generators::read_file(Path::new(path))?;
     let seed = species.tree_seed.context("a fit has a seed")? + further;
@@ -98,7 +98,13 @@ fn fitted(path: &str, like: &str, further: u64) -> anyhow::Result<Picture> {
     let palette = Palette::new(&species, None);
     palette.apply_season(&mut tree);
     let white = Background::Plain(species::Color([255; 3]));
-    let settings =
-        PreviewSettings { width: SIZE, height: SIZE, background: white, ..PreviewSettings::default() };
+    // As level as the goal.
+    let settings = PreviewSettings {
+        width: SIZE,
+        height: SIZE,
+        elevation: 0.0,
+        background: white,
+        ..PreviewSettings::default()
+    };
     Ok(Preview::new(&tree, &palette, SIZE).picture(&settings))
 }

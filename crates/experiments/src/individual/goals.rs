@@ -15,6 +15,8 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct IndividualGoal {
+    /// What it is called; its file or its species unless said.
+    name: Option<FileName>,
     /// The picture, from the experiment's folder.
     pub(super) file: Option<PathBuf>,
     /// Height of its tree in metres.
@@ -38,6 +40,9 @@ const fn yes() -> bool {
 impl IndividualGoal {
     /// What it is called in the results.
     pub(super) fn name(&self) -> String {
+        if let Some(name) = &self.name {
+            return name.to_string();
+        }
         let bare = if self.leaves { "" } else { "_bare" };
         let views = if self.two_views { "_two_views" } else { "" };
         match (&self.file, &self.species) {

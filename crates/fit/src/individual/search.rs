@@ -100,14 +100,13 @@ pub(super) fn search(
             trials += found.iter().map(|found| found.trials).sum::<u64>();
             let better = found.into_iter().flat_map(|found| found.better).collect();
             keep(&scene, &hands, &mut state, better);
-            let most = settings.max_stems;
-            let on_trial = if used(trees, longest) < LAST { most / ON_TRIAL } else { 0 };
-            if state.chosen.len() > most + on_trial {
-                state = hands.with(&scene, |hand| pruned(&scene, &state, most, hand)).unwrap_or(state);
-            }
+            let on_trial = if used(trees, longest) < LAST { settings.max_stems / ON_TRIAL } else { 0 };
+            state = hands.with(&scene, |hand| pruned(&scene, state, on_trial, hand));
             longest = longest.max(passed() - begun);
         }
     }
+    // The clock may have leapt over the last batches.
+    state = hands.with(&scene, |hand| pruned(&scene, state, 0, hand));
     let kind = problem.species(genome).map_err(crate::space::SpaceError::Start)?;
     let species = kind.with_individual(genome.tree_seed, state.chosen.individual);
     let before = evaluator.evaluate_with_likeness(genome);
@@ -150,14 +149,20 @@ fn keep(scene: &Scene<'_>, hands: &Hands, state: &mut State, mut better: Vec<Bet
     }
 }
 
-/// `state` with at most `most` stems that have draws of their own.
-fn pruned(scene: &Scene<'_>, state: &State, most: usize, hand: &mut Hand) -> Option<State> {
+/// `state` with at most as many stems with draws of their own as there may be; as it is where it has no more than
+/// that and `on_trial`.
+fn pruned(scene: &Scene<'_>, state: State, on_trial: usize, hand: &mut Hand) -> State {
+    let most = scene.quest.settings.max_stems;
+    if state.chosen.len() <= most + on_trial {
+        return state;
+    }
     // Without some of its draws a tree may have too much of something; without all it has grown before.
-    (0..=most).rev().find_map(|most| {
+    let fewer = (0..=most).rev().find_map(|most| {
         let mut chosen = state.chosen.clone();
         chosen.prune(most);
         State::new(scene, chosen, state.generation, hand)
-    })
+    });
+    fewer.unwrap_or(state)
 }
 
 /// A deal that makes the cost smaller.
