@@ -80,24 +80,6 @@ fn a_frame_that_is_off_is_found_too() {
     }
 }
 
-/// Beside all numbers of the tree, in as many trees as ten seconds are on a slow machine.
-#[test]
-fn a_frame_that_is_off_is_found_while_the_tree_is_searched() {
-    let off = Placement { azimuth: None, scale: 1.12, offset: [0.06, -0.04] };
-    let problem = two_views(40.0, off, Unknown { azimuth: Azimuth::Within(15.0), frame: true });
-    let settings = FitSettings {
-        budget: Budget::evaluations(1500),
-        start: Start::Lists(vec![problem.start.params.values().to_vec()]),
-        ..FitSettings::default()
-    };
-    let best = run(&problem, &settings).best.unwrap();
-    let found = placements(&problem.goals, &best.genome.nuisances)[1];
-    assert!((found.scale - off.scale).abs() < 0.05, "{found:?}");
-    for (found, off) in found.offset.iter().zip(off.offset) {
-        assert!((found - off).abs() < 0.02, "{found} for {off}");
-    }
-}
-
 #[test]
 fn every_optimizer_searches_them_on_any_number_of_threads() {
     let problem = two_views(200.0, Placement::KNOWN, Unknown { azimuth: Azimuth::Any, frame: true });

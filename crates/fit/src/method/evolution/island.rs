@@ -4,7 +4,7 @@ use super::super::is_individual;
 use super::operators::{Offspring, Operator, Variation};
 use super::settings::EvolutionSettings;
 use crate::genome::{Genome, Score, Scored};
-use crate::space::{Gene, SearchSpace};
+use crate::space::SearchSpace;
 use crate::stream::Stream;
 use serde::{Deserialize, Serialize};
 
@@ -41,9 +41,6 @@ const OPERATOR_MEMORY: f64 = 0.02;
 const GENE_MEMORY: f64 = 0.05;
 const MIN_OPERATOR: f64 = 0.01;
 const MIN_GENE: f64 = 0.06;
-/// The same of numbers that say where a picture was taken from, over that of others. They are few among many, and
-/// until they are right no number of the tree can be.
-const NUISANCE: f64 = 6.0;
 
 impl Island {
     pub(super) fn is_empty(&self) -> bool {
@@ -107,7 +104,7 @@ impl Island {
         if self.operator_credit.is_empty() {
             let genes = space.genes().len();
             self.steps = vec![settings.step; genes];
-            self.weight = space.genes().iter().map(|gene| 4.0 * min_weight(gene)).collect();
+            self.weight = vec![4.0 * MIN_GENE; genes];
             self.operator_credit = vec![0.1; Operator::ALL.len()];
         }
     }
@@ -139,7 +136,7 @@ impl Island {
     }
 
     /// Rewards operators and genes for the children they have made, and adapts the steps.
-    pub(super) fn learn(&mut self, space: &SearchSpace, scores: &[Score]) {
+    pub(super) fn learn(&mut self, scores: &[Score]) {
         let best = self.best().map_or(f64::INFINITY, |best| best.score.cost);
         for (offspring, score) in self.offspring.iter().zip(scores) {
             let better = score.cost < offspring.parent_cost;
@@ -159,14 +156,8 @@ impl Island {
                 let factor = if better { LONGER } else { SHORTER };
                 self.steps[gene] = (self.steps[gene] * factor.powf(share)).clamp(STEPS.0, STEPS.1);
                 let weight = &mut self.weight[gene];
-                let least = min_weight(&space.genes()[gene]);
-                *weight = (*weight + share * GENE_MEMORY * (reward - *weight)).max(least);
+                *weight = (*weight + share * GENE_MEMORY * (reward - *weight)).max(MIN_GENE);
             }
         }
     }
-}
-
-/// The least weight of a gene.
-fn min_weight(gene: &Gene) -> f64 {
-    if gene.slot().is_none() { NUISANCE * MIN_GENE } else { MIN_GENE }
 }

@@ -120,7 +120,7 @@ impl Method for Evolution {
         }
     }
 
-    fn tell(&mut self, space: &SearchSpace, members: &[Genome], scores: &[Score]) {
+    fn tell(&mut self, _: &SearchSpace, members: &[Genome], scores: &[Score]) {
         self.round += 1;
         let newborn = members.iter().zip(scores).filter(|(_, score)| score.cost < f64::INFINITY);
         let newborn = newborn.map(|(genome, score)| Scored { genome: genome.clone(), score: *score });
@@ -128,7 +128,7 @@ impl Method for Evolution {
             self.island.settle(newborn.collect(), self.settings.parents);
             return;
         }
-        self.island.learn(space, scores);
+        self.island.learn(scores);
         self.island.settle(newborn.collect(), self.settings.parents);
         let patience = (self.settings.patience * self.settings.parents) as u64;
         if self.island.stagnation() * members.len() as u64 > patience {
