@@ -74,6 +74,7 @@ impl Writer<'_> {
             first_knot: self.tree.knots.len() as u32,
             knot_count: knots.len() as u32,
         });
+        self.tree.knots.reserve(knots.len());
         for knot in knots {
             let [point, handle_in, handle_out] =
                 [knot.point, knot.handle_in, knot.handle_out].map(|point| self.place(point));
