@@ -1,0 +1,52 @@
+"""Procedural trees, their silhouettes, and fits of their parameters to pictures.
+
+    >>> import pleach
+    >>> tree = pleach.species("quaking_aspen").grow(7)
+    >>> ink = tree.silhouette(64)
+    >>> card = pleach.score(ink, pleach.species("quaking_aspen").grow(8).silhouette(64))
+    >>> card.likeness > 0.6
+    True
+
+The library is the one that the program ``pleach`` is made of: the same goal, options and seed give the same
+numbers in both, on any number of threads.
+"""
+
+from __future__ import annotations
+
+from ._blend import Map, blend
+from ._fit import Fit, fit
+from ._native import (
+    FitError,
+    GoalError,
+    GrowError,
+    PleachError,
+    Species,
+    SpeciesError,
+    Tree,
+    generators,
+)
+from ._problem import Problem, Scores
+from ._score import Card, Mask, mask, score
+from ._species import species
+
+__all__ = [
+    "Card",
+    "Fit",
+    "FitError",
+    "GoalError",
+    "GrowError",
+    "Map",
+    "Mask",
+    "PleachError",
+    "Problem",
+    "Scores",
+    "Species",
+    "SpeciesError",
+    "Tree",
+    "blend",
+    "fit",
+    "generators",
+    "mask",
+    "score",
+    "species",
+]

@@ -1,0 +1,77 @@
+"""Species between species."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from ._species import species as _species
+
+Kind = Union[str, _native.Species]
+Shares = Union[Mapping[str, float], Mapping[_native.Species, float], Mapping[Kind, float]]
+
+
+def one_species(kind: Kind) -> _native.Species:
+    return kind if isinstance(kind, _native.Species) else _species(kind)
+
+
+def blend(shares: Shares, *, name: str = "blend") -> _native.Species:
+    """The species that is so much of each: names or species of one generator, and their shares.
+
+    Raises ``SpeciesError`` for shares that are negative or all 0, and for species of several generators.
+
+    >>> import pleach
+    >>> pleach.blend({"quaking_aspen": 0.7, "silver_birch": 0.3}, name="between").name
+    'between'
+    """
+    return _native.mix([one_species(kind) for kind in shares], [float(share) for share in shares.values()], name)
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point of a map."""
+
+    species: _native.Species
+    """The tree there."""
+    shares: dict[str, float]
+    """How much of which species it is made of; those of none left out."""
+    outside: float
+    """How far outside the hull of the species the point is; 0 inside."""
+
+
+class Map:
+    """Species laid out on a plane by the principal components of their parameters, and a tree for every point.
+
+    By default the fifteen species of Hewitt's dissertation; others by name or as species, at least two of one
+    generator.
+
+    >>> import pleach
+    >>> plane = pleach.Map()
+    >>> x, y = plane.points[plane.names.index("palm")]
+    >>> plane.at(x, y).shares
+    {'palm': 1.0}
+    """
+
+    def __init__(self, kinds: Optional[Sequence[Kind]] = None) -> None:
+        chosen = _native.map_species() if kinds is None else [one_species(kind) for kind in kinds]
+        self._map = _native.NativeMap(chosen)
+        self.species = chosen
+        self.names = [one.name for one in chosen]
+        self.points: npt.NDArray[np.float64] = self._map.points()
+        """Where they stand, float64 of shape (species, 2)."""
+        self.explained: list[float] = self._map.explained()
+        """The share of the variance that each component has."""
+
+    def at(self, x: float, y: float, *, name: str = "blend") -> Place:
+        """The tree at a point. Raises ``SpeciesError`` for coordinates that are not finite."""
+        species, shares, outside = self._map.at(x, y, name)
+        return Place(species, {name: share for name, share in zip(self.names, shares) if share > 0}, outside)
+
+    def locate(self, kind: Kind) -> tuple[float, float]:
+        """Where a species belongs."""
+        return self._map.locate(one_species(kind))

@@ -1,0 +1,49 @@
+//! The native part of the Python package `pleach`: the facade, in Python's types.
+//!
+//! What takes long releases the interpreter's lock and runs on threads of its own ([`pool`]), so that a process
+//! that forks later finds none of them. What users call is in `python/pleach/`.
+
+mod arrays;
+mod blend;
+mod error;
+mod fit;
+mod goal;
+mod json;
+mod params;
+mod pool;
+mod problem;
+mod score;
+mod species;
+mod told;
+mod tree;
+mod view;
+
+use pyo3::prelude::*;
+
+#[pymodule(name = "_native")]
+mod native {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::blend::{NativeMap, map_species, mix};
+    #[pymodule_export]
+    use crate::error::{FitError, GoalError, GrowError, PleachError, SpeciesError};
+    #[pymodule_export]
+    use crate::fit::fit;
+    #[pymodule_export]
+    use crate::problem::NativeProblem;
+    #[pymodule_export]
+    use crate::score::{mask, score};
+    #[pymodule_export]
+    use crate::species::{Species, generators, species_named, species_names};
+    #[pymodule_export]
+    use crate::tree::Tree;
+
+    /// A species is a mapping to whoever asks.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let mapping = module.py().import("collections.abc")?.getattr("Mapping")?;
+        mapping.call_method1("register", (module.py().get_type::<Species>(),))?;
+        Ok(())
+    }
+}

@@ -1,0 +1,28 @@
+//! Threads for one call.
+
+use crate::error::PleachError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// More are a mistake.
+const MAX_THREADS: usize = 1024;
+
+/// Does `work` without the interpreter's lock, on `threads` threads.
+pub(crate) fn on<T: Send>(
+    py: Python<'_>,
+    threads: Option<usize>,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    py.detach(|| Ok(of(threads)?.install(work)))
+}
+
+/// So many threads; as many as the machine has cores, or `RAYON_NUM_THREADS` says, if that is none.
+///
+/// They end with the pool: a process that forks afterwards has none that its child would wait for.
+pub(crate) fn of(threads: Option<usize>) -> PyResult<ThreadPool> {
+    if threads.is_some_and(|count| !(1..=MAX_THREADS).contains(&count)) {
+        return Err(PleachError::new_err(format!("expected from 1 to {MAX_THREADS} threads")));
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
+    pool.map_err(|error| PleachError::new_err(format!("no threads: {error}")))
+}

@@ -1,0 +1,37 @@
+"""Species between species."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+import pleach
+
+
+def test_a_blend_is_between() -> None:
+    both = pleach.blend({"quaking_aspen": 1, "silver_birch": 1})
+    heights = [pleach.species(name)["g_scale"] for name in ("quaking_aspen", "silver_birch")]
+    assert min(heights) <= both["g_scale"] <= max(heights)
+    mixed: dict[str | pleach.Species, float] = {"acer": 1, pleach.species("palm"): 0}
+    assert pleach.blend(mixed)["ratio"] == pleach.species("acer")["ratio"]
+    wrong: list[dict[str, float]] = [{}, {"acer": -1, "palm": 2}, {"acer": 0, "palm": 0}, {"acer": 1, "grammar_acer": 1}]
+    for shares in wrong:
+        with pytest.raises(pleach.SpeciesError):
+            pleach.blend(shares)
+
+
+def test_a_map_has_a_tree_everywhere() -> None:
+    plane = pleach.Map()
+    assert plane.points.shape == (15, 2) and len(plane.explained) >= 2 and 0 < plane.explained[0] < 1
+    for (x, y), one in zip(plane.points, plane.species):
+        assert plane.at(x, y).shares == {one.name: 1.0}
+        assert plane.locate(one) == pytest.approx((x, y))
+    middle = plane.at(*plane.points.mean(axis=0), name="middle")
+    assert middle.outside == 0 and len(middle.shares) > 1 and sum(middle.shares.values()) == pytest.approx(1)
+    assert middle.species.name == "middle" and middle.species.grow(1, leaves=False).knots.size
+    assert plane.at(1e3, 1e3).outside > 0
+    with pytest.raises(pleach.SpeciesError):
+        plane.at(math.nan, 0)
+    with pytest.raises(pleach.SpeciesError):
+        pleach.Map(["acer"])

@@ -1,0 +1,192 @@
+"""Fits: the program's bits, interruption, progress, pickles."""
+
+from __future__ import annotations
+
+import os
+import pathlib
+import pickle
+import shutil
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pleach
+
+ROOT = pathlib.Path(__file__).parents[3]
+GOAL = ROOT / "targets" / "acer.png"
+SMALL: dict[str, Any] = {"start": "acer", "size": 48, "evaluations": 40, "individual": "24trees"}
+
+
+@pytest.fixture(scope="module")
+def found() -> pleach.Fit:
+    return pleach.fit(GOAL, **SMALL)
+
+
+def program() -> str:
+    """The program, if it was built here."""
+    built = [os.environ.get("PLEACH", "")] + [str(ROOT / "target" / how / "pleach") for how in ("release", "debug")]
+    for path in built:
+        if path and shutil.which(path):
+            return path
+    pytest.skip("the program is not built: cargo build")
+
+
+def test_a_fit_tells_all_there_is(found: pleach.Fit) -> None:
+    assert found.species.name == "acer" and found.evaluations >= 40 and not found.interrupted
+    assert found.individual is not None and found.individual.own_draws > 0 and found.species.own_draws == 0
+    assert found.individuals[0].card.iou > found.card.iou
+    assert found.best is found.individual
+    assert set(word for _, word in found.identifiability.values()) <= {"determined", "loosely", "not-seen", "not-tried"}
+    history = found.history
+    assert len({len(column) for column in history.values()}) == 1 and history["best_cost"][-1] <= history["best_cost"][0]
+    assert found.verdict and found.fresh_likeness is not None and 0 < found.fresh_likeness[0] < 1
+    assert found.goal.shape == found.silhouette.shape == found.overlay().shape[:2]
+    # The pictures are those of the species.
+    again = pleach.score(found.silhouette, found.goal)
+    assert again == found.card
+    assert pickle.loads(pickle.dumps(found)).species == found.species
+
+
+@pytest.mark.parametrize("more", [{}, {"start": "auto", "evaluations": 25, "leaves": True}])
+def test_a_fit_is_the_program_s(more: dict[str, Any], tmp_path: pathlib.Path) -> None:
+    options = {**SMALL, **more}
+    found = pleach.fit(GOAL, **options)
+    leaves = ["--leaves", "on"] if options.get("leaves") else []
+    command = [program(), "fit", GOAL, "--out", "run", "--from", options["start"], "--size", "48", *leaves]
+    command += ["--evaluations", str(options["evaluations"]), "--individual", "24trees"]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+    for file, species in (("best", found.species), ("individual", found.individual)):
+        assert pleach.species(tmp_path / "run" / f"{file}.toml") == species, file
+
+
+def test_threads_change_nothing(found: pleach.Fit) -> None:
+    for threads in (1, 3):
+        other = pleach.fit(GOAL, threads=threads, **SMALL)
+        assert (other.species, other.individual, other.cost) == (found.species, found.individual, found.cost)
+
+
+def test_progress_is_told_and_its_errors_are_raised() -> None:
+    told: list[dict[str, Any]] = []
+    pleach.fit(GOAL, progress=told.append, **SMALL)
+    stages = [one["stage"] for one in told]
+    assert {"begun", "search", "judging", "individual"} <= set(stages)
+    assert stages.index("search") < stages.index("judging") < stages.index("individual")
+
+    def breaks(_: dict[str, Any]) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        pleach.fit(GOAL, progress=breaks, **SMALL)
+    pleach.fit(GOAL, progress=True, **SMALL)
+
+
+def test_python_goes_on_while_a_fit_runs() -> None:
+    """The lock is released: another thread counts while this one waits."""
+    import threading
+
+    ticks: list[float] = []
+    done = threading.Event()
+
+    def count() -> None:
+        while not done.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.01)
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    pleach.fit(GOAL, start="acer", size=96, timeout=3, individual=False)
+    done.set()
+    counter.join()
+    assert len(ticks) > 50 and np.median(np.diff(ticks)) < 0.1
+
+
+def interrupted(script: str, tmp_path: pathlib.Path, after: str) -> tuple[int, str, float]:
+    """Runs a script, interrupts it once it has said `after`, and returns its code, its words and the seconds to its end."""
+    file = tmp_path / "script.py"
+    file.write_text(textwrap.dedent(script))
+    running = subprocess.Popen([sys.executable, "-u", file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert running.stdout is not None
+    said = ""
+    for line in running.stdout:
+        said += line
+        if after in line:
+            break
+    running.send_signal(signal.SIGINT)
+    begun = time.monotonic()
+    rest, _ = running.communicate(timeout=60)
+    return running.returncode, said + rest, time.monotonic() - begun
+
+
+def test_ctrl_c_ends_a_fit_with_what_it_has(tmp_path: pathlib.Path) -> None:
+    script = f"""
+        import pleach
+        said = []
+        def tell(step):
+            if step["stage"] == "search" and step["evaluations"] > 40 and not said:
+                said.append(print("searching"))
+        found = pleach.fit({str(GOAL)!r}, start="acer", size=48, timeout=60, progress=tell)
+        print(found.interrupted, found.evaluations > 40, found.species.name)
+    """
+    code, said, seconds = interrupted(script, tmp_path, "searching")
+    assert (code, said.splitlines()[-1]) == (0, "True True acer"), said
+    assert seconds < 10, seconds
+
+
+def test_ctrl_c_before_there_is_anything_is_a_keyboard_interrupt(tmp_path: pathlib.Path) -> None:
+    script = f"""
+        import pleach
+        said = []
+        def tell(step):
+            if step["stage"] == "guess" and not said:
+                said.append(print("guessing"))
+        try:
+            pleach.fit({str(GOAL)!r}, size=256, timeout=60, progress=tell)
+            print("found")
+        except KeyboardInterrupt:
+            print("nothing yet")
+    """
+    code, said, _ = interrupted(script, tmp_path, "guessing")
+    assert (code, said.splitlines()[-1]) == (0, "nothing yet"), said
+
+
+def test_a_child_that_forks_after_a_fit_can_fit_too(found: pleach.Fit) -> None:
+    import multiprocessing
+
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        both = pool.map_async(one_cost, [1, 1]).get(timeout=120)
+    assert both[0] == both[1] == found.cost
+
+
+def one_cost(seed: int) -> float:
+    return pleach.fit(GOAL, seed=seed, **SMALL).cost
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"height": 0}, "height is 0"),
+        ({"height": float("nan")}, "height is NaN"),
+        ({"size": 4}, "size is 4"),
+        ({"timeout": 0}, "timeout is 0"),
+        ({"timeout": float("nan")}, "timeout is NaN"),
+        ({"timeout": 5, "individual": 9.0}, "less than the 5 s"),
+        ({"individual": "9"}, "400trees"),
+        ({"individuals": 0}, "individuals is 0"),
+        ({"optimizer": "luck"}, "luck"),
+        ({"objective": "beauty"}, "beauty"),
+        ({"generator": "magic"}, "magic"),
+        ({"start": "palm", "generator": "lsystem"}, "lsystem"),
+        ({"start": "plam"}, "plam"),
+        ({"free": ["lenght"]}, "lenght"),
+        ({"threads": 0}, "threads"),
+    ],
+)
+def test_options_that_cannot_be_are_told(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(pleach.PleachError, match=message):
+        pleach.fit(GOAL, **{"start": "acer", "evaluations": 5, **options})

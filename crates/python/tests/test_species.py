@@ -1,0 +1,80 @@
+"""Species as mappings."""
+
+from __future__ import annotations
+
+import collections.abc
+import pickle
+import pathlib
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pleach
+
+
+def test_all_species_grow_by_name() -> None:
+    names = pleach.species()
+    assert len(names) >= 20
+    assert {pleach.species(name).generator for name in names} == set(pleach.generators())
+
+
+def test_a_species_is_a_mapping() -> None:
+    acer = pleach.species("acer")
+    assert isinstance(acer, collections.abc.Mapping)
+    assert dict(acer) == dict(acer.items()) == dict(zip(acer.keys(), acer.values()))
+    assert list(acer) == acer.keys() and len(acer) == len(acer.keys())
+    assert "ratio" in acer and "rotio" not in acer and 3 not in acer  # type: ignore[comparison-overlap]
+    assert acer.get("rotio") is None and acer.get("rotio", 7) == 7
+    assert isinstance(acer["ratio"], float) and isinstance(acer["levels"], int) and isinstance(acer["shape"], str)
+    assert isinstance(acer["length"], tuple) and len(acer["length"]) == 4
+    with pytest.raises(KeyError):
+        acer["rotio"]
+
+
+def test_a_changed_copy_says_what_is_wrong() -> None:
+    acer = pleach.species("acer")
+    changed = acer.replace({"length[1]": 0.25, "shape": "conical"}, g_scale=np.float64(9))
+    assert (changed["length"][1], changed["shape"], changed["g_scale"]) == (0.25, "conical", 9.0)
+    assert acer["shape"] == "tapered_cylindrical"
+    wrong: list[tuple[dict[str, Any], str]] = [
+        ({"rotio": 1}, "did you mean `ratio`"),
+        ({"ratio": "wide"}, "expected a number"),
+        ({"ratio": -1}, "`ratio`"),
+        ({"ratio": float("nan")}, "`ratio`"),
+        ({"length": 1}, "4 numbers, not one value"),
+        ({"length": (1, 2)}, "4 numbers, not 2"),
+        ({"shape": "cube"}, "expected"),
+    ]
+    for changes, message in wrong:
+        with pytest.raises(pleach.SpeciesError, match=message):
+            acer.replace(changes)
+    with pytest.raises(pleach.SpeciesError):
+        acer.with_numbers(acer.numbers[:-1].copy())
+    assert acer.with_numbers(acer.numbers) == acer
+    assert len(acer.slots) == len(acer.numbers)
+
+
+def test_files_go_there_and_back(tmp_path: pathlib.Path) -> None:
+    acer = pleach.species("acer").named("mine", tree_seed=12)
+    file = tmp_path / "mine.toml"
+    file.write_text(acer.to_toml())
+    again = pleach.species(file)
+    assert again == acer and hash(again) == hash(acer) and (again.name, again.tree_seed) == ("mine", 12)
+    assert pickle.loads(pickle.dumps(acer)) == acer
+    assert acer != pleach.species("acer") and acer != object()
+    file.write_text('generator = "weber-penn"\nratio = "thick"\n')
+    with pytest.raises(pleach.SpeciesError, match="(?s)line 2|:2:"):
+        pleach.species(file)
+    with pytest.raises(pleach.SpeciesError, match="did you mean|no species"):
+        pleach.species("acre")
+    with pytest.raises(pleach.PleachError):
+        acer.named("a/b")
+
+
+def test_what_is_declared_is_told() -> None:
+    about = pleach.species("acer").declared("length")
+    assert about["slots"] == [f"length[{i}]" for i in range(4)] and len(about["search_ranges"]) == 4
+    assert about["doc"] and about["source"] and about["range"][0] < about["range"][1]
+    assert "conical" in pleach.species("acer").declared("shape")["choices"]

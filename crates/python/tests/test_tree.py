@@ -1,0 +1,90 @@
+"""Trees as arrays, pictures and meshes."""
+
+from __future__ import annotations
+
+import gc
+import pickle
+import struct
+
+import numpy as np
+import pytest
+
+import pleach
+
+
+def test_arrays_show_the_tree() -> None:
+    tree = pleach.species("acer").grow(3)
+    knots, counts = tree.knots, tree.knot_counts
+    stems = len(tree.parents)
+    assert knots.dtype == np.float64 and knots.shape == tree.handles_in.shape == tree.handles_out.shape == (counts.sum(), 3)
+    assert tree.radii.shape == (len(knots),) and (tree.radii >= 0).all()
+    assert (tree.first_knots[1:] == np.cumsum(counts)[:-1]).all()
+    assert tree.levels.shape == tree.offsets.shape == (stems,) and len(tree.kinds) == stems
+    assert (tree.parents < np.arange(stems)).all() and tree.parents[0] == -1
+    # A stem's parent is of the level before, or forks on its own.
+    levels, child = tree.levels.astype(int), tree.parents >= 0
+    step = levels[child] - levels[tree.parents[child]]
+    assert set(np.unique(step)) <= {0, 1}
+    leaves = tree.stats["leaves"]
+    assert tree.leaf_positions.shape == tree.leaf_along.shape == tree.leaf_across.shape == (leaves, 3)
+    assert tree.leaf_positions.dtype == np.float32 and (tree.leaf_stems < stems).all()
+    low, high = tree.bounds
+    assert (knots >= low - 1e-9).all() and (knots <= high + 1e-9).all() and high[2] == pytest.approx(tree.stats["height_m"])
+
+
+def test_arrays_are_views_that_keep_the_tree() -> None:
+    tree = pleach.species("silver_birch").grow(1)
+    knots = tree.knots
+    base: object = knots.base
+    assert base is tree and np.shares_memory(knots, tree.knots)
+    for array in (knots, tree.radii, tree.levels, tree.leaf_positions):
+        with pytest.raises(ValueError):
+            array[0] = 1
+    before = knots.copy()
+    del tree
+    gc.collect()
+    assert (knots == before).all()
+
+
+def test_trees_without_parts_have_empty_arrays() -> None:
+    bare = pleach.species("acer").grow(1, leaves=False)
+    assert bare.leaf_positions.shape == (0, 3) and bare.leaf_stems.shape == (0,)
+
+
+def test_the_same_seed_is_the_same_tree() -> None:
+    acer = pleach.species("acer")
+    one, other = acer.grow(5), acer.grow(5)
+    assert (one.knots == other.knots).all() and not np.array_equal(one.knots, acer.grow(6).knots)
+    again = pickle.loads(pickle.dumps(one))
+    assert (again.knots == one.knots).all() and again.seed == 5 and again.species == acer
+
+
+def test_pictures() -> None:
+    tree = pleach.species("palm").grow()
+    ink = tree.silhouette(96)
+    assert ink.dtype == np.bool_ and ink.shape == (96, 96) and 0.02 < ink.mean() < 0.8
+    assert ink[-1].any(), "it stands on the bottom edge"
+    assert not np.array_equal(ink, tree.silhouette(96, view=90)) and tree.silhouette(96, view=(0, 80)).any()
+    picture = tree.render(64, threads=1)
+    assert picture.shape == (64, 64, 4) and picture.dtype == np.uint8 and picture.std() > 5
+    assert np.array_equal(picture, tree.render(64, threads=3))
+    assert tree._repr_png_().startswith(b"\x89PNG") and pleach.species("palm")._repr_png_().startswith(b"\x89PNG")
+    for wrong in (0, 100_000):
+        with pytest.raises(pleach.PleachError):
+            tree.silhouette(wrong)
+    with pytest.raises(pleach.PleachError, match="-90 to 90"):
+        tree.silhouette(64, view=(0, 120))
+    with pytest.raises(pleach.PleachError, match="threads"):
+        tree.render(64, threads=0)
+
+
+def test_meshes() -> None:
+    glb = pleach.species("acer").grow(1, leaves=False).to_glb()
+    magic, version, length = struct.unpack("<4sII", glb[:12])
+    assert (magic, version, length) == (b"glTF", 2, len(glb))
+
+
+def test_too_large_a_tree_is_an_error() -> None:
+    huge = pleach.species("quaking_aspen").replace({"branches": (1, 500, 500, 500), "levels": 4})
+    with pytest.raises(pleach.GrowError):
+        huge.grow()
