@@ -159,9 +159,9 @@ fn cut_short(line: &str) -> String {
     match line.split(' ').nth(1) {
         Some("fit") => {
             set("--evaluations", "20");
-            set("--individual", "8trees");
-            // These say themselves where the search begins.
+            // These say themselves where the search begins, and their stems are not dealt anew.
             if !["--evolve-rules", "--volume-from"].iter().any(|option| line.contains(option)) {
+                set("--individual", "8trees");
                 set("--from", "palm");
             }
             if !line.contains("--resume") && !line.contains("--continue") {
@@ -225,6 +225,31 @@ fn examples_of_maps_and_blends_work() {
 #[test]
 fn examples_of_fits_work() {
     run_examples_of(&["fit"]);
+}
+
+/// They want the run folders of the goals that they name.
+#[test]
+fn examples_of_collections_work() {
+    let dir = Dir::new();
+    std::fs::create_dir(dir.path("goals")).unwrap();
+    for seed in ["1", "2"] {
+        let out = format!("goals/{seed}.png");
+        let _ = dir.run(["silhouette", "palm", "--seed", seed, "--size", "48", "-o", &out]).ok();
+    }
+    let _ = dir.file("goals.csv", "file\ngoals/1.png\ngoals/2.png\n");
+    let fit = ["fit", "--list", "goals.csv", "--size", "48", "--from", "palm", "--evaluations", "12"];
+    let _ = dir.run([&fit[..], &["--individual", "off"]].concat()).ok();
+    let examples = examples(&help(&dir, &["collect".to_owned()], 100));
+    assert!(examples.len() >= 5, "{examples:?}");
+    for example in examples {
+        let output = std::process::Command::new("sh")
+            .current_dir(dir.path(""))
+            .env("PLEACH", pleach_tests::program())
+            .args(["-c", &example.replace("pleach ", "\"$PLEACH\" ")])
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{example}\n{}", String::from_utf8_lossy(&output.stderr));
+    }
 }
 
 /// What `docs/figures.md` says of pictures, with small ones.

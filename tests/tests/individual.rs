@@ -111,6 +111,16 @@ fn nobody_has_to_have_one() {
         ["fit", &goal, "--out", "g", "--size", "64", "--from", "grammar_acer", "--evaluations", "5"];
     let _ = dir.run(grammar).ok();
     assert!(!dir.path("g/individual.toml").exists());
+    // But of one that was asked for.
+    let grammar = [&grammar[..], &["--out", "h"]].concat();
+    for asked in [["--individuals", "3"], ["--individual", "9trees"]] {
+        dir.run([&grammar[..], &asked].concat()).fails(1, &["lsystem cannot be dealt", "leave out"]);
+    }
+    let evolved = ["fit", &goal, "--out", "h", "--evolve-rules", "--evaluations", "5", "--individuals", "3"];
+    dir.run(evolved).fails(1, &["evolved grammars cannot be dealt", "leave out"]);
+    let off = [&grammar[..], &["--individual", "off"]].concat();
+    let _ = dir.run(off).ok();
+    assert!(!dir.path("h/individual.toml").exists());
 }
 
 #[test]
