@@ -1,8 +1,8 @@
 //! Work around a search that ends when it is asked to.
 //!
 //! A search looks at its stop flag between batches and keeps what it has found. A first guess and the
-//! judging of a result are worth nothing in part: asked to stop, they end in [`FitError::Interrupted`]
-//! after the trees that are growing, and are done again when the run is resumed.
+//! judging of a result, asked to stop, end in [`FitError::Interrupted`] after the trees that are growing, and
+//! are done again when the run is resumed. Judging that is merely late does less, and says so ([`Until`]).
 
 use crate::budget::Clock;
 use crate::error::FitError;

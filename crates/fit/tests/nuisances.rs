@@ -103,3 +103,27 @@ fn every_optimizer_searches_them_on_any_number_of_threads() {
         assert!(right.abs() <= 0.1 && down.abs() <= 0.1);
     }
 }
+
+/// Where every number of the tree is free as well, some twelve times as many as those of the frame.
+#[test]
+fn a_frame_that_is_off_is_found_beside_all_numbers_of_the_tree() {
+    let off = Placement { azimuth: None, scale: 1.12, offset: [0.06, -0.04] };
+    let problem = two_views(40.0, off, Unknown { azimuth: Azimuth::Within(15.0), frame: true });
+    let mut closest = f64::INFINITY;
+    for seed in 0..4 {
+        let settings = FitSettings {
+            seed,
+            budget: Budget::evaluations(1500),
+            start: Start::Lists(vec![problem.start.params.values().to_vec()]),
+            ..FitSettings::default()
+        };
+        let best = run(&problem, &settings).best.unwrap();
+        let found = placements(&problem.goals, &best.genome.nuisances)[1];
+        assert!((found.azimuth.unwrap() - 40.0).abs() < 5.0, "{found:?}");
+        assert!((found.offset[0] - 0.06).abs() < 0.02 && found.scale > 1.0, "{found:?}");
+        closest = closest.min((found.scale - off.scale).abs());
+        println!("{:.3} {found:?}", best.score.cost);
+    }
+    // A tree that has changed to fit the wrong scale keeps it in some searches.
+    assert!(closest < 0.02, "{closest}");
+}

@@ -78,7 +78,8 @@ pub(crate) fn grow(
         (Dimensions::Plane, _, pitch) => Frame::TRUNK.in_plane(Angle::new(pitch)),
         (Dimensions::Space, azimuth, pitch) => {
             let turned = Frame::TRUNK.turned(Angle::new(azimuth));
-            turned.leaning(Angle::new(pitch), Angle::new(azimuth))
+            // Towards where it is turned.
+            turned.leaning(Angle::new(pitch), Angle::new(0.0))
         }
     };
     let trunk = Branch {

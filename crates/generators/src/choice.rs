@@ -1,6 +1,6 @@
 //! Which families of generators take part.
 
-use crate::{families, family, presets};
+use crate::{default_family, families, family, presets};
 use pleach_tree::Species;
 use std::str::FromStr;
 
@@ -11,6 +11,13 @@ pub enum GeneratorChoice {
     Auto,
     /// The one of this name.
     Family(&'static str),
+}
+
+impl Default for GeneratorChoice {
+    /// The family that takes part where nothing is said.
+    fn default() -> Self {
+        Self::Family(default_family().name())
+    }
 }
 
 impl FromStr for GeneratorChoice {

@@ -95,8 +95,11 @@
 /// The vectors of the public types.
 pub use glam;
 pub use pleach_generators::{
-    RegistryError, names as species_names, read as read_species, read_file as read_species_file, species,
+    GeneratorChoice, HEWITT_2017, RegistryError, families, names as species_names, read as read_species,
+    read_file as read_species_file, species,
 };
+pub use pleach_silhouette::goal::Encoded;
+pub use pleach_silhouette::mask::{Mask, MaskError, MaskOptions, Photo};
 pub use pleach_silhouette::score::ScoreCard;
 pub use pleach_silhouette::{
     Bitmap, Detail, FOUR_VIEWS, Frame, Goal, GoalError, GoalOptions, GoalWarning, Polarity, Projection,
@@ -115,11 +118,16 @@ pub use pleach_tree::{param, random, species};
 
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
-    Budget, Candidate, Control, FirstGuess, FitError, FitProblem, FitSettings, Fitted, FoundIndividual,
-    Genome, GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing, IndividualSettings, Judged,
-    Judging, Objective, Observer, Optimizer, Outcome, Progress, RulesSettings, Score, Scored, Start,
-    StopReason, TreeSeed, Unknown, Verdict, fit, fit_goal, fit_goal_with, individuals,
+    Begun, Budget, COLUMNS, Candidate, Control, EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem,
+    FitSettings, Fitted, FoundIndividual, Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary,
+    GuessSettings, Guessing, Identifiability, IndividualProgress, IndividualSettings, Judged, Judging,
+    Objective, Observer, ObserverError, Optimizer, Outcome, Profile, Progress, Row, RulesSettings, Score,
+    Scored, SearchSpace, Start, StopReason, TreeSeed, Unknown, Verdict, fit, fit_goal, fit_goal_with,
+    individuals,
 };
+
+#[cfg(feature = "fit")]
+pub mod plan;
 
 #[cfg(feature = "blend")]
 pub use pleach_blend::{Blend, BlendError, BlendMap, Point, Settings as MapSettings, Weights, mix};

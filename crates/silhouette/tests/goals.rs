@@ -96,3 +96,35 @@ fn goals_are_read_as_the_same_bits_as_ever() {
     let expected = include_str!("goals.txt");
     assert!(found == expected, "crates/silhouette/tests/goals.txt holds\n{expected}\nand was found\n{found}");
 }
+
+/// Every picture of `targets/` with one pixel in fifty turned over, as scanners and bad masks have it.
+#[test]
+fn wrong_pixels_all_over_a_goal_hardly_matter() {
+    let mut random = 1_u64;
+    for entry in targets().read_dir().unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|e| e != "png") {
+            continue;
+        }
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let clean = Goal::load(&path, &GoalOptions::default()).unwrap();
+        let spoilt = Bitmap::from_fn(clean.bitmap.width(), clean.bitmap.height(), |x, y| {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            clean.bitmap.get(x, y) != (random >> 33).is_multiple_of(50)
+        });
+        let read = Goal::from_ink(spoilt, &GoalOptions::default()).unwrap();
+        let shared = read.bitmap.intersection(&clean.bitmap);
+        let iou = shared as f64 / (read.bitmap.ink() + clean.bitmap.ink() - shared) as f64;
+        let moved = [
+            read.top_row - clean.top_row,
+            read.ground_row - clean.ground_row,
+            read.axis_column - clean.axis_column,
+        ];
+        // A hairline at the top loses up to 4 % of the height: its end, and pieces between holes.
+        let most = if ["_bare", "birch"].iter().any(|thin| name.contains(thin)) { 20.0 } else { 1.0 };
+        assert!(
+            moved[0].abs() <= most && moved[1..] == [0.0, 0.0] && iou > 0.9,
+            "{name}: {moved:?} {iou:.3}"
+        );
+    }
+}

@@ -1,6 +1,7 @@
 //! One module per command: what was typed, and what it does.
 
 mod blend;
+mod collect;
 mod completions;
 mod describe;
 mod experiment;
@@ -41,6 +42,7 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Fit(Box<fit::Fit>),
+    Collect(collect::Collect),
     Grow(grow::Grow),
     Render(render::Render),
     Silhouette(silhouette::Silhouette),
@@ -77,6 +79,7 @@ impl Arguments {
         }
         match self.command {
             Command::Fit(command) => command.run(),
+            Command::Collect(command) => command.run(),
             Command::Grow(command) => command.run(),
             Command::Render(command) => command.run(),
             Command::Score(command) => command.run(),

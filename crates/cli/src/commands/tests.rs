@@ -68,7 +68,9 @@ fn every_command_of_the_pages_is_understood() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let experiments = std::fs::read_dir(root.join("experiments")).unwrap();
     let mut pages: Vec<_> = experiments.map(|entry| entry.unwrap().path().join("README.md")).collect();
-    pages.extend(["README.md", "docs/figures.md", "targets/README.md"].map(|page| root.join(page)));
+    pages.extend(
+        ["README.md", "docs/cluster.md", "docs/figures.md", "targets/README.md"].map(|page| root.join(page)),
+    );
     let (mut count, mut wrong) = (0, Vec::new());
     for page in pages {
         for (command, named) in commands_of(&std::fs::read_to_string(&page).unwrap()) {

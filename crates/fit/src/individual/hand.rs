@@ -5,7 +5,7 @@ use super::units::Units;
 use crate::evaluator::{Comparisons, Likeness, PreparedView};
 use crate::objective::Objective;
 use pleach_silhouette::{Bitmap, Detail, Frame, Layer, LayerPainter, Stack, View};
-use pleach_tree::{CheckedParams, Draws, Growth, Tree, Workspace};
+use pleach_tree::{CheckedParams, Draws, Growth, StemKind, Tree, Workspace};
 
 /// The pictures of the goals, and what all hands share.
 pub(super) struct Scene<'a> {
@@ -81,6 +81,12 @@ impl Hand {
     /// Takes a part of the tree to draw.
     pub(super) fn take(&mut self, units: &Units, part: usize) {
         units.copy(&self.tree, part, &mut self.part);
+    }
+
+    /// How low the stems reach that were taken, roots left out, in metres; 0 without any.
+    pub(super) fn lowest(&self) -> f64 {
+        let stems = self.part.stems.iter().filter(|stem| stem.kind != StemKind::Root);
+        stems.flat_map(|stem| self.part.knots_of(stem)).map(|knot| knot.point.z).fold(0.0, f64::min)
     }
 
     /// The layer of what was taken, view by view.

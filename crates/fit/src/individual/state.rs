@@ -12,6 +12,10 @@ const PRICE: f64 = 0.02;
 /// What has to be gained for draws to be exchanged.
 pub(super) const LEAST_GAIN: f64 = 2e-5;
 
+/// How far below the ground, as a part of the tree's height, a stem may hang that did not hang as low before. No
+/// picture shows what a branch towards the viewer does there.
+const BELOW: f64 = 0.02;
+
 /// A tree cut at one generation.
 pub(super) struct State {
     pub(super) generation: u16,
@@ -21,6 +25,8 @@ pub(super) struct State {
     paths: Vec<StemPath>,
     /// Layers of each unit, view by view.
     layers: Vec<Vec<Layer>>,
+    /// How low what takes the place of each unit may reach, in metres.
+    floors: Vec<f64>,
     panes: Vec<Pane>,
     pub(super) cost: f64,
     pub(super) iou: f64,
@@ -62,7 +68,9 @@ impl State {
             .iter()
             .map(|(_, frame)| Pane { stack: Stack::new(frame, DETAIL), picture: Bitmap::default() })
             .collect();
+        let height = hand.tree.knots.iter().map(|knot| knot.point.z).fold(0.0, f64::max);
         let mut layers = Vec::with_capacity(units.units.len());
+        let mut floors = Vec::with_capacity(units.units.len());
         for part in 0..=units.units.len() {
             hand.take(&units, part);
             let of_part = hand.layers(scene);
@@ -71,6 +79,7 @@ impl State {
             }
             if part > 0 {
                 layers.push(of_part);
+                floors.push(hand.lowest().min(-BELOW * height));
             }
         }
         for pane in &mut panes {
@@ -81,7 +90,8 @@ impl State {
         by_address.sort_unstable();
         let paths = units.units.iter().map(|Unit { stem, .. }| hand.tree.path_of(*stem)).collect();
         let (cost, iou, likeness) = (f64::INFINITY, 0.0, 0.0);
-        let mut state = Self { generation, chosen, by_address, paths, layers, panes, cost, iou, likeness };
+        let mut state =
+            Self { generation, chosen, by_address, paths, layers, floors, panes, cost, iou, likeness };
         let mut sum = Sum::default();
         for (view, pane) in state.panes.iter().enumerate() {
             sum.add(scene, view, &pane.picture, &mut hand.comparisons);
@@ -122,8 +132,11 @@ impl State {
     }
 
     /// What the picture would be worth with `deal`, for which `hand` has taken the part of its tree; none where
-    /// the one picture is the same as before, or plainly further from the goal.
+    /// the one picture is the same as before, or plainly further from the goal, and where it would hang too low.
     pub(super) fn tried(&self, scene: &Scene<'_>, deal: &Deal, hand: &mut Hand) -> Option<Worth> {
+        if hand.lowest() < self.floors[deal.unit] {
+            return None;
+        }
         let mut sum = Sum::default();
         for (view, pane) in self.panes.iter().enumerate() {
             hand.picture.clone_from(&pane.picture);

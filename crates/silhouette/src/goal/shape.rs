@@ -32,6 +32,8 @@ const DEEPEST: f64 = 0.35;
 const MAX_SPECKS: u64 = 12;
 /// Pixels in the tone that none of their four neighbours has, per pixel, in noise.
 const GRAINY: f64 = 0.025;
+/// Pixels of ink with none around them, per pixel, in noise: bare crowns have 0.0023 at most.
+const SPECKLED: f64 = 0.004;
 /// Ink per convex hull from which on a shape is solid.
 const SOLID: f64 = 0.95;
 /// Rows narrower than this part of the widest are bare trunk.
@@ -55,8 +57,10 @@ pub(crate) fn warnings(ink: &Bitmap) -> Vec<GoalWarning> {
     if let Some(row) = ground {
         found.push(GoalWarning::Ground { row });
     }
-    if specks > MAX_SPECKS || shape.grain() > GRAINY {
-        found.push(GoalWarning::Noise { specks: shape.lone().0 });
+    let lone = shape.lone().0;
+    let is_speckled = lone as f64 > SPECKLED * ink.area() as f64;
+    if specks > MAX_SPECKS || is_speckled || shape.grain() > GRAINY {
+        found.push(GoalWarning::Noise { specks: lone });
     }
     let solidity = shape.solidity();
     if solidity > SOLID {

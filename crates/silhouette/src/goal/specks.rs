@@ -1,17 +1,29 @@
 //! What a picture shows beside its tree: wrong pixels all over it, and a few that lie far off.
 
 use crate::bitmap::Bitmap;
+use crate::pieces::{widened, without_specks};
 
 /// Of the eight pixels around one, as many of its own kind as a wrong pixel has at most.
 const ALONE: usize = 1;
+/// Three wrong pixels side by side have neighbors: pieces are wrong too that cover fewer pixels than a line of five
+/// does, once they are widened by one pixel. Pieces that then touch are one, such as those of a hairline with holes.
+const LEAST_PIECE: u64 = 20;
+const REACH: u32 = 1;
 /// Rows without ink between a tree and what is not of it, as a part of the tree's height.
 const GAP: f64 = 0.04;
 /// What is not of the tree has at most this part of the ink.
 const STRAY: f64 = 0.001;
 
-/// `ink` without pixels that differ from almost all around them: specks on the paper and holes in the tree. Twigs
-/// stay, since their pixels have neighbors; ends of hairlines lose a pixel.
+/// `ink` without pixels that differ from almost all around them, specks on the paper and holes in the tree, and
+/// without small pieces far from all else. Twigs stay, since their pixels have neighbors; ends of hairlines lose a
+/// pixel.
 pub(super) fn cleaned(ink: &Bitmap) -> Bitmap {
+    let ink = without_lone_pixels(ink);
+    let tree = without_specks(&widened(&ink, REACH), LEAST_PIECE);
+    Bitmap::from_fn(ink.width(), ink.height(), |x, y| ink.get(x, y) && tree.get(x, y))
+}
+
+fn without_lone_pixels(ink: &Bitmap) -> Bitmap {
     Bitmap::from_fn(ink.width(), ink.height(), |x, y| {
         let here = ink.get(x, y);
         let (columns, rows) = (
@@ -66,11 +78,25 @@ mod tests {
             Bitmap::from_ascii("#......\n..###..\n..#.#..\n..###..\n......#\n...#...\n...#...\n...#...");
         let clean =
             Bitmap::from_ascii(".......\n..###..\n..###..\n..###..\n.......\n.......\n...#...\n.......");
-        assert_eq!(cleaned(&ink).to_ascii(), clean.to_ascii());
+        assert_eq!(without_lone_pixels(&ink).to_ascii(), clean.to_ascii());
         assert_eq!(
-            cleaned(&Bitmap::from_ascii("##\n##")).to_ascii(),
+            without_lone_pixels(&Bitmap::from_ascii("##\n##")).to_ascii(),
             Bitmap::from_ascii("##\n##").to_ascii()
         );
+    }
+
+    #[test]
+    fn small_pieces_go_unless_they_continue_others() {
+        let ink = Bitmap::from_ascii(
+            "###.........\n............\n............\n............\n###.#####...\n....#####...\n............",
+        );
+        let clean = Bitmap::from_ascii(
+            "............\n............\n............\n............\n###.#####...\n....#####...\n............",
+        );
+        let found = cleaned(&ink);
+        // The ends of a line are no line.
+        assert!(!found.get(1, 0) && found.get(1, 4) && found.get(6, 5));
+        assert!(found.differing(&clean) <= 2, "{}", found.to_ascii());
     }
 
     #[test]

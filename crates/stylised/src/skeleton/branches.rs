@@ -80,9 +80,8 @@ pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, growth: &Growth<'
             let pattern = (3.0 * of_trunk.unit(of_segment::PATTERN, segment)) as u32;
             let first = of_trunk.unit(of_segment::TURN, segment);
             for index in 0..count {
-                let address = trunk * MAX_OF_TRUNK + segment * MAX_OF_SEGMENT + index;
-                let own = skeleton.key_on(trunk, key.child(BRANCHES, address));
                 let number = segment * MAX_OF_SEGMENT + index;
+                let own = skeleton.key_on(trunk, key.child(BRANCHES, trunk * MAX_OF_TRUNK + number));
                 let draw = growth.draw(skeleton.dealt[trunk as usize].address.child(number), 1);
                 let key = draw.key(own);
                 // From the segment's bottom to its top, with a gap of 0.4 of even spacing at least.

@@ -4,6 +4,7 @@ use super::goal::MaskSource;
 use super::{individual, options, outlined, start, views};
 use crate::input;
 use anyhow::ensure;
+use pleach::plan::Effort;
 use pleach_fit::{IndividualSettings, Objective, RulesSettings, UnknownObjective};
 use pleach_generators::GeneratorChoice;
 use pleach_tree::Family as _;
@@ -115,8 +116,8 @@ pub(super) struct IndividualArgs {
     /// How long single branches are dealt anew until the tree lies on the picture: a time such as 20s,
     /// `Ntrees` for as many trees whatever the time, or off. By default a third of --timeout and what judging leaves of
     /// its share, or an eighth as many trees as --evaluations
-    #[arg(long, value_name = "TIME|Ntrees|off")]
-    pub(super) individual: Option<individual::Effort>,
+    #[arg(long, value_name = "TIME|Ntrees|off", value_parser = individual::effort)]
+    pub(super) individual: Option<Effort>,
     /// How many trees lie on the goal in the end, each dealt anew from the trunk up: one picture leaves their
     /// depth open. They share the time of --individual
     #[arg(long, value_name = "N", default_value_t = 1,
@@ -172,9 +173,7 @@ impl SearchArgs {
             (None, start::From::Species(name)) => {
                 GeneratorChoice::Family(crate::input::species(name)?.generator.family())
             }
-            (None, start::From::Auto | start::From::Random) => {
-                GeneratorChoice::Family(pleach_generators::default_family().name())
-            }
+            (None, start::From::Auto | start::From::Random) => GeneratorChoice::default(),
         })
     }
 

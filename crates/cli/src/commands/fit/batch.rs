@@ -2,20 +2,21 @@
 
 use super::args::GoalArgs;
 use super::goal::MaskSource;
-use super::run_folder::{Mode, RunFolder};
+use super::run_folder::{Busy, Finished, Mode, RunFolder};
 use super::summary::write_table;
 use super::task::{Ended, Task};
-use super::{Fit, RUNS, list, run_name, signals};
+use super::{Fit, RUNS, list, run_name, signals, table};
 use crate::interrupted::Interrupted;
 use crate::{files, input, output};
 use anyhow::{Context, bail, ensure};
 use pleach_fit::{FitSettings, GuessLibrary};
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// A part of the goals: the `index`-th of `count`, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,10 +45,17 @@ impl Shard {
     }
 }
 
+/// How long a batch waits for the goals that other processes fit before it looks again.
+const PAUSE: Duration = Duration::from_millis(500);
+
 /// A goal and what came of it.
 struct Job {
     task: Task,
     state: State,
+    /// Whether its folder held a finished fit when the batch began, which is made again.
+    again: bool,
+    /// Whether another process was fitting it when its turn came.
+    is_elsewhere: bool,
 }
 
 enum State {
@@ -76,6 +84,7 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
     let mut jobs = shard.part(jobs(goals(fit)?, &out)?);
     for job in &mut jobs {
         job.state = before(fit, settings, &job.task, mode)?;
+        job.again = mode != Mode::Resume && job.task.folder.finished().is_some();
     }
     files::make_folder(&out)?;
     // Before an hour of work, not after it, one learns that a file cannot be written.
@@ -84,27 +93,47 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
     let stop = signals::catch()?;
     let mut library = GuessLibrary::new();
     let all = jobs.len();
-    for i in 0..all {
+    let mut queue: VecDeque<usize> = (0..all).collect();
+    while let Some(i) = queue.pop_front() {
+        if jobs[i].is_elsewhere && !stop.load(Ordering::SeqCst) && jobs[i].task.folder.is_busy() {
+            // Every goal has had its turn, and what is left is with others.
+            std::thread::sleep(PAUSE);
+            queue.push_back(i);
+            continue;
+        }
         let name = format!("[{}/{all}] {}", i + 1, jobs[i].task.goal.display());
-        let (line, state) = match &jobs[i].state {
-            State::Finished(summary) => (format!("finished before, {}", brief(summary)), None),
-            _ => match one(fit, settings, &jobs[i].task, mode, &mut library, &stop) {
-                Err(error) => {
-                    let reason = output::causes(&error, ": ");
-                    (format!("failed: {reason}"), Some(State::Failed(reason)))
+        let ended = match &jobs[i].state {
+            State::Finished(summary) => Ok(One::Before(summary.clone())),
+            _ => one(fit, settings, &jobs[i], mode, &mut library, &stop),
+        };
+        let (line, state) = match ended {
+            Err(error) if error.is::<Busy>() => {
+                if !jobs[i].is_elsewhere {
+                    output::note(format!("{name}: another pleach fits it; looked at again at the end"));
                 }
-                Ok(None) => {
-                    output::note(format!("{name}: interrupted"));
-                    let flag = if mode == Mode::Continue { "" } else { " with --resume" };
-                    let how =
-                        format!("interrupted, {i} of {all} goals are done; the same command{flag} goes on");
-                    return Err(Interrupted::new(how).into());
-                }
-                Ok(Some(summary)) => (brief(&summary), Some(State::Finished(summary))),
-            },
+                jobs[i].is_elsewhere = true;
+                queue.push_back(i);
+                continue;
+            }
+            Err(error) => {
+                let reason = output::causes(&error, ": ");
+                (format!("failed: {reason}"), State::Failed(reason))
+            }
+            Ok(One::Interrupted) => {
+                output::note(format!("{name}: interrupted"));
+                let flag = if mode == Mode::Continue { "" } else { " with --resume" };
+                let done = jobs.iter().filter(|job| !matches!(job.state, State::Waiting)).count();
+                let how =
+                    format!("interrupted, {done} of {all} goals are done; the same command{flag} goes on");
+                return Err(Interrupted::new(how).into());
+            }
+            Ok(One::Before(summary)) => {
+                (format!("finished before, {}", brief(&summary)), State::Finished(summary))
+            }
+            Ok(One::Fitted(summary)) => (brief(&summary), State::Finished(summary)),
         };
         output::note(format!("{name}: {line}"));
-        if let Some(state) = state {
+        if !matches!(jobs[i].state, State::Finished(_)) {
             jobs[i].state = state;
             write(&table, &jobs)?;
         }
@@ -149,7 +178,8 @@ fn jobs(goals: Vec<(PathBuf, GoalArgs)>, out: &Path) -> anyhow::Result<Vec<Job>>
                 folder.display()
             );
         }
-        jobs.push(Job { task: Task { goal, args, folder: RunFolder::at(folder) }, state: State::Waiting });
+        let task = Task { goal, args, folder: RunFolder::at(folder) };
+        jobs.push(Job { task, state: State::Waiting, again: false, is_elsewhere: false });
     }
     Ok(jobs)
 }
@@ -176,24 +206,39 @@ fn before(fit: &Fit, settings: &FitSettings, task: &Task, mode: Mode) -> anyhow:
     Ok(State::Waiting)
 }
 
-/// Fits one goal; its summary, or none if it was interrupted.
+/// How the turn of a goal ended.
+enum One {
+    /// With its `summary.json`.
+    Fitted(Value),
+    /// The same of a fit that was there already.
+    Before(Value),
+    Interrupted,
+}
+
+/// Fits one goal, unless another process has done so since the batch began.
 fn one(
     fit: &Fit,
     settings: &FitSettings,
-    task: &Task,
+    job: &Job,
     mode: Mode,
     library: &mut GuessLibrary,
     stop: &Arc<AtomicBool>,
-) -> anyhow::Result<Option<Value>> {
+) -> anyhow::Result<One> {
+    let Job { task, again, .. } = job;
     if stop.load(Ordering::SeqCst) {
-        return Ok(None);
+        return Ok(One::Interrupted);
     }
-    // What was waiting when a batch stopped has no checkpoint, and starts.
-    let mode = if mode == Mode::Resume && !task.folder.is_unfinished() { Mode::New } else { mode };
-    match task.run(fit, settings, mode, library, stop)? {
-        Ended::Finished(summary) => Ok(Some(serde_json::to_value(summary)?)),
+    // What another process has left since the batch began is taken as if it were our own.
+    let mode = match mode {
+        Mode::Resume => Mode::Share,
+        Mode::New if !again => Mode::Share,
+        mode => mode,
+    };
+    match task.run(fit, settings, mode, library, stop) {
+        Ok(Ended::Finished(summary)) => Ok(One::Fitted(serde_json::to_value(summary)?)),
         // Asked to stop: no fault of the goal.
-        Ended::Interrupted(_) => Ok(None),
+        Ok(Ended::Interrupted(_)) => Ok(One::Interrupted),
+        Err(error) => Ok(One::Before(error.downcast::<Finished>()?.summary)),
     }
 }
 
@@ -211,77 +256,17 @@ fn brief(summary: &Value) -> String {
     )
 }
 
-/// Columns of the summary and where in `summary.json` they come from; after them come the two that
-/// depend on the clock.
-const COLUMNS: [(&str, &str); 31] = [
-    ("likeness", "/likeness"),
-    ("iou", "/iou"),
-    ("best_ellipse_iou", "/best_ellipse_iou"),
-    ("pixel_accuracy", "/pixel_accuracy"),
-    ("empty_accuracy", "/empty_accuracy"),
-    ("dice", "/dice"),
-    ("boundary_f", "/boundary_f"),
-    ("blurred_iou_16", "/blurred_iou/16"),
-    ("chamfer", "/chamfer"),
-    ("fresh_likeness_mean", "/fresh_seeds/likeness/mean"),
-    ("fresh_likeness_sd", "/fresh_seeds/likeness/sd"),
-    ("fresh_iou_mean", "/fresh_seeds/iou/mean"),
-    ("fresh_iou_sd", "/fresh_seeds/iou/sd"),
-    ("from", "/from"),
-    ("first_guess", "/looks_like/0/species"),
-    ("first_guess_confidence", "/looks_like/0/confidence"),
-    ("species", "/species"),
-    ("generator", "/generator"),
-    ("tree_seed", "/tree_seed"),
-    ("robust", "/robust"),
-    ("optimizer", "/optimizer"),
-    ("objective", "/objective"),
-    ("seed", "/seed"),
-    ("cost", "/cost"),
-    ("evaluations", "/evaluations"),
-    ("stopped_by", "/stopped_by"),
-    ("warnings", "/warnings"),
-    ("height_m", "/tree_m/height"),
-    ("crown_width_m", "/tree_m/crown_width"),
-    ("crown_base_m", "/tree_m/crown_base"),
-    ("stem_diameter_m", "/tree_m/stem_diameter"),
-];
-const WALL_COLUMNS: [(&str, &str); 2] =
-    [("wall_s", "/seconds"), ("wall_evaluations_per_s", "/evaluations_per_second")];
-
 /// Writes a row for each goal that is done, in the order of the goals.
 fn write(path: &Path, jobs: &[Job]) -> anyhow::Result<()> {
-    let columns = || COLUMNS.iter().chain(&WALL_COLUMNS);
-    let first = ["goal", "state", "reason"];
-    let header = first.into_iter().chain(columns().map(|c| c.0)).map(str::to_owned).collect();
     let rows = jobs.iter().filter_map(|job| {
-        let (state, reason, summary) = match &job.state {
+        let result = match &job.state {
             State::Waiting => return None,
-            State::Failed(reason) => ("failed", reason.as_str(), &Value::Null),
-            State::Finished(summary) => ("finished", "", summary),
+            State::Failed(reason) => Err(reason.as_str()),
+            State::Finished(summary) => Ok(summary),
         };
-        let cells = columns().map(|(_, at)| cell(summary.pointer(at)));
-        let first = [job.task.goal.display().to_string(), state.to_owned(), reason.to_owned()];
-        Some(first.into_iter().chain(cells).collect())
+        Some(table::row(&job.task.goal, result))
     });
-    write_table(path, std::iter::once(header).chain(rows))
-}
-
-/// A value as a cell; nothing where there is none. A number that was read back from a file may differ
-/// in its last bit, which six decimals do not show.
-fn cell(value: Option<&Value>) -> String {
-    match value {
-        None | Some(Value::Null) => String::new(),
-        Some(Value::String(text)) => text.clone(),
-        // Warnings, by their kinds.
-        Some(Value::Array(items)) => {
-            items.iter().map(|item| cell(item.get("kind"))).collect::<Vec<_>>().join(" ")
-        }
-        Some(Value::Number(number)) if number.is_f64() => {
-            format!("{:.6}", number.as_f64().unwrap_or(f64::NAN))
-        }
-        Some(other) => other.to_string(),
-    }
+    write_table(path, std::iter::once(table::header()).chain(rows))
 }
 
 #[cfg(test)]
@@ -323,13 +308,5 @@ mod tests {
         assert!(error.contains("a/oak.png") && error.contains("c/oak.jpg") && error.contains("oak"));
         assert_eq!(jobs(with_args(&goals[..2]), Path::new("out")).map(|jobs| jobs.len()).unwrap(), 2);
         assert!(jobs(with_args(&[".."]), Path::new("out")).is_err());
-    }
-
-    #[test]
-    fn cells_are_plain() {
-        assert_eq!(cell(Some(&0.25.into())), "0.250000");
-        assert_eq!(cell(Some(&3.into())), "3");
-        assert_eq!(cell(Some(&"oak".into())), "oak");
-        assert_eq!(cell(Some(&Value::Null)) + &cell(None), "");
     }
 }

@@ -5,98 +5,24 @@ use super::options;
 use super::run_folder::Claim;
 use super::summary::{RENDER_SIZE, write_species};
 use crate::output;
-use anyhow::ensure;
-use pleach_fit::{FoundIndividual, IndividualSettings};
+use pleach::plan::Effort;
+use pleach_fit::FoundIndividual;
 use pleach_silhouette::Bitmap;
 use pleach_silhouette::score::ScoreCard;
-use pleach_tree::Species;
 use serde::Serialize;
-use std::fmt;
-use std::str::FromStr;
-use std::time::Duration;
 
-/// How long a goal's own tree is searched.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) enum Effort {
-    /// A share of what the whole fit takes.
-    #[default]
-    Share,
-    Time(Duration),
-    Trees(u64),
-    Off,
-}
-
-/// The share of the time, and of the trees, of a fit.
-const SHARE_OF_TIME: u32 = 3;
-const SHARE_OF_TREES: u64 = 8;
-/// Trees where the search is bounded by something else.
-const TREES: u64 = 400;
-
-impl Effort {
-    /// The settings in a fit of so much time, or of so many trees.
-    pub(super) fn settings(
-        self,
-        timeout: Option<Duration>,
-        evaluations: Option<u64>,
-    ) -> anyhow::Result<Option<IndividualSettings>> {
-        Ok(Some(match (self, timeout) {
-            (Self::Off, _) => return Ok(None),
-            (Self::Trees(trees), _) => IndividualSettings::trees(trees),
-            (Self::Time(time), Some(whole)) => {
-                ensure!(
-                    time < whole,
-                    "--individual takes {} s, expected less than the {} s of the whole fit (--timeout)",
-                    time.as_secs_f64(),
-                    whole.as_secs_f64()
-                );
-                IndividualSettings::time(time)
-            }
-            (Self::Time(time), None) => IndividualSettings::time(time),
-            // Whatever comes first, as for the search.
-            (Self::Share, whole) => IndividualSettings {
-                time: whole.map(|whole| whole / SHARE_OF_TIME),
-                takes_rest: true,
-                ..IndividualSettings::trees(match (evaluations, whole) {
-                    (Some(count), _) => count.div_ceil(SHARE_OF_TREES),
-                    (None, Some(_)) => u64::MAX,
-                    (None, None) => TREES,
-                })
-            },
-        }))
+/// What `--individual` says.
+pub(super) fn effort(given: &str) -> Result<Effort, String> {
+    if given == "off" {
+        return Ok(Effort::Off);
     }
-}
-
-impl FromStr for Effort {
-    type Err = String;
-
-    fn from_str(given: &str) -> Result<Self, String> {
-        if given == "off" {
-            return Ok(Self::Off);
-        }
-        if let Some(count) = given.strip_suffix("trees") {
-            let count = count.parse().ok().filter(|count| (1..=1_000_000_000).contains(count));
-            return count
-                .map(Self::Trees)
-                .ok_or_else(|| "expected a number of trees such as 400trees".to_owned());
-        }
-        options::duration(given).map(Self::Time).map_err(|error| format!("{error}, `400trees`, or `off`"))
+    if let Some(count) = given.strip_suffix("trees") {
+        let count = count.parse().ok().filter(|count| (1..=1_000_000_000).contains(count));
+        return count
+            .map(Effort::Trees)
+            .ok_or_else(|| "expected a number of trees such as 400trees".to_owned());
     }
-}
-
-impl fmt::Display for Effort {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Share => f.write_str("a share"),
-            Self::Time(time) => write!(f, "{}s", time.as_secs_f64()),
-            Self::Trees(trees) => write!(f, "{trees}trees"),
-            Self::Off => f.write_str("off"),
-        }
-    }
-}
-
-/// Whether trees of `species` have stems that can be dealt anew.
-pub(super) fn is_possible(species: &Species) -> bool {
-    !species.generator.spreads(species.params.values()).is_empty()
+    options::duration(given).map(Effort::Time).map_err(|error| format!("{error}, `400trees`, or `off`"))
 }
 
 /// What `summary.json` says of the goal's own tree.

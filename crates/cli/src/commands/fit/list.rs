@@ -5,6 +5,7 @@ use super::goal::MaskSource;
 use super::{options, start, views};
 use anyhow::{Context, bail, ensure};
 use clap::ValueEnum as _;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// A column of a list of goals: its name, and how a cell that is not empty changes the options.
@@ -68,10 +69,41 @@ fn number(cell: &str) -> Result<f64, String> {
     cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| "expected a number".to_owned())
 }
 
+/// A goal of a list, as it stands there.
+struct Row {
+    line: u64,
+    goal: PathBuf,
+    /// Cells that are not empty, with their columns.
+    cells: Vec<(&'static Column, String)>,
+}
+
 /// The goals of the list at `path` with their options: those of `defaults` where a cell is empty.
-/// Paths in a list are relative to its folder.
 pub(super) fn read(path: &Path, defaults: &GoalArgs) -> anyhow::Result<Vec<(PathBuf, GoalArgs)>> {
-    let folder = path.parent().unwrap_or(Path::new(""));
+    let folder = folder(path);
+    let mut goals = Vec::new();
+    for Row { line, goal, cells } in rows(path)? {
+        let mut args = defaults.clone();
+        for (column, cell) in cells {
+            if let Err(message) = (column.set)(&mut args, &cell, folder) {
+                bail!("{}:{line}: {}: `{cell}`: {message}", path.display(), column.name);
+            }
+        }
+        goals.push((goal, args));
+    }
+    Ok(goals)
+}
+
+/// The goals of the list at `path`.
+pub(in crate::commands) fn goals(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    Ok(rows(path)?.into_iter().map(|row| row.goal).collect())
+}
+
+/// Paths in a list are relative to its folder.
+fn folder(list: &Path) -> &Path {
+    list.parent().unwrap_or(Path::new(""))
+}
+
+fn rows(path: &Path) -> anyhow::Result<Vec<Row>> {
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .from_path(path)
@@ -89,23 +121,22 @@ pub(super) fn read(path: &Path, defaults: &GoalArgs) -> anyhow::Result<Vec<(Path
     let Some(file) = header.iter().position(|name| name == FILE) else {
         bail!("{}:1: expected a header with the column `{FILE}` and any of {}", path.display(), known());
     };
-    let mut goals = Vec::new();
+    let mut lines = BTreeMap::new();
+    let mut rows = Vec::new();
     for record in reader.records() {
         // The error of the reader names the line.
         let record = record.with_context(|| format!("cannot read {}", path.display()))?;
         let line = record.position().map_or(0, csv::Position::line);
-        let mut args = defaults.clone();
-        for (name, cell) in header.iter().zip(&record).filter(|(_, cell)| !cell.is_empty()) {
-            if let Some(column) = COLUMNS.iter().find(|column| column.name == name)
-                && let Err(message) = (column.set)(&mut args, cell, folder)
-            {
-                bail!("{}:{line}: {name}: `{cell}`: {message}", path.display());
-            }
-        }
         let goal = record.get(file).filter(|cell| !cell.is_empty());
         let goal = goal.with_context(|| format!("{}:{line}: `{FILE}` is empty", path.display()))?;
-        goals.push((folder.join(goal), args));
+        if let Some(first) = lines.insert(goal.to_owned(), line) {
+            bail!("{}:{line}: {goal} is listed twice, first in line {first}", path.display());
+        }
+        let column = |name: &str| COLUMNS.iter().find(|column| column.name == name);
+        let cells = header.iter().zip(&record).filter(|(_, cell)| !cell.is_empty());
+        let cells = cells.filter_map(|(name, cell)| Some((column(name)?, cell.to_owned()))).collect();
+        rows.push(Row { line, goal: folder(path).join(goal), cells });
     }
-    ensure!(!goals.is_empty(), "{} lists no goal", path.display());
-    Ok(goals)
+    ensure!(!rows.is_empty(), "{} lists no goal", path.display());
+    Ok(rows)
 }

@@ -6,39 +6,41 @@ mod drawing;
 mod goal;
 mod individual;
 mod judged;
-mod list;
+pub(super) mod list;
 mod live;
 mod options;
 mod outlined;
 mod progress;
 mod report;
-mod request;
-mod run_folder;
+pub(super) mod request;
+pub(super) mod run_folder;
 mod several;
-mod shares;
 mod signals;
 mod start;
 mod summary;
+pub(super) mod table;
 mod task;
 mod views;
 mod watch;
 
 use crate::interrupted::Interrupted;
 use crate::{input, output};
-use anyhow::{bail, ensure};
+use anyhow::{anyhow, bail, ensure};
 use args::{BudgetArgs, GoalArgs, IndividualArgs, SearchArgs};
 use options::Settings;
+use pleach::plan::{Effort, Shares, USUAL_TIME, has_individuals};
 use pleach_fit::{Budget, FitSettings, GuessLibrary, IndividualSettings, RulesSettings};
 use run_folder::{Mode, RunFolder};
-use shares::Shares;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use task::{Ended, Task, how_to_go_on};
 
 /// What the run folder of `goal` is called, and its species. Names that are not UTF-8 become so: the
-/// species file in the folder is typed as an argument later.
-fn run_name(goal: &Path) -> Option<String> {
-    input::stem(goal).map(|stem| stem.to_string_lossy().into_owned())
+/// species file in the folder is typed as an argument later. None if there is no name that stays inside of
+/// the folder of run folders: `...png` is called `..`.
+pub(super) fn run_name(goal: &Path) -> Option<String> {
+    let name = input::stem(goal)?.to_string_lossy().into_owned();
+    (name != "." && name != "..").then_some(name)
 }
 
 /// The folder that run folders are made in if nothing is said.
@@ -86,7 +88,8 @@ this very tree are then made again.
 
 With several goals, the budget is for each. A goal that fails is named and the others go on. With --resume \
 a batch goes on where it stopped, and skips what was finished with the same options; with others it is \
-refused.
+refused. Several processes may fit one batch at a time, each goal is then fitted by one of them; \
+`pleach collect` joins what they leave.
 
 A --list is a CSV file with a header: the column `file`, and any of `height`, `view`, `mask`, `tree`, \
 `ground_row`, `axis_column` and `leaves`; an empty cell means the option of the command line. Paths are \
@@ -154,7 +157,7 @@ impl Fit {
         }
         // Before a folder is made.
         let (from, generator) = (&self.search.from, &self.search.generator()?);
-        from.plan(generator, self.goal_options.leaves(), &self.search.start()?, &settings)?;
+        from.plan(*generator, self.goal_options.leaves(), &self.search.start()?, &settings)?;
         match &self.goals[..] {
             [goal] if !self.is_batch() => self.single(goal, &settings),
             _ => batch::run(self, &settings),
@@ -210,20 +213,27 @@ impl Fit {
     /// The time for the whole fit, if it is bounded.
     fn timeout(&self) -> Option<Duration> {
         let BudgetArgs { timeout, evaluations, generations, .. } = &self.budget;
-        timeout.or(evaluations.or(*generations).is_none().then_some(Duration::from_secs(60)))
+        timeout.or(evaluations.or(*generations).is_none().then_some(USUAL_TIME))
     }
 
     /// How this very tree is searched, if it is.
     fn individual_settings(&self) -> anyhow::Result<Option<IndividualSettings>> {
+        let count = self.individual.individuals;
+        let asked_for = self.individual.individual;
         // Where a generator is known to have no stems to be dealt anew, its search gets the time.
-        if self.search.evolve_rules
-            || !self.search.generator()?.known().any(|one| individual::is_possible(&one))
-        {
+        let generator = self.search.generator()?;
+        if self.search.evolve_rules || !has_individuals(generator) {
+            let trees = if self.search.evolve_rules { "evolved grammars" } else { generator.name() };
+            ensure!(
+                count == 1 && asked_for.is_none_or(|effort| effort == Effort::Off),
+                "stems of {trees} cannot be dealt other draws one by one: leave out --individual and --individuals"
+            );
             return Ok(None);
         }
-        let effort = self.individual.individual.unwrap_or_default();
-        let one = effort.settings(self.timeout(), self.budget.evaluations)?;
-        let count = self.individual.individuals;
+        let effort = asked_for.unwrap_or_default();
+        let one = effort
+            .settings(self.timeout(), self.budget.evaluations)
+            .map_err(|error| anyhow!("--individual: {error} (--timeout)"))?;
         ensure!(one.is_some() || count == 1, "--individuals asks for trees, and --individual is off");
         Ok(one.map(|one| IndividualSettings { count, ..one }))
     }

@@ -85,8 +85,8 @@ impl Request {
     }
 }
 
-/// The hash of a file that has been read before, so that it ends.
-fn file_sha256(path: &Path) -> anyhow::Result<String> {
+/// SHA-256 of a file's content, in hexadecimal digits.
+pub(in crate::commands) fn file_sha256(path: &Path) -> anyhow::Result<String> {
     let cannot = || format!("cannot read {}", path.display());
     let mut file = std::fs::File::open(path).with_context(cannot)?;
     let mut hasher = Sha256::new();

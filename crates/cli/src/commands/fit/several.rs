@@ -1,6 +1,6 @@
 //! Several trees that all lie on one goal: `--individuals`.
 
-use super::drawing::Drawing;
+use super::drawing::{Drawing, Drawn};
 use super::run_folder::Claim;
 use super::summary::write_species;
 use crate::files;
@@ -69,11 +69,13 @@ pub(super) fn is_file(name: &str) -> bool {
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-/// Writes the species files of all trees but the first, and a sheet of all; nothing if there is but one.
+/// Writes the species files of all trees but the first, which is `first`, and a sheet of all; nothing if there is
+/// but one.
 pub(super) fn write(
     claim: &Claim,
     drawing: &Drawing<'_>,
     found: &[FoundIndividual],
+    first: &Drawn,
     kind: &Species,
 ) -> anyhow::Result<Option<Several>> {
     if found.len() < 2 {
@@ -84,7 +86,13 @@ pub(super) fn write(
     let mut pen = Pen::new(drawing, &frame);
     let (mut cells, mut sides, mut trees) = (Vec::new(), Vec::new(), Vec::new());
     for (number, one) in found.iter().enumerate() {
-        let drawn = drawing.draw_individual(one)?;
+        let grown;
+        let drawn = if number == 0 {
+            first
+        } else {
+            grown = drawing.draw_individual(one)?;
+            &grown
+        };
         let front = pen.draw(&drawn.tree, &drawing.view, &frame);
         let side = pen.draw_side(&drawn.tree);
         let card = ScoreCard::new(&front, &goal.bitmap)?;

@@ -2,12 +2,9 @@
 
 use crate::input;
 use anyhow::{Context, bail, ensure};
-use pleach_fit::{
-    Candidate, FirstGuess, FitSettings, GoalSettings, GuessSettings, Guessing, Judging, RulesSettings,
-    Runner, Start, check_freedom,
-};
+use pleach::plan::{Origin, plan, usual_start};
+use pleach_fit::{FirstGuess, FitSettings, GoalSettings, RulesSettings, Runner};
 use pleach_generators::GeneratorChoice;
-use pleach_tree::species::Appearance;
 use pleach_tree::{Foliage, Species, SpeciesDoc};
 use serde::Serialize;
 use std::str::FromStr;
@@ -160,8 +157,7 @@ impl From {
             );
             return Ok(species);
         }
-        let first = generator.known().next().context("a generator has species that are built in")?;
-        Ok(Species { appearance: Appearance::default(), ..first })
+        usual_start(*generator).context("a generator has species that are built in")
     }
 
     /// Whether leaves are looked for in the goal.
@@ -174,34 +170,18 @@ impl From {
     /// An error if no parameter of the species that take part is free.
     pub(super) fn plan(
         &self,
-        generator: &GeneratorChoice,
+        generator: GeneratorChoice,
         leaves: Leaves,
         start: &Species,
         search: &FitSettings,
     ) -> anyhow::Result<GoalSettings> {
-        let check =
-            |species: &Species| check_freedom(species.generator.space(), &search.freedom, search.tree_seed);
-        let mut search = search.clone();
-        let mut candidates: Vec<Candidate> = generator.known().map(Candidate::from).collect();
-        let guess = match self {
-            Self::Auto if search.rules.is_none() => {
-                candidates.retain(|candidate| check(&candidate.species).is_ok());
-                if candidates.is_empty() {
-                    check(start)?;
-                }
-                let detect_leaves = self.detects(leaves, None);
-                Guessing::Compare(GuessSettings { detect_leaves, ..GuessSettings::default() })
-            }
-            Self::Auto | Self::Random | Self::Species(_) => {
-                check(start)?;
-                search.start = match self {
-                    Self::Species(_) => Start::Lists(vec![start.params.values().to_vec()]),
-                    _ => Start::Random,
-                };
-                Guessing::Off
-            }
+        let rules = search.rules.as_ref();
+        let origin = match self {
+            Self::Auto if rules.is_none() => Origin::Guess { detect_leaves: self.detects(leaves, rules) },
+            Self::Species(_) => Origin::Start,
+            Self::Auto | Self::Random => Origin::Random,
         };
-        Ok(GoalSettings { search, guess, candidates, judging: Some(Judging::default()), individual: None })
+        Ok(plan(origin, generator, start, search.clone())?)
     }
 }
 
@@ -213,6 +193,7 @@ fn no_rules(generator: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pleach_fit::{Guessing, Start};
 
     #[test]
     fn a_species_of_another_generator_is_refused() {
@@ -226,35 +207,20 @@ mod tests {
     }
 
     #[test]
-    fn a_fit_begins_where_it_is_told_to() {
-        let search = FitSettings::default();
-        let plan = |from: &str| {
+    fn what_is_said_is_where_a_fit_begins() {
+        let plan = |from: &str, leaves| {
             let from: From = from.parse().unwrap();
             let start = from.species(&GeneratorChoice::Auto).unwrap();
-            (from.plan(&GeneratorChoice::Auto, Leaves::Auto, &start, &search).unwrap(), start)
+            let settings = from.plan(GeneratorChoice::Auto, leaves, &start, &FitSettings::default()).unwrap();
+            (settings, start)
         };
-        let (auto, _) = plan("auto");
+        let (auto, _) = plan("auto", Leaves::Auto);
         assert!(matches!(auto.guess, Guessing::Compare(how) if how.detect_leaves));
-        assert_eq!(auto.candidates[0].species.name, "quaking_aspen");
-        assert_eq!(auto.candidates.len(), pleach_generators::names().len());
-        let (random, start) = plan("random");
+        let (leafy, _) = plan("auto", Leaves::On);
+        assert!(matches!(leafy.guess, Guessing::Compare(how) if !how.detect_leaves));
+        let (random, start) = plan("random", Leaves::Auto);
         assert_eq!((random.search.start, start.name.as_str()), (Start::Random, "quaking_aspen"));
-        let (palm, start) = plan("palm");
+        let (palm, start) = plan("palm", Leaves::Auto);
         assert_eq!(palm.search.start, Start::Lists(vec![start.params.values().to_vec()]));
-    }
-
-    #[test]
-    fn patterns_that_name_nothing_are_refused_before_a_guess() {
-        let search = FitSettings {
-            freedom: pleach_fit::Freedom { free: vec!["lenght".to_owned()], fix: Vec::new() },
-            ..FitSettings::default()
-        };
-        for from in ["auto", "random", "palm"] {
-            let from: From = from.parse().unwrap();
-            let start = from.species(&GeneratorChoice::Auto).unwrap();
-            let error =
-                from.plan(&GeneratorChoice::Auto, Leaves::Auto, &start, &search).unwrap_err().to_string();
-            assert!(error.contains("lenght"), "{error}");
-        }
     }
 }

@@ -72,7 +72,7 @@ impl Task {
                 problem.start = outlined.species.clone();
                 outlined.plan(&search)?
             }
-            None => from.plan(generator, self.args.leaves(), &problem.start, &search)?,
+            None => from.plan(*generator, self.args.leaves(), &problem.start, &search)?,
         };
         let time = fit.shares()?.map(|shares| shares.judging);
         let judging = settings.judging.map(|judging| Judging { time, ..judging });

@@ -1,7 +1,7 @@
 //! How children differ from their parents.
 
 use crate::genome::{Genome, Scored};
-use crate::space::{Gene, SearchSpace, TreeSeed};
+use crate::space::{Gene, Place, SearchSpace, TreeSeed};
 use crate::stream::Stream;
 use serde::{Deserialize, Serialize};
 
@@ -25,11 +25,14 @@ pub(super) enum Operator {
     Zero,
     /// Another tree of the same parameters, if any tree will do; otherwise as [`Operator::StepOne`].
     Seed,
+    /// The same tree from elsewhere: some of what is not known of the views by their steps. Beside the numbers of a
+    /// tree they are few, so that other operators seldom move them. Not tried where all views are known.
+    Place,
 }
 
 impl Operator {
     /// All operators, in the order of their numbers.
-    pub(super) const ALL: [Self; 8] = [
+    pub(super) const ALL: [Self; 9] = [
         Self::StepOne,
         Self::StepFew,
         Self::Cross,
@@ -38,6 +41,7 @@ impl Operator {
         Self::Resample,
         Self::Zero,
         Self::Seed,
+        Self::Place,
     ];
 }
 
@@ -74,8 +78,10 @@ impl Variation<'_> {
         let mut child = parent.genome.clone();
         let mut read = Vec::new();
         self.space.active_genes(&child.values, &mut read);
-        let mut offspring =
-            Offspring { by: self.choose(draws), parent_cost: parent.score.cost, genes: Vec::new() };
+        let places: Vec<usize> =
+            read.iter().copied().filter(|&g| matches!(self.gene(g).place, Place::Nuisance { .. })).collect();
+        let by = self.choose(!places.is_empty(), draws);
+        let mut offspring = Offspring { by, parent_cost: parent.score.cost, genes: Vec::new() };
         if read.is_empty() || (offspring.by == Operator::Seed && self.space.tree_seed() == TreeSeed::Any) {
             offspring.by = Operator::Seed;
             child.tree_seed = SearchSpace::random_seed(draws);
@@ -89,6 +95,15 @@ impl Variation<'_> {
             Operator::StepFew => {
                 for _ in 0..2 + (6.0 * draws.unit().powi(3)) as usize {
                     offspring.genes.push(self.step(&read, &mut child, draws));
+                }
+            }
+            Operator::Place => {
+                let sure = places[draws.below(places.len())];
+                for g in places {
+                    if g == sure || draws.chance(0.5) {
+                        self.move_by_step(g, &mut child, draws);
+                        offspring.genes.push(g);
+                    }
                 }
             }
             Operator::Cross => self.cross(&read, &mut child, draws),
@@ -167,13 +182,21 @@ impl Variation<'_> {
     }
 
     /// An operator, as likely as its credit.
-    fn choose(&self, draws: &mut Stream) -> Operator {
-        Operator::ALL[weighted(self.operator_credit.iter().copied(), draws)]
+    fn choose(&self, has_places: bool, draws: &mut Stream) -> Operator {
+        let tried = |by: &Operator| has_places || *by != Operator::Place;
+        let credits = Operator::ALL.iter().zip(self.operator_credit).filter(|(by, _)| tried(by));
+        Operator::ALL[weighted(credits.map(|(_, credit)| *credit), draws)]
     }
 
     /// Changes one gene of those `read` by its step; returns which.
     fn step(&self, read: &[usize], child: &mut Genome, draws: &mut Stream) -> usize {
         let number = read[weighted(read.iter().map(|&g| self.weight[g]), draws)];
+        self.move_by_step(number, child, draws);
+        number
+    }
+
+    /// Changes a gene by its step.
+    fn move_by_step(&self, number: usize, child: &mut Genome, draws: &mut Stream) {
         let gene = self.gene(number);
         let old = gene.of(child);
         let value = if gene.is_choice() {
@@ -189,7 +212,6 @@ impl Variation<'_> {
             if gene.kind.is_whole() && new == old { gene.clamp(old + change.signum()) } else { new }
         };
         gene.set(child, value);
-        number
     }
 }
 

@@ -23,8 +23,28 @@ pub(super) struct Lock {
     file: Option<File>,
 }
 
+/// Another process has the run folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::commands::fit) struct Busy {
+    folder: PathBuf,
+    /// Its number, where the lock file could be read.
+    process: Option<String>,
+}
+
+impl std::fmt::Display for Busy {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("another pleach")?;
+        if let Some(process) = &self.process {
+            write!(f, " (process {process})")?;
+        }
+        write!(f, " is writing to {}; wait until it ends, or name another --out", self.folder.display())
+    }
+}
+
+impl std::error::Error for Busy {}
+
 impl Lock {
-    /// Locks `folder`, which must exist.
+    /// Locks `folder`, which must exist; the error is a [`Busy`] if another process has it.
     pub(super) fn take(folder: &Path) -> anyhow::Result<Self> {
         let path = folder.join(LOCK);
         let cannot = || format!("cannot write {}", path.display());
@@ -42,15 +62,8 @@ impl Lock {
                     let mut owner = String::new();
                     // Who it is only helps: an unreadable file is not another error.
                     let _ = file.read_to_string(&mut owner);
-                    bail!(
-                        "another pleach{} is writing to {}; wait until it ends, or name another --out",
-                        owner
-                            .split(' ')
-                            .next()
-                            .filter(|id| !id.is_empty())
-                            .map_or_else(String::new, |id| format!(" (process {id})")),
-                        folder.display()
-                    );
+                    let process = owner.split(' ').next().filter(|id| !id.is_empty()).map(str::to_owned);
+                    return Err(Busy { folder: folder.to_owned(), process }.into());
                 }
                 Err(TryLockError::Error(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
                     return Ok(Self { path, file: None });

@@ -10,6 +10,7 @@ use super::request::Request;
 use super::several;
 use crate::{files, output};
 use anyhow::{Context, bail, ensure};
+pub(super) use lock::Busy;
 use lock::Lock;
 use serde_json::Value;
 use std::io::Write as _;
@@ -17,7 +18,7 @@ use std::path::{Path, PathBuf};
 use swap::STAGE;
 
 /// The report of a fit, which says whether it is finished.
-pub(super) const SUMMARY: &str = "summary.json";
+pub(in crate::commands) const SUMMARY: &str = "summary.json";
 /// The state of an unfinished search.
 const CHECKPOINT: &str = "checkpoint";
 /// The same of a finished one, for `--continue`.
@@ -58,11 +59,29 @@ pub(super) enum Mode {
     Resume,
     /// Search on from where a finished fit ended.
     Continue,
+    /// Go on with an unfinished fit, start if it had not begun, and leave a finished one as it is: for
+    /// batches that several processes work at.
+    Share,
 }
+
+/// The folder holds a finished fit of the same, and [`Mode::Share`] leaves it as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Finished {
+    folder: PathBuf,
+    pub(super) summary: Value,
+}
+
+impl std::fmt::Display for Finished {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} holds a finished fit of the same", self.folder.display())
+    }
+}
+
+impl std::error::Error for Finished {}
 
 /// A run folder as it is.
 #[derive(Clone, Debug)]
-pub(super) struct RunFolder {
+pub(in crate::commands) struct RunFolder {
     home: PathBuf,
 }
 
@@ -81,7 +100,7 @@ pub(super) struct Claim {
 }
 
 impl RunFolder {
-    pub(super) const fn at(home: PathBuf) -> Self {
+    pub(in crate::commands) const fn at(home: PathBuf) -> Self {
         Self { home }
     }
 
@@ -90,7 +109,7 @@ impl RunFolder {
     }
 
     /// The summary of a finished fit, if the folder holds one.
-    pub(super) fn finished(&self) -> Option<Value> {
+    pub(in crate::commands) fn finished(&self) -> Option<Value> {
         let place = if swap::is_begun(&self.home) { self.home.join(STAGE) } else { self.home.clone() };
         // In the middle of a swap the summary may be at either place.
         let text = std::fs::read_to_string(place.join(SUMMARY))
@@ -101,7 +120,7 @@ impl RunFolder {
     }
 
     /// Whether there is a fit to go on with.
-    pub(super) fn is_unfinished(&self) -> bool {
+    pub(in crate::commands) fn is_unfinished(&self) -> bool {
         self.checkpoint().is_some()
     }
 
@@ -117,6 +136,11 @@ impl RunFolder {
     pub(super) fn of_results(&self, interrupted: bool) -> PathBuf {
         let stage = self.home.join(STAGE);
         if interrupted && stage.join(SUMMARY).exists() { stage } else { self.home.clone() }
+    }
+
+    /// Whether another process is writing to the folder.
+    pub(super) fn is_busy(&self) -> bool {
+        self.home.is_dir() && Lock::take(&self.home).is_err_and(|error| error.is::<Busy>())
     }
 
     /// Tells whether `mode` may do what it says, and changes nothing.
@@ -135,7 +159,8 @@ impl RunFolder {
             Mode::New if self.is_unfinished() => {
                 bail!("{path} holds an unfinished fit; --resume goes on with it, --overwrite starts over")
             }
-            Mode::New => {
+            Mode::Share if self.is_unfinished() => Ok(()),
+            Mode::New | Mode::Share => {
                 let differences = finished.map(|summary| request.differences(&summary)).unwrap_or_default();
                 ensure!(
                     differences.is_empty(),
@@ -191,13 +216,16 @@ impl RunFolder {
         swap::finish(&self.home)?;
         // Another run may have ended since.
         self.check(mode, request)?;
-        if self.finished().is_some() {
+        if let Some(summary) = self.finished() {
+            if mode == Mode::Share && !self.is_unfinished() {
+                return Err(Finished { folder: self.home, summary }.into());
+            }
             claim.work = self.home.join(STAGE);
         }
-        if matches!(mode, Mode::Resume | Mode::Continue) {
+        if matches!(mode, Mode::Resume | Mode::Continue | Mode::Share) {
             match self.checkpoint() {
                 Some(place) => (claim.work, claim.resumes) = (place, true),
-                None if mode == Mode::Continue => {}
+                None if mode != Mode::Resume => {}
                 None => {
                     output::note(format!("{} holds no checkpoint yet: the fit starts", self.home.display()))
                 }
