@@ -201,6 +201,38 @@ fn a_full_disk_fails_a_goal_and_loses_none() {
     let _ = dir.run(["collect", "runs", "--list", "goals.csv"]).ok();
 }
 
+/// A shard whose process is killed is tried again.
+#[test]
+#[cfg(unix)]
+fn gnu_parallel_tries_a_killed_shard_again() {
+    const GOALS: usize = 4;
+    let version = Command::new("parallel").arg("--version").output();
+    if !version.is_ok_and(|output| output.stdout.starts_with(b"GNU parallel")) {
+        eprintln!("skipped: no GNU parallel");
+        return;
+    }
+    let dir = Dir::new();
+    goals(&dir, GOALS);
+    let options = [&FIT[1..], &["--evaluations", "2000"]].concat();
+    let _ = dir.run([&["fit", "--list", "goals.csv", "--out", "whole"], &options[..]].concat()).ok();
+    // The first fit of the second shard is killed in the middle.
+    let _ = dir.file(
+        "killed",
+        "#!/bin/sh\ncase \"$*\" in\n*2/4*) mkdir once 2>/dev/null && {\n  \"$REAL\" \"$@\" & pid=$!\n  \
+         until [ -e runs/2/checkpoint ]; do sleep 0.01; done\n  kill -KILL $pid; exit 1; } ;;\nesac\n\
+         exec \"$REAL\" \"$@\"\n",
+    );
+    assert!(Command::new("chmod").arg("+x").arg(dir.path("killed")).status().unwrap().success());
+    let mut script = Command::new(root().join("docs/cluster/parallel.sh"));
+    script.current_dir(dir.path("")).env("REAL", pleach_tests::program()).env("PLEACH", "./killed");
+    let run =
+        Run::of("parallel.sh".to_owned(), script.arg(GOALS.to_string()).args(&options).output().unwrap());
+    let _ = run.ok();
+    assert!(dir.path("once").exists(), "one was killed");
+    let _ = dir.run(["collect", "runs", "--list", "goals.csv"]).ok();
+    assert_same(&dir, "runs", "whole", GOALS);
+}
+
 /// A server, two workers and forty goals; one worker is killed in the middle and another comes.
 #[test]
 #[cfg(unix)]

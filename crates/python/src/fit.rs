@@ -8,6 +8,7 @@ use crate::score::of_card;
 use crate::species::Species;
 use crate::told::{Teller, Told};
 use crate::view::{Direction, view};
+use numpy::PyArray2;
 use pleach::plan::{Effort, Origin, Shares, USUAL_TIME, has_individuals, plan, usual_start};
 use pleach::{
     Bitmap, Budget, COLUMNS, Control, FitProblem, FitSettings, Fitted, Foliage, Freedom, GeneratorChoice,
@@ -33,6 +34,8 @@ struct Options {
     height: f64,
     size: u32,
     view: Option<Direction>,
+    /// Further pictures and from where they were taken.
+    views: Vec<(Py<PyAny>, Direction)>,
     leaves: Option<bool>,
     optimizer: String,
     objective: String,
@@ -96,12 +99,18 @@ fn duration(name: &str, seconds: f64) -> PyResult<Duration> {
     Err(FitError::new_err(format!("{name} is {seconds} s, expected above 0 and up to 10 000 000")))
 }
 
+/// A picture of the goal's tree at its own size, and from where it was taken.
+struct Picture {
+    full: Goal,
+    view: View,
+}
+
 /// Everything that a fit begins with.
 struct Asked {
     name: String,
-    full: Goal,
     height: f64,
-    view: View,
+    /// The goal, and then further views.
+    pictures: Vec<Picture>,
     problem: FitProblem,
     settings: GoalSettings,
     threads: Option<usize>,
@@ -122,9 +131,20 @@ impl Asked {
                 options.size
             )));
         }
-        let full = source.goal(&whole())?;
-        let working = source.goal(&GoalOptions { max_side: Some(options.size), ..whole() })?;
-        let view = view(options.view)?;
+        let small = GoalOptions { max_side: Some(options.size), ..whole() };
+        let mut goals = Vec::new();
+        let mut pictures = Vec::new();
+        let mut add = |source: &Source, view| -> PyResult<()> {
+            let working = source.goal(&small)?;
+            let frame = working.frame(options.height);
+            goals.push(GoalView::new(working.bitmap, view, frame));
+            pictures.push(Picture { full: source.goal(&whole())?, view });
+            Ok(())
+        };
+        add(&source, view(options.view)?)?;
+        for (further, direction) in &options.views {
+            add(&Source::read(further.bind(goal.py()))?, direction.view()?)?;
+        }
         let given = match &options.from_ {
             From::Species(species) => Some(species.inner.kind()),
             From::Name(name) if ["auto", "random"].contains(&name.as_str()) => None,
@@ -151,12 +171,11 @@ impl Asked {
             _ => Origin::Guess { detect_leaves: options.leaves.is_none() },
         };
         let foliage = if options.leaves == Some(false) { Foliage::None } else { Foliage::All };
-        let goals = vec![GoalView::new(working.bitmap.clone(), view, working.frame(options.height))];
         let problem = FitProblem { start, goals, foliage };
         let settings = settings(options, origin, generator, &problem)?;
         let name = options.name.clone().unwrap_or_else(|| source.name());
         let threads = options.threads;
-        Ok(Self { name, full, height: options.height, view, problem, settings, threads })
+        Ok(Self { name, height: options.height, pictures, problem, settings, threads })
     }
 
     /// A species of the fit as it is given back.
@@ -165,17 +184,39 @@ impl Asked {
         pleach::Species { name, description: String::new(), ..species }.into()
     }
 
-    /// The silhouette of a species over the goal at its own size.
-    fn drawn(&self, species: &Species, fitted: &Fitted) -> PyResult<Bitmap> {
+    /// The silhouettes of a species over the pictures at their own size, and how well they match.
+    fn matched(&self, species: &Species, fitted: &Fitted) -> PyResult<Vec<(ScoreCard, Bitmap)>> {
         let foliage = fitted.problem.foliage;
         let seed = species.inner.tree_seed.unwrap_or(1);
         let growth = Growth { foliage, limits: fitted.settings.limits, ..Growth::seed(seed) };
         let tree = species.inner.grow_with(&growth).map_err(of_fit)?;
-        let mut ink = Bitmap::default();
-        let frame = self.full.frame(self.height);
-        Rasterizer::new().draw(&tree, &self.view, &frame, foliage.into(), &mut ink);
-        Ok(ink)
+        let mut rasterizer = Rasterizer::new();
+        let one = |Picture { full, view }: &Picture| {
+            let mut ink = Bitmap::default();
+            rasterizer.draw(&tree, view, &full.frame(self.height), foliage.into(), &mut ink);
+            Ok((ScoreCard::new(&ink, &full.bitmap).map_err(of_fit)?, ink))
+        };
+        self.pictures.iter().map(one).collect()
     }
+
+    /// The goal.
+    fn goal(&self) -> &Goal {
+        &self.pictures[0].full
+    }
+}
+
+/// A species with how well it matches the goal, its silhouette over it, and how well it matches further views.
+type Matched<'py> = (Species, Bound<'py, PyDict>, Bound<'py, PyArray2<bool>>, Vec<Bound<'py, PyDict>>);
+
+fn matched<'py>(
+    py: Python<'py>,
+    species: Species,
+    mut matches: Vec<(ScoreCard, Bitmap)>,
+) -> PyResult<Matched<'py>> {
+    let further = matches.split_off(1);
+    let (card, ink) = &matches[0];
+    let further = further.iter().map(|(card, _)| of_card(py, card)).collect::<PyResult<_>>()?;
+    Ok((species, of_card(py, card)?, of_ink(py, ink)?, further))
 }
 
 fn settings(
@@ -301,19 +342,15 @@ fn found<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     let kind = asked.named(fitted.species().map_err(of_fit)?);
-    let silhouette = asked.drawn(&kind, fitted)?;
-    let card = ScoreCard::new(&silhouette, &asked.full.bitmap).map_err(of_fit)?;
-    dict.set_item("card", of_card(py, &card)?)?;
-    dict.set_item("verdict", fitted.verdict(&card).map(|verdict| verdict.to_string()))?;
-    dict.set_item("silhouette", of_ink(py, &silhouette)?)?;
-    dict.set_item("goal", of_ink(py, &asked.full.bitmap)?)?;
-    dict.set_item("species", kind)?;
+    let matches = asked.matched(&kind, fitted)?;
+    dict.set_item("verdict", fitted.verdict(&matches[0].0).map(|verdict| verdict.to_string()))?;
+    dict.set_item("goal", of_ink(py, &asked.goal().bitmap)?)?;
+    dict.set_item("kind", matched(py, kind, matches)?)?;
     let individuals = PyList::empty(py);
     for one in &fitted.individuals {
         let species = asked.named(one.species.clone());
-        let silhouette = asked.drawn(&species, fitted)?;
-        let card = ScoreCard::new(&silhouette, &asked.full.bitmap).map_err(of_fit)?;
-        individuals.append((species, of_card(py, &card)?, of_ink(py, &silhouette)?))?;
+        let matches = asked.matched(&species, fitted)?;
+        individuals.append(matched(py, species, matches)?)?;
     }
     dict.set_item("individuals", individuals)?;
     let history = PyDict::new(py);
@@ -332,7 +369,8 @@ fn found<'py>(
     dict.set_item("generations", fitted.outcome.generations)?;
     dict.set_item("seconds", fitted.outcome.elapsed.as_secs_f64())?;
     dict.set_item("cost", fitted.best.score.cost)?;
-    dict.set_item("warnings", asked.full.warnings.iter().map(ToString::to_string).collect::<Vec<_>>())?;
+    let warnings = asked.pictures.iter().flat_map(|picture| &picture.full.warnings);
+    dict.set_item("warnings", warnings.map(ToString::to_string).collect::<Vec<_>>())?;
     dict.set_item("interrupted", interrupted)?;
     Ok(dict)
 }

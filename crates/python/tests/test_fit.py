@@ -65,6 +65,23 @@ def test_a_fit_is_the_program_s(more: dict[str, Any], tmp_path: pathlib.Path) ->
         assert pleach.species(tmp_path / "run" / f"{file}.toml") == species, file
 
 
+def test_further_views_are_fitted_as_the_program_fits_them(tmp_path: pathlib.Path) -> None:
+    from PIL import Image
+
+    tree = pleach.species("acer").grow(5)
+    for name, azimuth in (("front", 0), ("side", 90)):
+        Image.fromarray(tree.silhouette(64, view=azimuth)).save(tmp_path / f"{name}.png")
+    found = pleach.fit(tmp_path / "front.png", views=[(tmp_path / "side.png", 90)], **SMALL)
+    assert len(found.view_cards) == len(found.individuals[0].view_cards) == 1
+    assert 0 < found.view_cards[0].likeness < 1 and found.view_cards[0] != found.card
+    command = [program(), "fit", "front.png", "--view", "90=side.png", "--out", "run", "--from", "acer"]
+    command += ["--size", "48", "--evaluations", "40", "--individual", "24trees"]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+    assert pleach.species(tmp_path / "run" / "individual.toml") == found.individual
+    with pytest.raises(pleach.GoalError):
+        pleach.fit(GOAL, views=[(np.zeros((64, 64), bool), 90)], **SMALL)
+
+
 def test_threads_change_nothing(found: pleach.Fit) -> None:
     for threads in (1, 3):
         other = pleach.fit(GOAL, threads=threads, **SMALL)

@@ -25,6 +25,8 @@ class Individual:
     """How well it matches."""
     silhouette: npt.NDArray[np.bool_] = field(repr=False)
     """Over the goal, bool of its shape."""
+    view_cards: list[Card] = field(repr=False)
+    """How well it matches each of the further views."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,8 @@ class Fit:
     """The kind: parameters whose trees are like the goal."""
     card: Card
     """How well the kind's own tree matches the goal."""
+    view_cards: list[Card] = field(repr=False)
+    """How well the kind's own tree matches each of the further views."""
     individuals: list[Individual]
     """Trees that lie on the goal, the best first; empty where the generator has none."""
     verdict: Optional[str]
@@ -126,6 +130,7 @@ def fit(
     height: float = 10.0,
     size: int = 256,
     view: Union[float, tuple[float, float], None] = None,
+    views: Sequence[tuple[Goal, Union[float, tuple[float, float]]]] = (),
     leaves: Optional[bool] = None,
     optimizer: str = "evolution",
     objective: str = "balance",
@@ -146,7 +151,8 @@ def fit(
 
     The picture is a path, an array (bool of shape (height, width), True where the tree is; or uint8), a PIL image or
     an open file. ``height`` is the tree's, in metres; ``size`` the longer side that the search compares at, in
-    pixels; ``view`` the azimuth, or azimuth and elevation, in degrees.
+    pixels; ``view`` the azimuth, or azimuth and elevation, in degrees. ``views`` are further pictures of the same tree,
+    each with where it was taken from: ``[("side.png", 90)]``.
 
     The fit begins at ``start``: ``"auto"``, the species that the goal looks like; ``"random"``; or a species. ``leaves``
     says whether the tree has some; None looks for them. It ends after ``timeout`` seconds, or so many ``evaluations`` or
@@ -172,6 +178,7 @@ def fit(
         "height": height,
         "size": size,
         "view": view,
+        "views": [(given(picture), direction) for picture, direction in views],
         "leaves": leaves,
         "optimizer": optimizer,
         "objective": objective,
@@ -201,8 +208,10 @@ def fit(
     finally:
         if bar is not None:
             bar.close()
-    found["card"] = card_of(found["card"])
+    species, card, silhouette, cards = found.pop("kind")
+    found.update(species=species, card=card_of(card), silhouette=silhouette, view_cards=[card_of(one) for one in cards])
     found["individuals"] = [
-        Individual(species, card_of(card), silhouette) for species, card, silhouette in found["individuals"]
+        Individual(species, card_of(card), silhouette, [card_of(one) for one in cards])
+        for species, card, silhouette, cards in found["individuals"]
     ]
     return Fit(**found)
