@@ -206,7 +206,7 @@ impl Asked {
 }
 
 /// A species with how well it matches the goal, its silhouette over it, and how well it matches further views.
-type Matched<'py> = (Species, Bound<'py, PyDict>, Bound<'py, PyArray2<bool>>, Vec<Bound<'py, PyDict>>);
+type Matched<'py> = (Species, Bound<'py, PyAny>, Bound<'py, PyArray2<bool>>, Vec<Bound<'py, PyAny>>);
 
 fn matched<'py>(
     py: Python<'py>,
