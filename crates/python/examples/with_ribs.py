@@ -1,7 +1,7 @@
 """Fills an archive with pyribs: different trees that are all like one goal, over two traits.
 
 The traits are how wide the crown is and how dense, of the tree seen from the side, which the goal does not show.
-Leaves a heat map with thumbnails in archive.png.
+Only trees that are like the goal get in. Leaves a heat map with thumbnails in archive.png.
 
     pip install "ribs[visualize]" matplotlib
     python with_ribs.py [GOAL]
@@ -10,6 +10,7 @@ Leaves a heat map with thumbnails in archive.png.
 from __future__ import annotations
 
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -21,26 +22,41 @@ from ribs.schedulers import Scheduler
 import pleach
 
 SIZE = 96
+#: Width over height, and the share of its box that is ink.
+WIDTHS, INKS = (0.3, 1.3), (0.05, 0.4)
+#: Least likeness to the goal.
+LIKE = 0.7
 
 
 def traits(problem: pleach.Problem, values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     """Width over height, and the share of its box that is ink, of each tree seen from the side."""
-    found = np.zeros((len(values), 2))
-    for row, numbers in enumerate(values):
+
+    def of(numbers: npt.NDArray[np.float64]) -> tuple[float, float]:
         ink = problem.species(numbers).grow().silhouette(SIZE, view=90)
         columns, rows = np.flatnonzero(ink.any(axis=0)), np.flatnonzero(ink.any(axis=1))
         width, height = np.ptp(columns) + 1, np.ptp(rows) + 1
-        found[row] = width / height, ink.sum() / (width * height)
-    return found
+        return float(width / height), float(ink.sum() / (width * height))
+
+    # Threads help: growing lets go of Python's lock.
+    with ThreadPoolExecutor() as pool:
+        return np.array(list(pool.map(of, values))).reshape(-1, 2)
 
 
-def main(rounds: int = 60, picture: str = "archive.png") -> Any:
-    goal = sys.argv[1] if len(sys.argv) > 1 else pleach.species("silver_birch").grow(5).silhouette(SIZE)
-    problem = pleach.Problem(goal, "silver_birch", size=SIZE)
+def main(rounds: int = 1500, picture: str = "archive.png") -> Any:
+    goal = sys.argv[1] if len(sys.argv) > 1 else pleach.species("acer").grow(5).silhouette(SIZE)
+    problem = pleach.Problem(goal, "acer", size=SIZE, objective="likeness")
     free = problem.lower < problem.upper
     low, span = problem.lower[free], (problem.upper - problem.lower)[free]
     first = np.clip((problem.start[free] - low) / span, 0, 1)
-    archive = GridArchive(solution_dim=len(first), dims=[24, 24], ranges=[(0.2, 1.6), (0.05, 0.8)], seed=1)
+    archive = GridArchive(
+        solution_dim=len(first),
+        dims=[60, 60],
+        ranges=[WIDTHS, INKS],
+        # Above it a cell takes what is better than what it has, as without.
+        threshold_min=LIKE,
+        learning_rate=1.0,
+        seed=1,
+    )
     bounds = np.tile([0.0, 1.0], (len(first), 1))
     emitters = [
         IsoLineEmitter(archive, x0=first, iso_sigma=0.03, line_sigma=0.2, bounds=bounds, batch_size=24, seed=2),
@@ -83,8 +99,8 @@ def show(problem: pleach.Problem, archive: Any, whole: Any, picture: str) -> Non
     shown: list[npt.NDArray[np.float64]] = []
     for number in order:
         place = elites["measures"][number]
-        apart = all(abs(place[0] - other[0]) > 0.16 or abs(place[1] - other[1]) > 0.09 for other in shown)
-        if not apart or len(shown) == 24:
+        apart = all(abs(place[0] - other[0]) > 0.12 or abs(place[1] - other[1]) > 0.05 for other in shown)
+        if not apart or len(shown) == 40:
             continue
         shown.append(place)
         ink = problem.species(whole(elites["solution"][number][None])[0]).grow().silhouette(SIZE, view=90)
@@ -92,11 +108,11 @@ def show(problem: pleach.Problem, archive: Any, whole: Any, picture: str) -> Non
         rgba[ink] = (0, 0, 0, 0.85)
         axes.imshow(
             rgba,
-            extent=(place[0] - 0.065, place[0] + 0.065, place[1] - 0.04, place[1] + 0.04),
+            extent=(place[0] - 0.05, place[0] + 0.05, place[1] - 0.022, place[1] + 0.022),
             aspect="auto",
             zorder=3,
         )
-    axes.set(xlim=(0.2, 1.6), ylim=(0.05, 0.8))
+    axes.set(xlim=WIDTHS, ylim=INKS)
     figure.savefig(picture, dpi=110, bbox_inches="tight")
     plt.close(figure)
 

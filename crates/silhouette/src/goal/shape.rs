@@ -32,8 +32,9 @@ const DEEPEST: f64 = 0.35;
 const MAX_SPECKS: u64 = 12;
 /// Pixels in the tone that none of their four neighbours has, per pixel, in noise.
 const GRAINY: f64 = 0.025;
-/// Pixels of ink with none around them, per pixel, in noise: bare crowns have 0.0023 at most.
-const SPECKLED: f64 = 0.004;
+/// Pixels of ink with none around them, per pixel, in noise: bare crowns have 0.0023 at most, and at half their
+/// size up to 0.006.
+const SPECKLED: f64 = 0.006;
 /// Ink per convex hull from which on a shape is solid.
 const SOLID: f64 = 0.95;
 /// Rows narrower than this part of the widest are bare trunk.
