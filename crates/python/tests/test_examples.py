@@ -34,5 +34,5 @@ def test_cmaes(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_ribs(monkeypatch: pytest.MonkeyPatch, tmp_path: pathlib.Path) -> None:
     pytest.importorskip("ribs")
     pytest.importorskip("matplotlib")
-    archive = example("with_ribs", monkeypatch).main(rounds=3, picture=str(tmp_path / "archive.png"))
+    archive = example("with_ribs", monkeypatch).main(rounds=8, picture=str(tmp_path / "archive.png"))
     assert archive.stats.num_elites > 5 and (tmp_path / "archive.png").stat().st_size > 10_000
