@@ -71,8 +71,8 @@ pub use fit_goal::{Fitted, GoalSettings, Guessing, fit_goal, fit_goal_with};
 pub use fresh::{FreshSeeds, Spread, fresh_seeds};
 pub use genome::{Genome, Score, Scored, Size};
 pub use guess::{
-    Candidate, FirstGuess, Guess, GuessLibrary, GuessSettings, RaceSettings, Reference, References, Runner,
-    first_guess,
+    Candidate, Drawings, DrawingsError, FirstGuess, Guess, GuessLibrary, GuessSettings, RaceSettings,
+    Reference, References, Runner, first_guess,
 };
 pub use history::{COLUMNS, Column, Row};
 pub use individual::{FoundIndividual, IndividualProgress, IndividualSettings, individuals};

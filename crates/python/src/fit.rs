@@ -9,11 +9,11 @@ use crate::species::Species;
 use crate::told::{Teller, Told};
 use crate::view::{Direction, view};
 use numpy::PyArray2;
-use pleach::plan::{Effort, Origin, Shares, USUAL_TIME, has_individuals, plan, usual_start};
+use pleach::plan::{Effort, Origin, Shares, USUAL_TIME, has_individuals, library, plan, usual_start};
 use pleach::{
     Bitmap, Budget, COLUMNS, Control, FitProblem, FitSettings, Fitted, Foliage, Freedom, GeneratorChoice,
-    Goal, GoalOptions, GoalSettings, GoalView, Growth, GuessLibrary, Identifiability, IndividualSettings,
-    Judging, Profile, Rasterizer, ScoreCard, TreeSeed, View, fit_goal_with,
+    Goal, GoalOptions, GoalSettings, GoalView, Growth, Identifiability, IndividualSettings, Judging, Profile,
+    Rasterizer, ScoreCard, TreeSeed, View, fit_goal_with,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -303,7 +303,7 @@ fn watched(
         let started = Instant::now();
         let clock = || started.elapsed();
         let control = Control { observers: vec![&mut teller], ..Control::new(&clock, stop) };
-        fit_goal_with(&asked.problem, &asked.settings, &mut GuessLibrary::new(), control)
+        fit_goal_with(&asked.problem, &asked.settings, &mut library(), control)
     };
     py.detach(move || {
         std::thread::scope(|scope| {

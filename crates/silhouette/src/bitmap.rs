@@ -21,6 +21,18 @@ impl Bitmap {
         Self { width, height, words_per_row, words: vec![0; words_per_row * height as usize] }
     }
 
+    /// The picture of these [words](Self::words); none if they are not as many as it has, or have ink beyond the
+    /// width.
+    #[must_use]
+    pub fn from_words(width: u32, height: u32, words: Vec<u64>) -> Option<Self> {
+        let words_per_row = (width as usize).div_ceil(64);
+        let beyond = if width.is_multiple_of(64) { 0 } else { u64::MAX << (width % 64) };
+        let is_clean = |row: &[u64]| row.last().is_none_or(|last| last & beyond == 0);
+        let fits = words.len() as u64 == words_per_row as u64 * u64::from(height)
+            && words.chunks_exact(words_per_row.max(1)).all(is_clean);
+        fits.then_some(Self { width, height, words_per_row, words })
+    }
+
     /// Width in pixels.
     #[must_use]
     pub const fn width(&self) -> u32 {
@@ -199,6 +211,15 @@ mod tests {
         assert_eq!(bitmap.ink(), 4);
         assert_eq!(bitmap.ink_box(), Some((0, 0, 3, 1)));
         assert_eq!(Bitmap::new(5, 5).ink_box(), None);
+    }
+
+    #[test]
+    fn words_make_a_picture_only_if_they_are_one() {
+        let picture = Bitmap::from_fn(70, 3, |x, y| (x + y) % 3 == 0);
+        assert_eq!(Bitmap::from_words(70, 3, picture.words().to_vec()), Some(picture.clone()));
+        assert_eq!(Bitmap::from_words(70, 2, picture.words().to_vec()), None);
+        assert_eq!(Bitmap::from_words(70, 1, vec![0, 1 << 6]), None);
+        assert_eq!(Bitmap::from_words(0, 5, Vec::new()), Some(Bitmap::new(0, 5)));
     }
 
     #[test]

@@ -1,18 +1,25 @@
 //! Trees of the known species, grown once and compared with many goals.
 
 use super::candidate::Candidate;
+use super::drawings::{Drawings, pack};
 use super::near::Near;
 use super::plate::{Plate, side_for};
 use super::settings::GuessSettings;
 use super::shown::Shown;
-use super::tries::{Try, tries};
+use super::tries::{Try, trees_of, tries};
+use super::{TREES_OF_SPECIES, looks};
 use crate::cancellable;
 use crate::error::FitError;
 use crate::evaluator::{Evaluator, height_of};
+use crate::fingerprint::Fnv;
+use crate::genome::Genome;
 use crate::problem::FitProblem;
+use crate::settings::FitSettings;
 use crate::space::TreeSeed;
 use pleach_silhouette::{Bitmap, Frame, View};
 use pleach_tree::{Foliage, Limits, ModelId, Tree};
+use serde::{Deserialize, Serialize};
+use std::sync::atomic::AtomicBool;
 
 /// Trees between two calls of the observer: enough to keep the threads busy.
 const BATCH: usize = 32;
@@ -20,10 +27,11 @@ const BATCH: usize = 32;
 ///
 /// What is kept does not depend on a goal but for the side from which it was taken and, roughly, its
 /// size in pixels. Where something else is asked for, all is grown again: the answers are the same bits
-/// as those of a fresh library. It takes some 10 MB for the twenty species.
+/// as those of a fresh library. It takes some 20 MB for the twenty species.
 #[derive(Debug, Default)]
 pub struct GuessLibrary {
     shelf: Option<(Key, Vec<Entry>)>,
+    pub(super) drawings: Option<Drawings>,
 }
 
 /// What the trees of a library depend on.
@@ -45,12 +53,12 @@ struct Key {
 pub(super) struct Entry {
     pub(super) attempt: Try,
     /// With leaves and without; none where the trees do not grow or nobody has asked.
-    looks: [Option<Looks>; 2],
+    looks: TreeLooks,
 }
 
 /// How an entry's trees look.
-#[derive(Debug)]
-struct Looks {
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Looks {
     /// Height of the first in metres.
     height: f64,
     /// Whether any of them has leaves or blobs of foliage.
@@ -58,6 +66,9 @@ struct Looks {
     /// Seed by seed, and of each view by view.
     plates: Vec<Plate>,
 }
+
+/// With leaves, then without; none where nobody has asked.
+pub(super) type TreeLooks = [Option<Looks>; 2];
 
 /// Which of an entry's looks: with leaves, then without.
 fn place(foliage: Foliage) -> usize {
@@ -86,6 +97,41 @@ impl GuessLibrary {
         Self::default()
     }
 
+    /// A library that grows only trees of which there are no drawings.
+    #[must_use]
+    pub fn with_drawings(drawings: Drawings) -> Self {
+        Self { shelf: None, drawings: Some(drawings) }
+    }
+
+    /// Draws the trees of all candidates that a first guess with these settings looks at, with leaves and without,
+    /// for goals that are like those of `problem` in size and view: bytes for [`Drawings::from_bytes`].
+    ///
+    /// # Errors
+    /// As [`first_guess`](super::first_guess).
+    pub fn record(
+        problem: &FitProblem,
+        settings: &FitSettings,
+        candidates: &[Candidate],
+        guess: &GuessSettings,
+        stop: &AtomicBool,
+    ) -> Result<Vec<u8>, FitError> {
+        let looks = looks(problem, settings)?;
+        let shown = Shown::new(problem, candidates, &looks, settings, stop, None);
+        let mut attempts = tries(settings, candidates, guess)?;
+        for candidate in 0..candidates.len() {
+            attempts.extend(trees_of(
+                settings,
+                candidates,
+                candidate,
+                u64::from(guess.seeds)..TREES_OF_SPECIES,
+            )?);
+        }
+        let side = side_of(problem);
+        let drawn = cancellable::map(&attempts, stop, |attempt| grow(&shown, attempt, [true; 2], side))?;
+        let marks = attempts.iter().map(|attempt| mark(&shown, attempt, side));
+        Ok(pack(marks.zip(&drawn).filter_map(|(mark, drawn)| Some((mark, drawn.as_ref()?)))))
+    }
+
     /// The trees for the goals that are `shown`, with leaves and without as `wanted`; those that `near`
     /// is about are grown if they are not there.
     pub(super) fn entries(
@@ -111,7 +157,7 @@ impl GuessLibrary {
             let mut done = 0;
             for batch in entries.chunks_mut(BATCH) {
                 let grown = cancellable::map(batch, shown.stop, |entry| {
-                    if there(entry) { None } else { grow(shown, &entry.attempt, wanted, side) }
+                    if there(entry) { None } else { looks_of(shown, &entry.attempt, wanted, side) }
                 })?;
                 for (entry, grown) in batch.iter_mut().zip(grown) {
                     for (looks, grown) in entry.looks.iter_mut().zip(grown.into_iter().flatten()) {
@@ -161,8 +207,26 @@ fn views(evaluator: &Evaluator, attempt: &Try) -> Vec<View> {
     evaluator.placed(&attempt.genome).into_iter().map(|(view, _)| view).collect()
 }
 
+/// What tells the drawings of `attempt` from all others, whatever the candidate is called.
+fn mark(shown: &Shown<'_>, attempt: &Try, side: u32) -> u64 {
+    let model = shown.candidates[attempt.candidate].species.generator.model();
+    let views = views(shown.models.evaluator(attempt.candidate), attempt);
+    let FitSettings { robust, limits, .. } = shown.settings;
+    let Genome { values, tree_seed, .. } = &attempt.genome;
+    Fnv::of(format!("{model} {values:?} {tree_seed} {robust} {limits:?} {views:?} {side}").as_bytes())
+}
+
+/// How the trees of `attempt` look, from drawings that are there or grown; none if one of them does not grow.
+fn looks_of(shown: &Shown<'_>, attempt: &Try, wanted: [bool; 2], side: u32) -> Option<TreeLooks> {
+    let drawn = shown.drawings.as_ref().and_then(|drawings| drawings.find(mark(shown, attempt, side)));
+    match drawn {
+        Some(looks) if (0..2).all(|i| looks[i].is_some() || !wanted[i]) => Some(looks),
+        _ => grow(shown, attempt, wanted, side),
+    }
+}
+
 /// Grows and draws the trees of `attempt`; none if one of them does not grow.
-fn grow(shown: &Shown<'_>, attempt: &Try, wanted: [bool; 2], side: u32) -> Option<[Option<Looks>; 2]> {
+fn grow(shown: &Shown<'_>, attempt: &Try, wanted: [bool; 2], side: u32) -> Option<TreeLooks> {
     let evaluator = shown.models.evaluator(attempt.candidate);
     let views = views(evaluator, attempt);
     let mut looks =
@@ -235,7 +299,7 @@ pub(super) fn shown_once(
 ) -> Result<Vec<Resemblance>, FitError> {
     let side = side_of(shown.problem);
     let wanted = [Foliage::All, Foliage::None].map(|one| one == foliage);
-    let looks = cancellable::map(&attempts, shown.stop, |attempt| grow(shown, attempt, wanted, side))?;
+    let looks = cancellable::map(&attempts, shown.stop, |attempt| looks_of(shown, attempt, wanted, side))?;
     let entries: Vec<Entry> = attempts
         .into_iter()
         .zip(looks)

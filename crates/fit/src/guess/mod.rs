@@ -8,12 +8,13 @@
 //! Trees of all candidates are grown as they are and with their numbers varied, drawn finely, laid into
 //! the goal's frame at the goal's height, and compared by likeness, which knows a species by other trees
 //! than the goal's. Of many candidates one tree each is compared at first, and more of those that are
-//! near. The drawings serve all goals of a [`GuessLibrary`]. Nothing is stored between runs:
-//! growing a few hundred trees takes a second or two, and what is grown on the spot is never out of date.
+//! near. The drawings serve all goals of a [`GuessLibrary`]; those of known species may have been made
+//! before ([`Drawings`]).
 //!
 //! The same drawings tell whether the goal has leaves, and what its likeness to other trees is worth.
 
 mod candidate;
+mod drawings;
 mod library;
 mod near;
 mod plate;
@@ -24,6 +25,7 @@ mod shown;
 mod tries;
 
 pub use candidate::Candidate;
+pub use drawings::{Drawings, DrawingsError};
 pub use library::GuessLibrary;
 pub use race::Runner;
 pub use references::{Reference, References};
@@ -143,7 +145,7 @@ impl GuessLibrary {
     ) -> Result<FirstGuess, FitError> {
         let known = known_views(problem);
         let looks = looks(&known, settings)?;
-        let shown = Shown::new(&known, candidates, &looks, settings, stop);
+        let shown = Shown::new(&known, candidates, &looks, settings, stop, self.drawings.clone());
         let both = guess.detect_leaves;
         let wanted = [Foliage::All, Foliage::None].map(|foliage| both || foliage == known.foliage);
         let mut near = Near::at_first(&shown);
@@ -204,7 +206,7 @@ impl GuessLibrary {
     ) -> Result<References, FitError> {
         let known = known_views(problem);
         let looks = looks(&known, settings)?;
-        let shown = Shown::new(&known, candidates, &looks, settings, stop);
+        let shown = Shown::new(&known, candidates, &looks, settings, stop, self.drawings.clone());
         let few = GuessSettings { variants: 0, seeds: REFERENCE_SEEDS, ..GuessSettings::default() };
         let wanted = [Foliage::All, Foliage::None].map(|foliage| foliage == known.foliage);
         let entries = self.entries(&shown, &few, wanted, &Near::All, |_, _| ())?;

@@ -2,18 +2,65 @@
 
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Foliage, Tree};
+use serde::{Deserialize, Serialize};
 
 /// A silhouette, at least twice as fine as the pictures that are made of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(into = "Packed", try_from = "Packed")]
 pub(super) struct Plate {
     picture: Bitmap,
     frame: Frame,
 }
 
+/// A plate as it is written: rows as what changes from the one above, which packs smaller.
+#[derive(Serialize, Deserialize)]
+struct Packed {
+    /// Width and height in pixels.
+    size: (u32, u32),
+    meters_per_pixel: f64,
+    /// The trunk's foot: column and row.
+    foot: (f64, f64),
+    /// Words of 64 pixels, the lowest byte first.
+    changes: Vec<u8>,
+}
+
+impl From<Plate> for Packed {
+    fn from(Plate { picture, frame }: Plate) -> Self {
+        let words = picture.words();
+        let width = words.len() / picture.height().max(1) as usize;
+        let above = std::iter::repeat_n(&0, width).chain(words);
+        Self {
+            size: (picture.width(), picture.height()),
+            meters_per_pixel: frame.meters_per_pixel,
+            foot: (frame.axis_column, frame.ground_row),
+            changes: words.iter().zip(above).flat_map(|(word, above)| (word ^ above).to_le_bytes()).collect(),
+        }
+    }
+}
+
+impl TryFrom<Packed> for Plate {
+    type Error = &'static str;
+
+    fn try_from(
+        Packed { size: (width, height), meters_per_pixel, foot, changes }: Packed,
+    ) -> Result<Self, Self::Error> {
+        let words_per_row = (width as usize).div_ceil(64);
+        let mut words: Vec<u64> =
+            changes.as_chunks().0.iter().map(|bytes| u64::from_le_bytes(*bytes)).collect();
+        for i in words_per_row..words.len() {
+            words[i] ^= words[i - words_per_row];
+        }
+        let picture =
+            Bitmap::from_words(width, height, words).ok_or("a picture has as many words as pixels")?;
+        let (axis_column, ground_row) = foot;
+        Ok(Self { picture, frame: Frame { width, height, meters_per_pixel, axis_column, ground_row } })
+    }
+}
+
 /// Plate pixels for a pixel of the goal, at least.
 const FINENESS: u32 = 2;
-/// Sides of plates, in pixels.
-const SIDES: (u32, u32) = (128, 2048);
+/// Sides of plates, in pixels. Those of small goals are finer than they need be, so that they are the same.
+const SIDES: (u32, u32) = (512, 2048);
 /// Part of a plate's side that is kept for what hangs below the ground.
 const BELOW: u32 = 8;
 
@@ -142,7 +189,21 @@ mod tests {
 
     #[test]
     fn goals_of_about_one_size_share_plates() {
-        assert_eq!((side_for(256, 200), side_for(180, 256), side_for(64, 64)), (512, 512, 128));
-        assert_eq!((side_for(16, 16), side_for(2048, 9)), (128, 2048));
+        assert_eq!((side_for(256, 200), side_for(180, 256), side_for(64, 64)), (512, 512, 512));
+        assert_eq!((side_for(16, 16), side_for(300, 9), side_for(2048, 9)), (512, 1024, 2048));
+    }
+
+    #[test]
+    fn a_plate_is_read_as_it_was_written() {
+        let frame =
+            Frame { width: 70, height: 40, meters_per_pixel: 0.1, axis_column: 35.3, ground_row: 39.0 };
+        let plate = Plate { picture: Bitmap::from_fn(70, 40, |x, y| (x * y) % 5 == 0), frame };
+        let bytes = postcard::to_stdvec(&plate).unwrap();
+        let read: Plate = postcard::from_bytes(&bytes).unwrap();
+        assert_eq!((read.picture, read.frame), (plate.picture, plate.frame));
+        // A byte of the picture is missing.
+        let mut packed = Packed::from(Plate { picture: Bitmap::new(64, 2), frame });
+        let _ = packed.changes.pop();
+        assert!(Plate::try_from(packed).is_err());
     }
 }

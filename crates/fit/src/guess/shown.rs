@@ -1,6 +1,7 @@
 //! A goal as candidates are shown beside it.
 
 use super::candidate::{Candidate, Models};
+use super::drawings::Drawings;
 use crate::evaluator::Evaluator;
 use crate::problem::FitProblem;
 use crate::settings::FitSettings;
@@ -14,6 +15,8 @@ pub(super) struct Shown<'a> {
     pub(super) models: Models,
     pub(super) settings: &'a FitSettings,
     pub(super) stop: &'a AtomicBool,
+    /// Of trees that need not be grown.
+    pub(super) drawings: Option<Drawings>,
 }
 
 impl<'a> Shown<'a> {
@@ -23,8 +26,9 @@ impl<'a> Shown<'a> {
         looks: &Evaluator,
         settings: &'a FitSettings,
         stop: &'a AtomicBool,
+        drawings: Option<Drawings>,
     ) -> Self {
-        Self { problem, candidates, models: Models::new(candidates, looks), settings, stop }
+        Self { problem, candidates, models: Models::new(candidates, looks), settings, stop, drawings }
     }
 
     /// Makes the tree of `values` larger by `factor`, if the candidate's generator can.

@@ -3,10 +3,12 @@
 //! give the same bits in both.
 
 mod effort;
+mod known;
 mod origin;
 mod shares;
 
 pub use effort::{Effort, TooLong};
+pub use known::{draw, library};
 pub use origin::{Origin, has_individuals, plan, usual_start};
 pub use shares::Shares;
 

@@ -9,6 +9,7 @@ use super::{Fit, RUNS, list, run_name, signals, table};
 use crate::interrupted::Interrupted;
 use crate::{files, input, output};
 use anyhow::{Context, bail, ensure};
+use pleach::plan::library;
 use pleach_fit::{FitSettings, GuessLibrary};
 use serde_json::Value;
 use std::collections::{BTreeMap, VecDeque};
@@ -91,7 +92,7 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
     write(&table, &jobs)?;
 
     let stop = signals::catch()?;
-    let mut library = GuessLibrary::new();
+    let mut library = library();
     let all = jobs.len();
     let mut queue: VecDeque<usize> = (0..all).collect();
     while let Some(i) = queue.pop_front() {

@@ -28,8 +28,8 @@ use crate::{input, output};
 use anyhow::{anyhow, bail, ensure};
 use args::{BudgetArgs, GoalArgs, IndividualArgs, SearchArgs};
 use options::Settings;
-use pleach::plan::{Effort, Shares, USUAL_TIME, has_individuals};
-use pleach_fit::{Budget, FitSettings, GuessLibrary, IndividualSettings, RulesSettings};
+use pleach::plan::{Effort, Shares, USUAL_TIME, has_individuals, library};
+use pleach_fit::{Budget, FitSettings, IndividualSettings, RulesSettings};
 use run_folder::{Mode, RunFolder};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -190,7 +190,7 @@ impl Fit {
             folder: RunFolder::at(path.clone()),
         };
         let mode = self.mode();
-        let mut library = GuessLibrary::new();
+        let mut library = library();
         let ended = task.run(self, settings, mode, &mut library, &signals::catch()?)?;
         let (summary, interrupted) = match ended {
             Ended::Finished(summary) => (Some(summary), None),

@@ -1,0 +1,39 @@
+//! How the known species look, drawn beforehand.
+
+use pleach_fit::{
+    Candidate, Drawings, FitError, FitProblem, FitSettings, GoalView, GuessLibrary, GuessSettings,
+};
+use pleach_silhouette::{Bitmap, Frame, View};
+use std::sync::atomic::AtomicBool;
+
+/// Made by `cargo run --release -p pleach --example draw_known_species`.
+static DRAWINGS: &[u8] = include_bytes!("known.bin");
+
+/// A library of first guesses that knows how the species of the usual generator look: it grows only where a goal
+/// was taken from elsewhere than the front, is compared at above 256 pixels, or `--tree-seed` is not the usual one.
+///
+/// # Panics
+/// If the drawings that are built in are not of this version, which a test rules out.
+#[must_use]
+pub fn library() -> GuessLibrary {
+    GuessLibrary::with_drawings(Drawings::from_bytes(DRAWINGS).expect("the drawings of this version"))
+}
+
+/// Draws `species` as [`library`] knows them.
+///
+/// # Errors
+/// A [`FitError`] if one of them cannot be fitted at all.
+///
+/// # Panics
+/// If no species is given.
+pub fn draw(species: impl IntoIterator<Item = pleach_tree::Species>) -> Result<Vec<u8>, FitError> {
+    let candidates: Vec<Candidate> = species.into_iter().map(Candidate::from).collect();
+    let start = candidates.first().expect("a species").species.clone();
+    // Any goal as large as goals are by default; a square of a tree.
+    let frame =
+        Frame { width: 256, height: 256, meters_per_pixel: 0.04, axis_column: 128.0, ground_row: 250.0 };
+    let goal = Bitmap::from_fn(256, 256, |x, y| (120..136).contains(&x) && (6..250).contains(&y));
+    let problem = FitProblem::new(start, GoalView::new(goal, View::FRONT, frame));
+    let (settings, guess) = (FitSettings::default(), GuessSettings::default());
+    GuessLibrary::record(&problem, &settings, &candidates, &guess, &AtomicBool::new(false))
+}
