@@ -1,6 +1,6 @@
 //! Drawings of trees that were grown before: what a library need not grow again.
 
-use super::library::Looks;
+use super::library::TreeLooks;
 use flate2::Compression;
 use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
@@ -48,28 +48,35 @@ impl Drawings {
     }
 
     /// The looks that are filed under `mark`; none if there are none.
-    pub(super) fn find(&self, mark: u64) -> Option<[Option<Looks>; 2]> {
+    pub(super) fn find(&self, mark: u64) -> Option<TreeLooks> {
+        postcard::from_bytes(&self.plain(mark)?).ok()
+    }
+
+    fn plain(&self, mark: u64) -> Option<Vec<u8>> {
         let mut plain = Vec::new();
         DeflateDecoder::new(*self.trees.get(&mark)?).read_to_end(&mut plain).ok()?;
-        postcard::from_bytes(&plain).ok()
+        Some(plain)
     }
 
     /// Whether `other` has all of these, and the same.
     #[must_use]
     pub fn are_within(&self, other: &Self) -> bool {
-        self.trees.iter().all(|(mark, tree)| other.trees.get(mark) == Some(tree))
+        self.trees.keys().all(|&mark| {
+            let one = self.plain(mark);
+            one.is_some() && one == other.plain(mark)
+        })
     }
 }
 
 /// Trees by their marks as [`Drawings::from_bytes`] reads them; the same bytes in whatever order they come.
-pub(super) fn pack<'a>(trees: impl Iterator<Item = (u64, &'a [Option<Looks>; 2])>) -> Vec<u8> {
+pub(super) fn pack<'a>(trees: impl Iterator<Item = (u64, &'a TreeLooks)>) -> Vec<u8> {
     let mut packed: Vec<(u64, Vec<u8>)> = trees.map(|(mark, looks)| (mark, deflated(looks))).collect();
     packed.sort_unstable();
     packed.dedup();
     postcard::to_stdvec(&packed).expect("plain values")
 }
 
-fn deflated(looks: &[Option<Looks>; 2]) -> Vec<u8> {
+fn deflated(looks: &TreeLooks) -> Vec<u8> {
     let plain = postcard::to_stdvec(looks).expect("plain values");
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(&plain).and_then(|()| encoder.finish()).expect("memory takes all")

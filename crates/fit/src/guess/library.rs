@@ -31,7 +31,7 @@ const BATCH: usize = 32;
 #[derive(Debug, Default)]
 pub struct GuessLibrary {
     shelf: Option<(Key, Vec<Entry>)>,
-    pub(super) drawings: Option<Drawings>,
+    pub(super) prepared: Option<Drawings>,
 }
 
 /// What the trees of a library depend on.
@@ -84,6 +84,8 @@ pub(super) struct Resemblance {
     pub(super) likeness: f64,
     /// Intersection over union.
     pub(super) iou: f64,
+    /// What the search makes small, of its drawings: a little off that of the tree itself.
+    pub(super) cost: f64,
     /// How much larger it had to be for the goal's height.
     pub(super) factor: f64,
     /// The pictures of its first seed, view by view; only of species as they are.
@@ -100,7 +102,13 @@ impl GuessLibrary {
     /// A library that grows only trees of which there are no drawings.
     #[must_use]
     pub fn with_drawings(drawings: Drawings) -> Self {
-        Self { shelf: None, drawings: Some(drawings) }
+        Self { shelf: None, prepared: Some(drawings) }
+    }
+
+    /// The drawings that it was made with.
+    #[must_use]
+    pub const fn drawings(&self) -> Option<&Drawings> {
+        self.prepared.as_ref()
     }
 
     /// Draws the trees of all candidates that a first guess with these settings looks at, with leaves and without,
@@ -272,14 +280,16 @@ pub(super) fn compare(
         let frames: Vec<Frame> =
             evaluator.placed(&entry.attempt.genome).into_iter().map(|(_, frame)| frame).collect();
         let has_foliage = looks.has_foliage;
-        let mut sum = Resemblance { has_foliage, likeness: 0.0, iou: 0.0, factor, pictures: Vec::new() };
+        let pictures = Vec::new();
+        let mut sum = Resemblance { has_foliage, likeness: 0.0, iou: 0.0, cost: 0.0, factor, pictures };
         let mut picture = Bitmap::default();
         for (number, plate) in looks.plates.iter().enumerate() {
             let view = number % frames.len();
             plate.through(&frames[view], factor, &mut picture);
-            let (likeness, iou) = evaluator.resemblance(view, &picture);
-            sum.likeness += likeness;
-            sum.iou += iou;
+            let agreement = evaluator.resemblance(view, &picture, shown.settings.objective);
+            sum.likeness += agreement.likeness.unwrap_or_default();
+            sum.iou += agreement.iou;
+            sum.cost += 1.0 - agreement.value;
             if number < frames.len() && entry.attempt.is_species {
                 sum.pictures.push(picture.clone());
             }
@@ -287,6 +297,7 @@ pub(super) fn compare(
         let pictures = looks.plates.len().max(1) as f64;
         sum.likeness /= pictures;
         sum.iou /= pictures;
+        sum.cost /= pictures;
         Some(sum)
     })
 }

@@ -21,6 +21,7 @@ struct Packed {
     /// The trunk's foot: column and row.
     foot: (f64, f64),
     /// Words of 64 pixels, the lowest byte first.
+    #[serde(with = "serde_bytes")]
     changes: Vec<u8>,
 }
 
