@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use glam::{DVec3, Vec3, dvec3, vec3};
-use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::leaf_shape::{LeafShape, Outline};
 use pleach_tree::stats::Bounds;
 use pleach_tree::{Blob, Knot, Leaf, Parts, Stem, StemKind, Tree};
@@ -290,4 +290,22 @@ fn roots_are_drawn_where_they_are_asked_for() {
     assert!(ink(Parts::ALL) > ink(Parts::LEAFY) && ink(Parts::ROOTS) > 2);
     let reach = |parts| Bounds::new(&rooted, parts).unwrap().max.x;
     assert!(reach(Parts::LEAFY) < 0.6 && reach(Parts::ALL) > 3.0);
+}
+
+/// What is not drawn because it lies on what is black already would not have been seen.
+#[test]
+fn black_pixels_that_are_marked_change_no_picture() {
+    for name in ["quaking_aspen", "weeping_willow", "balsam_fir"] {
+        let tree = pleach_generators::preset(name).unwrap().grow(1).unwrap();
+        for (size, detail) in [(256, Detail::Half), (100, Detail::Draft), (77, Detail::Full)] {
+            let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, size, size);
+            // Larger than the picture as well, so that leaves lie across its edges.
+            for frame in [frame, Frame { meters_per_pixel: 0.4 * frame.meters_per_pixel, ..frame }] {
+                let [mut plain, mut marked] = [Bitmap::default(), Bitmap::default()];
+                Rasterizer::with_detail(detail).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut plain);
+                Rasterizer::saturating(detail).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut marked);
+                assert_eq!(marked.differing(&plain), 0, "{name} at {size}, {detail:?}");
+            }
+        }
+    }
 }

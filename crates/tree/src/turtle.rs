@@ -54,8 +54,9 @@ impl Turtle {
 
     /// Turns both axes about the unit vector `axis` by `angle` radians (right-hand rule).
     pub fn rotate_about(&mut self, axis: DVec3, angle: f64) {
-        self.direction = rotate(self.direction, axis, angle).normalize();
-        self.right = rotate(self.right, axis, angle).normalize();
+        let turn = turn_about(axis, angle);
+        self.direction = turn(self.direction).normalize();
+        self.right = turn(self.right).normalize();
     }
 
     /// Turns the axes of a leaf outwards from the z axis and then up, each by the part `leaf_bend` of
@@ -83,8 +84,13 @@ impl Turtle {
 /// `v` turned about the unit vector `axis` by `angle` radians (Rodrigues' formula, right-hand rule).
 #[must_use]
 pub fn rotate(v: DVec3, axis: DVec3, angle: f64) -> DVec3 {
+    turn_about(axis, angle)(v)
+}
+
+#[inline]
+fn turn_about(axis: DVec3, angle: f64) -> impl Fn(DVec3) -> DVec3 {
     let (sin, cos) = sin_cos(angle);
-    v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos))
+    move |v| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos))
 }
 
 #[cfg(test)]

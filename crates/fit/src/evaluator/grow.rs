@@ -30,8 +30,8 @@ impl EvalWorkspace {
             values: Vec::new(),
             tree: Tree::default(),
             workspace: Workspace::default(),
-            rasterizer: Rasterizer::with_detail(Detail::Half),
-            fine: Rasterizer::with_detail(Detail::Draft),
+            rasterizer: Rasterizer::saturating(Detail::Half),
+            fine: Rasterizer::saturating(Detail::Draft),
             bitmap: Bitmap::default(),
             comparisons: Comparisons::default(),
         }

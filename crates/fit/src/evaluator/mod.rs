@@ -235,10 +235,13 @@ impl Evaluator {
         })
     }
 
-    /// How `picture` compares with goal number `view`, likeness included, by what `objective` makes large.
-    pub(crate) fn resemblance(&self, view: usize, picture: &Bitmap, objective: Objective) -> Agreement {
+    /// Likeness and intersection over union of `picture` with goal number `view`.
+    pub(crate) fn resemblance(&self, view: usize, picture: &Bitmap) -> (f64, f64) {
         self.with_memory(|memory| {
-            self.views[view].compare(picture, objective, Likeness::Always, &mut memory.comparisons)
+            let comparisons = &mut memory.comparisons;
+            let agreement =
+                self.views[view].compare(picture, Objective::Likeness, Likeness::Always, comparisons);
+            (agreement.value, agreement.iou)
         })
     }
 

@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// makes them.
 #[derive(Clone, Debug)]
 pub struct Drawings {
-    /// How each looks, packed, by its mark.
+    /// How each looks, or that it does not grow, packed, by its mark.
     trees: Arc<HashMap<u64, &'static [u8]>>,
 }
 
@@ -47,8 +47,8 @@ impl Drawings {
         self.trees.is_empty()
     }
 
-    /// The looks that are filed under `mark`; none if there are none.
-    pub(super) fn find(&self, mark: u64) -> Option<TreeLooks> {
+    /// The looks that are filed under `mark`, none of a tree that does not grow; none if nothing is.
+    pub(super) fn find(&self, mark: u64) -> Option<Option<TreeLooks>> {
         postcard::from_bytes(&self.plain(mark)?).ok()
     }
 
@@ -69,14 +69,14 @@ impl Drawings {
 }
 
 /// Trees by their marks as [`Drawings::from_bytes`] reads them; the same bytes in whatever order they come.
-pub(super) fn pack<'a>(trees: impl Iterator<Item = (u64, &'a TreeLooks)>) -> Vec<u8> {
+pub(super) fn pack<'a>(trees: impl Iterator<Item = (u64, &'a Option<TreeLooks>)>) -> Vec<u8> {
     let mut packed: Vec<(u64, Vec<u8>)> = trees.map(|(mark, looks)| (mark, deflated(looks))).collect();
     packed.sort_unstable();
     packed.dedup();
     postcard::to_stdvec(&packed).expect("plain values")
 }
 
-fn deflated(looks: &TreeLooks) -> Vec<u8> {
+fn deflated(looks: &Option<TreeLooks>) -> Vec<u8> {
     let plain = postcard::to_stdvec(looks).expect("plain values");
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(&plain).and_then(|()| encoder.finish()).expect("memory takes all")

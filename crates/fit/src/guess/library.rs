@@ -84,8 +84,6 @@ pub(super) struct Resemblance {
     pub(super) likeness: f64,
     /// Intersection over union.
     pub(super) iou: f64,
-    /// What the search makes small, of its drawings: a little off that of the tree itself.
-    pub(super) cost: f64,
     /// How much larger it had to be for the goal's height.
     pub(super) factor: f64,
     /// The pictures of its first seed, view by view; only of species as they are.
@@ -137,7 +135,7 @@ impl GuessLibrary {
         let side = side_of(problem);
         let drawn = cancellable::map(&attempts, stop, |attempt| grow(&shown, attempt, [true; 2], side))?;
         let marks = attempts.iter().map(|attempt| mark(&shown, attempt, side));
-        Ok(pack(marks.zip(&drawn).filter_map(|(mark, drawn)| Some((mark, drawn.as_ref()?)))))
+        Ok(pack(marks.zip(&drawn)))
     }
 
     /// The trees for the goals that are `shown`, with leaves and without as `wanted`; those that `near`
@@ -228,7 +226,8 @@ fn mark(shown: &Shown<'_>, attempt: &Try, side: u32) -> u64 {
 fn looks_of(shown: &Shown<'_>, attempt: &Try, wanted: [bool; 2], side: u32) -> Option<TreeLooks> {
     let drawn = shown.drawings.as_ref().and_then(|drawings| drawings.find(mark(shown, attempt, side)));
     match drawn {
-        Some(looks) if (0..2).all(|i| looks[i].is_some() || !wanted[i]) => Some(looks),
+        Some(None) => None,
+        Some(Some(looks)) if (0..2).all(|i| looks[i].is_some() || !wanted[i]) => Some(looks),
         _ => grow(shown, attempt, wanted, side),
     }
 }
@@ -280,16 +279,14 @@ pub(super) fn compare(
         let frames: Vec<Frame> =
             evaluator.placed(&entry.attempt.genome).into_iter().map(|(_, frame)| frame).collect();
         let has_foliage = looks.has_foliage;
-        let pictures = Vec::new();
-        let mut sum = Resemblance { has_foliage, likeness: 0.0, iou: 0.0, cost: 0.0, factor, pictures };
+        let mut sum = Resemblance { has_foliage, likeness: 0.0, iou: 0.0, factor, pictures: Vec::new() };
         let mut picture = Bitmap::default();
         for (number, plate) in looks.plates.iter().enumerate() {
             let view = number % frames.len();
             plate.through(&frames[view], factor, &mut picture);
-            let agreement = evaluator.resemblance(view, &picture, shown.settings.objective);
-            sum.likeness += agreement.likeness.unwrap_or_default();
-            sum.iou += agreement.iou;
-            sum.cost += 1.0 - agreement.value;
+            let (likeness, iou) = evaluator.resemblance(view, &picture);
+            sum.likeness += likeness;
+            sum.iou += iou;
             if number < frames.len() && entry.attempt.is_species {
                 sum.pictures.push(picture.clone());
             }
@@ -297,7 +294,6 @@ pub(super) fn compare(
         let pictures = looks.plates.len().max(1) as f64;
         sum.likeness /= pictures;
         sum.iou /= pictures;
-        sum.cost /= pictures;
         Some(sum)
     })
 }

@@ -98,8 +98,8 @@ pub struct Guess {
     pub score: Score,
 }
 
-/// Of the trees that look most like the goal, the best by what the search makes small are looked for among this
-/// many times those that are kept, and of each family among as many as are kept.
+/// Of the trees that look most like the goal, this many times those that are kept are scored by what
+/// the search makes small, and of each family as many as are kept.
 const ALIKE: usize = 3;
 /// By how much worse a candidate's likeness is when it is e times less probable.
 const DOUBT: f64 = 0.02;
@@ -240,19 +240,11 @@ fn leaves(
     Ok(if foliage == given { (given, found) } else { (other, found_other) })
 }
 
-/// An individual of a candidate, at the goal's height.
-#[derive(Debug)]
-struct Alike {
-    candidate: usize,
-    genome: Genome,
-    /// What it lacks of a likeness of 1.
-    unlike: f64,
-    /// What the search makes small, of its drawing.
-    cost: f64,
-}
+/// An individual of a candidate, and what it lacks of a likeness of 1.
+type Alike = (f64, usize, Genome);
 
-/// What each candidate lacks of a likeness of 1, and of the individuals that look most like the goal those whose
-/// drawings cost least: `keep` of each family.
+/// The least cost of each candidate, and the individuals that look most like the goal, at its height:
+/// some of all, and `keep` of each family.
 fn ranked(
     shown: &Shown<'_>,
     (entries, found): (&[Entry], &[Option<Resemblance>]),
@@ -261,33 +253,24 @@ fn ranked(
     let mut costs = vec![f64::INFINITY; shown.candidates.len()];
     let mut alike = Vec::new();
     for (Entry { attempt, .. }, found) in entries.iter().zip(found) {
-        let Some(Resemblance { likeness, cost, factor, .. }) = found else { continue };
-        let (candidate, unlike) = (attempt.candidate, 1.0 - likeness);
-        costs[candidate] = costs[candidate].min(unlike);
+        let Some(Resemblance { likeness, factor, .. }) = found else { continue };
+        let cost = 1.0 - likeness;
+        costs[attempt.candidate] = costs[attempt.candidate].min(cost);
         if attempt.may_start {
             let mut genome = attempt.genome.clone();
-            shown.resize(candidate, &mut genome.values, *factor);
-            alike.push(Alike { candidate, genome, unlike, cost: *cost });
+            shown.resize(attempt.candidate, &mut genome.values, *factor);
+            alike.push((cost, attempt.candidate, genome));
         }
     }
-    alike.sort_by(|a, b| a.unlike.total_cmp(&b.unlike));
-    let (mut kept, mut best) = (Vec::<Alike>::new(), Vec::<Alike>::new());
-    let has_room = |kept: &[Alike], one: &Alike| {
-        let family = shown.family(one.candidate);
-        kept.iter().filter(|other| shown.family(other.candidate) == family).count() < keep
-    };
+    alike.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut kept = Vec::<Alike>::new();
+    let of_family = |kept: &[Alike], family| kept.iter().filter(|one| shown.family(one.1) == family).count();
     for one in alike {
-        if kept.len() < keep * ALIKE || has_room(&kept, &one) {
+        if kept.len() < keep * ALIKE || of_family(&kept, shown.family(one.1)) < keep {
             kept.push(one);
         }
     }
-    kept.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    for one in kept {
-        if has_room(&best, &one) {
-            best.push(one);
-        }
-    }
-    (costs, best)
+    (costs, kept)
 }
 
 /// Individuals with their candidates, scored by what the search makes small, best first; without those
@@ -300,12 +283,12 @@ fn scored(
     let settings = shown.settings;
     let exact = Evaluator::new(problem, settings.objective, settings.limits)?.with_seeds(settings.robust);
     let exact = Models::new(shown.candidates, &exact);
-    let score = |one: &Alike| exact.evaluator(one.candidate).score(&one.genome);
+    let score = |(_, candidate, genome): &Alike| exact.evaluator(*candidate).score(genome);
     let scores = cancellable::map(&alike, shown.stop, score)?;
     let name = |candidate: usize| shown.candidates[candidate].species.name.clone();
     let mut nearest: Vec<(usize, Guess)> = (alike.into_iter().zip(scores))
         .filter(|(_, score)| score.cost.is_finite())
-        .map(|(Alike { candidate, genome, .. }, score)| {
+        .map(|((_, candidate, genome), score)| {
             (candidate, Guess { name: name(candidate), values: genome.values, score })
         })
         .collect();

@@ -60,8 +60,8 @@ impl TryFrom<Packed> for Plate {
 
 /// Plate pixels for a pixel of the goal, at least.
 const FINENESS: u32 = 2;
-/// Sides of plates, in pixels. Those of small goals are finer than they need be, so that they are the same.
-const SIDES: (u32, u32) = (512, 2048);
+/// Sides of plates, in pixels.
+const SIDES: (u32, u32) = (128, 2048);
 /// Part of a plate's side that is kept for what hangs below the ground.
 const BELOW: u32 = 8;
 
@@ -190,8 +190,8 @@ mod tests {
 
     #[test]
     fn goals_of_about_one_size_share_plates() {
-        assert_eq!((side_for(256, 200), side_for(180, 256), side_for(64, 64)), (512, 512, 512));
-        assert_eq!((side_for(16, 16), side_for(300, 9), side_for(2048, 9)), (512, 1024, 2048));
+        assert_eq!((side_for(256, 200), side_for(180, 256), side_for(64, 64)), (512, 512, 128));
+        assert_eq!((side_for(16, 16), side_for(2048, 9)), (128, 2048));
     }
 
     #[test]

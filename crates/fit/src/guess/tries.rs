@@ -3,7 +3,6 @@
 use super::candidate::Candidate;
 use super::settings::GuessSettings;
 use crate::error::FitError;
-use crate::fingerprint::Fnv;
 use crate::genome::Genome;
 use crate::settings::FitSettings;
 use crate::space::{Freedom, SearchSpace, TreeSeed};
@@ -36,12 +35,10 @@ pub(super) fn tries(
     let mut list = Vec::new();
     for (number, candidate) in candidates.iter().enumerate() {
         let space = space_around(candidate)?;
-        // The same for every search, and whatever other candidates there are, so that they can be kept.
-        let name = Fnv::of(candidate.species.name.as_bytes());
         let seeds = 0..u64::from(guess.seeds.max(1));
         list.extend(seeds.map(|i| of_species(&space, settings, (number, candidate), i)));
         for i in 0..guess.variants {
-            let draws = Stream::at(1, VARIATION, name, i);
+            let draws = Stream::at(settings.seed, VARIATION, number as u64, i);
             let genome = varied(&space, candidate.values(), first_seed(settings), guess.spread, draws);
             list.push(Try { candidate: number, is_species: false, is_first: false, may_start: true, genome });
         }

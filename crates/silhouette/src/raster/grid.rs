@@ -7,7 +7,6 @@
 //! at once in the bytes of a word.
 
 use crate::bitmap::Bitmap;
-use pleach_tree::leaf_shape::Outline;
 use std::ops::Range;
 
 /// Samples across a pixel, one byte of them.
@@ -23,6 +22,8 @@ pub(crate) struct Grid {
     down: u32,
     words_per_row: usize,
     words: Vec<u64>,
+    /// Where rows of a wide shape change between outside and inside; kept for its memory.
+    flips: Vec<u64>,
 }
 
 /// A corner of a polygon in samples: x to the right, y down.
@@ -60,7 +61,7 @@ impl Grid {
         ((self.width * ACROSS) as f32, (self.height * self.down) as f32)
     }
 
-    /// Fills a polygon of at most [`Outline::MAX_CORNERS`] corners, convex or not (even-odd). Corners
+    /// Fills a polygon, convex or not (even-odd). Corners
     /// that are not finite draw nothing.
     #[inline]
     pub(crate) fn fill(&mut self, corners: &[Corner]) {
@@ -98,7 +99,7 @@ impl Grid {
             }
             self.fill_narrow::<LOW>(corners, origin, start, last);
         } else {
-            self.fill_wide(corners, first, last);
+            self.fill_wide(corners, (left, right), first, last);
         }
     }
 
@@ -177,31 +178,47 @@ impl Grid {
         }
     }
 
-    /// Any polygon: the crossings of each row, sorted, and spans between them.
-    fn fill_wide(&mut self, corners: &[Corner], first: usize, last: usize) {
+    /// Any polygon, edge by edge: each crossing with a row flips all samples to its right, of which only the first
+    /// is marked at first.
+    fn fill_wide(&mut self, corners: &[Corner], (left, right): (f32, f32), first: usize, last: usize) {
         let (wide, _) = self.extent();
-        let mut crossings = [0.0_f32; Outline::MAX_CORNERS];
-        for row in first..last {
-            let y = row as f32 + 0.5;
-            let mut count = 0;
-            let mut p = corners[corners.len() - 1];
-            for &q in corners {
-                if (p[1] <= y) != (q[1] <= y) {
-                    crossings[count] = p[0] + (y - p[1]) * (q[0] - p[0]) / (q[1] - p[1]);
-                    count += 1;
+        let from_word = left.clamp(0.0, wide) as usize / 64;
+        let to_word = (right.clamp(0.0, wide) as usize / 64 + 1).min(self.words_per_row);
+        if from_word >= to_word {
+            return;
+        }
+        let across = to_word - from_word;
+        let mut flips = std::mem::take(&mut self.flips);
+        flips.clear();
+        flips.resize(across * (last - first), 0);
+        let mut p = corners[corners.len() - 1];
+        for &q in corners {
+            let (upper, lower) = if p[1] < q[1] { (p[1], q[1]) } else { (q[1], p[1]) };
+            // Rows whose samples are at or below the upper end and above the lower one.
+            let start = ceil_half(upper.clamp(first as f32, last as f32 + 1.0)) as usize;
+            let end = ceil_half(lower.min(last as f32)).max(0) as usize;
+            for row in start.max(first)..end.min(last) {
+                let x = p[0] + (row as f32 + 0.5 - p[1]) * (q[0] - p[0]) / (q[1] - p[1]);
+                let skew = SKEW[row % SKEW.len()] as f32 / 65536.0;
+                // First sample at or right of the crossing.
+                let column = ceil_half((x - skew).clamp(0.0, wide)) as usize;
+                let column = column.max(from_word * 64) - from_word * 64;
+                if column < across * 64 {
+                    flips[(row - first) * across + column / 64] ^= 1 << (column % 64);
                 }
-                p = q;
             }
-            let crossings = &mut crossings[..count];
-            crossings.sort_unstable_by(f32::total_cmp);
-            let words = &mut self.words[row * self.words_per_row..][..self.words_per_row];
-            let skew = SKEW[row % SKEW.len()] as f32 / 65536.0;
-            for span in crossings.chunks_exact(2) {
-                let from = ceil_half((span[0] - skew).clamp(0.0, wide)) as usize;
-                let to = ceil_half((span[1] - skew).clamp(0.0, wide)) as usize;
-                set_span(words, from, to);
+            p = q;
+        }
+        let lines = self.words[first * self.words_per_row..].chunks_exact_mut(self.words_per_row);
+        for (line, flips) in lines.zip(flips.chunks_exact(across)) {
+            let mut is_inside = 0;
+            for (word, &flips) in line[from_word..to_word].iter_mut().zip(flips) {
+                let inside = parities(flips) ^ is_inside;
+                *word |= inside;
+                is_inside = 0_u64.wrapping_sub(inside >> 63);
             }
         }
+        self.flips = flips;
     }
 
     /// Reduces the samples to pixels: black from half of them on, ties alternately.
@@ -254,6 +271,26 @@ impl Grid {
                 }
             }
         }
+    }
+
+    /// Pixels of the picture.
+    pub(super) const fn area(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// Sets all samples of the pixels that are black already, and marks them in `black`.
+    pub(super) fn sweep(&mut self, black: &mut Bitmap) {
+        black.reset(self.width, self.height);
+        let half = Half::of(self.down);
+        for y in 0..self.height {
+            self.saturate(y, 0..self.words_per_row, half);
+            let samples = self.pixel_rows(y);
+            let row = black.row_mut(y);
+            for word in 0..self.words_per_row {
+                row[word / 8] |= half.black(y, counts(samples, self.words_per_row, word)) << (word % 8 * 8);
+            }
+        }
+        mask_beyond(black);
     }
 
     /// Writes the pixels of a part of row `y` to `out`, a row of pixels, and clears their samples.
@@ -346,19 +383,15 @@ fn fixed(v: f32) -> i32 {
     (v + SHIFT).to_bits().wrapping_sub(SHIFT.to_bits()) as i32
 }
 
-fn set_span(words: &mut [u64], from: usize, to: usize) {
-    if from >= to {
-        return;
-    }
-    let (first, last) = (from / 64, (to - 1) / 64);
-    let (head, tail) = (u64::MAX << (from % 64), u64::MAX >> (63 - (to - 1) % 64));
-    if first == last {
-        words[first] |= head & tail;
-    } else {
-        words[first] |= head;
-        words[first + 1..last].fill(u64::MAX);
-        words[last] |= tail;
-    }
+/// Of each bit whether an odd number is set of it and those below.
+#[inline]
+const fn parities(bits: u64) -> u64 {
+    let bits = bits ^ bits << 1;
+    let bits = bits ^ bits << 2;
+    let bits = bits ^ bits << 4;
+    let bits = bits ^ bits << 8;
+    let bits = bits ^ bits << 16;
+    bits ^ bits << 32
 }
 
 /// Clears the bits beyond the width.

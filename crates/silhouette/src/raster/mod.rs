@@ -61,7 +61,12 @@ pub fn silhouette(tree: &Tree, view: View, size: u32) -> Bitmap {
 pub struct Rasterizer {
     /// How finely pixels are sampled.
     pub detail: Detail,
+    /// Whether pixels that are black are not looked at any more: the same pictures, sooner where crowns are dense,
+    /// but without a meaning of [`Rasterizer::coverage`].
+    pub saturates: bool,
     grid: Grid,
+    /// Pixels that are black, of trees with many leaves.
+    black: Bitmap,
     outlines: Outlines,
 }
 
@@ -76,6 +81,12 @@ impl Rasterizer {
     #[must_use]
     pub fn with_detail(detail: Detail) -> Self {
         Self { detail, ..Self::default() }
+    }
+
+    /// A rasteriser for pictures of which nobody asks the coverage.
+    #[must_use]
+    pub fn saturating(detail: Detail) -> Self {
+        Self { detail, saturates: true, ..Self::default() }
     }
 
     /// Draws `parts` of `tree` into `out`, which takes the frame's size. Allocates nothing once its
@@ -123,17 +134,43 @@ impl Rasterizer {
         }
     }
 
+    /// In several passes over all of the crown where it has many leaves: after each of them the pixels are marked
+    /// that are black, so that most leaves of the later ones need only a look.
     fn leaves(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
         let placer = Placer::new(camera, scale);
-        let pixels = camera.pixels_per_meter() as f32;
+        let area = self.grid.area();
+        let passes = if self.saturates && tree.leaves.len() > area / LEAVES_TO_SWEEP { PASSES } else { 1 };
+        let mut drawn = 0;
+        let mut is_swept = false;
+        for pass in 0..passes {
+            if pass > 0 && drawn * DRAWN_TO_SWEEP > area {
+                self.grid.sweep(&mut self.black);
+                (drawn, is_swept) = (0, true);
+            }
+            drawn += self.every_so_many_leaves(tree, &placer, (pass, passes), is_swept);
+        }
+    }
+
+    /// Draws the leaves at `first`, and every `step` from there on; returns how many were drawn. Those are not that
+    /// lie where all is black, of samples or, after a sweep, of pixels.
+    fn every_so_many_leaves(
+        &mut self,
+        tree: &Tree,
+        placer: &Placer<'_>,
+        (first, step): (usize, usize),
+        is_swept: bool,
+    ) -> usize {
+        let pixels = placer.camera.pixels_per_meter() as f32;
+        let down = 1.0 / placer.scale.y;
         let mut corners = [[0.0; 2]; Outline::MAX_CORNERS];
+        let mut drawn = 0;
         for run in tree.leaves.chunk_by(outline::look_alike) {
             let leaf = &run[0];
             let size = [leaf.across.length() * pixels, leaf.along.length() * pixels];
             let Blade { outline, half_width, lowest, highest } =
                 self.outlines.get(tree.outline_of(leaf), size);
             let corners = &mut corners[..outline.len()];
-            for leaf in run {
+            for leaf in run.iter().skip(first).step_by(step) {
                 let Some([at, across, along]) = placer.place(leaf) else { continue };
                 // Most leaves of a dense crown lie before or behind others.
                 let reach = |axis: usize| {
@@ -142,7 +179,16 @@ impl Rasterizer {
                     (at[axis] + low.min(high) - side, at[axis] + low.max(high) + side)
                 };
                 let ((left, right), (top, bottom)) = (reach(0), reach(1));
-                if self.grid.is_covered(left, right, top, bottom) {
+                let is_hidden = if is_swept {
+                    is_black(
+                        &self.black,
+                        [left, right].map(|x| x / ACROSS as f32),
+                        [top, bottom].map(|y| y * down),
+                    )
+                } else {
+                    self.grid.is_covered(left, right, top, bottom)
+                };
+                if is_hidden {
                     continue;
                 }
                 for (corner, p) in corners.iter_mut().zip(outline) {
@@ -152,8 +198,10 @@ impl Rasterizer {
                     ];
                 }
                 self.grid.fill(corners);
+                drawn += 1;
             }
         }
+        drawn
     }
 
     fn blossoms(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
@@ -193,6 +241,30 @@ impl Rasterizer {
             }
         }
     }
+}
+
+/// A crown is drawn in so many passes if it has more than one leaf for so many pixels.
+const PASSES: usize = 8;
+const LEAVES_TO_SWEEP: usize = 16;
+/// Black pixels are marked once so many have been drawn: one for this many pixels.
+const DRAWN_TO_SWEEP: usize = 100;
+
+/// Whether all pixels of a box are black, which reaches over no more than 64 columns and no edge.
+#[inline]
+fn is_black(black: &Bitmap, [left, right]: [f32; 2], [top, bottom]: [f32; 2]) -> bool {
+    let (width, height) = (black.width() as f32, black.height() as f32);
+    // Also false where a number is none.
+    if !(left >= 0.0 && right < width && top >= 0.0 && bottom < height && right - left < 63.0) {
+        return false;
+    }
+    let (first, last) = (left as usize, right as usize);
+    let (word, shift) = (first / 64, first % 64);
+    let mask = u64::MAX >> (63 - (last - first));
+    let (low, high) = (mask << shift, if shift == 0 { 0 } else { mask >> (64 - shift) });
+    (top as u32..=bottom as u32).all(|y| {
+        let row = black.row(y);
+        row[word] & low == low && (high == 0 || row[word + 1] & high == high)
+    })
 }
 
 /// Every how many leaves one is measured for the mean thickness: an estimate is enough.

@@ -76,6 +76,11 @@ fn quad(grid: &mut Grid, scale: Vec2, from: &Rib, to: &Rib) {
 /// The cross-section at `t`, an ellipse where the stem points at the viewer or away.
 fn cap(grid: &mut Grid, camera: &Camera, scale: Vec2, piece: &Cubic, t: f64, radius: f64) {
     const CORNERS: usize = 16;
+    // Most stems are thinner than this, and need no more than a look.
+    let widest = radius * camera.pixels_per_meter();
+    if camera.is_orthographic() && widest < 0.99 * f64::from(MIN_CAP) {
+        return;
+    }
     let Some(tangent) = piece.derivative(t).try_normalize() else { return };
     let Some(rib) = rib(camera, piece, t, radius, tangent) else { return };
     let wide = rib.side.length();
