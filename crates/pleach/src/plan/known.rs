@@ -9,8 +9,9 @@ use std::sync::atomic::AtomicBool;
 /// Made by `cargo run --release -p pleach --example draw_known_species`.
 static DRAWINGS: &[u8] = include_bytes!("known.bin");
 
-/// A library of first guesses that knows how the species of the usual generator look: it grows only where a goal
-/// was taken from elsewhere than the front, is compared at above 256 pixels, or `--tree-seed` is not the usual one.
+/// A library of first guesses that knows how the species of the usual generator look: it grows them only for goals
+/// that were taken from elsewhere than the front or are not compared at 129 to 256 pixels, and where seeds are not
+/// the usual ones.
 ///
 /// # Panics
 /// If the drawings that are built in are not of this version, which a test rules out.
