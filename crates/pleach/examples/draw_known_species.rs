@@ -3,6 +3,8 @@
 //! `cargo run --release -p pleach --example draw_known_species`, whenever a species, its generator, the rasteriser,
 //! or what a first guess compares has changed; a test says so.
 
+#![allow(clippy::print_stdout, reason = "a command")]
+
 use pleach::plan::{Origin, draw, plan, usual_start};
 use pleach::{FitSettings, GeneratorChoice};
 use std::path::Path;
