@@ -3,7 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use pleach::plan::{Origin, draw, library, plan, usual_start};
-use pleach::{Drawings, FitSettings, GeneratorChoice, Species};
+use pleach::{
+    Bitmap, Candidate, Drawings, FitProblem, FitSettings, Frame, GeneratorChoice, GoalView, GuessLibrary,
+    GuessSettings, Parts, Rasterizer, Species, View,
+};
+use std::sync::atomic::AtomicBool;
 
 /// The species that a first guess compares with by default.
 fn known() -> Vec<Species> {
@@ -39,6 +43,26 @@ fn drawings_of_another_tree_are_not_among_them() {
     let built_in = library().drawings().unwrap().clone();
     assert!(drawings([aspen]).are_within(&built_in));
     assert!(!drawings([other]).are_within(&built_in));
+}
+
+/// What is drawn beforehand spares growing and changes nothing.
+#[test]
+fn a_first_guess_is_the_same_bits_with_drawings_and_without() {
+    let species = pleach::species("palm").unwrap();
+    let tree = species.grow(7).unwrap();
+    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 256, 256);
+    let mut goal = Bitmap::default();
+    Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
+    let problem = FitProblem::new(species, GoalView::new(goal, View::FRONT, frame));
+    let candidates: Vec<Candidate> = known().into_iter().map(Candidate::from).collect();
+    let how = GuessSettings { detect_leaves: true, ..GuessSettings::default() };
+    let guess = |mut library: GuessLibrary| {
+        let stop = AtomicBool::new(false);
+        library.first_guess(&problem, &FitSettings::default(), &candidates, &how, &stop, |_, _| ()).unwrap()
+    };
+    let (with, without) = (guess(library()), guess(GuessLibrary::new()));
+    assert_eq!(with.names[0].0, "palm");
+    assert_eq!(format!("{with:?}"), format!("{without:?}"));
 }
 
 #[test]

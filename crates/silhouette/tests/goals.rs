@@ -1,7 +1,7 @@
 //! The goals in `targets/`: they load, and stand where they were put.
 
 use pleach_silhouette::Bitmap;
-use pleach_silhouette::goal::{Goal, GoalOptions};
+use pleach_silhouette::goal::{Goal, GoalOptions, GoalWarning};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -113,6 +113,8 @@ fn wrong_pixels_all_over_a_goal_hardly_matter() {
             clean.bitmap.get(x, y) != (random >> 33).is_multiple_of(50)
         });
         let read = Goal::from_ink(spoilt, &GoalOptions::default()).unwrap();
+        let is_noise = |warning: &GoalWarning| matches!(warning, GoalWarning::Noise { .. });
+        assert!(read.warnings.iter().any(is_noise), "{name}: {:?}", read.warnings);
         let shared = read.bitmap.intersection(&clean.bitmap);
         let iou = shared as f64 / (read.bitmap.ink() + clean.bitmap.ink() - shared) as f64;
         let moved = [

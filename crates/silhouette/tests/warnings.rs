@@ -87,6 +87,26 @@ fn nothing_is_said_about_good_goals() {
 }
 
 #[test]
+fn noise_is_heard_in_every_goal() {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
+    for folder in ["targets", "tests/data/silhouettes"] {
+        for entry in root.join(folder).read_dir().unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_none_or(|e| e != "png") {
+                continue;
+            }
+            let clean = Goal::load(&path, &GoalOptions::default()).unwrap().bitmap;
+            for part in [0.02, 0.01] {
+                let spoilt = Bitmap::from_fn(clean.width(), clean.height(), |x, y| {
+                    clean.get(x, y) != (chance(x, y) < part)
+                });
+                assert!(said(spoilt).contains(&"noise"), "{}: {part} of all pixels", path.display());
+            }
+        }
+    }
+}
+
+#[test]
 fn a_crown_that_is_cut_off_names_the_sides() {
     let whole = drawn("black_oak", 0.9);
     let (left, top, right, _) = whole.ink_box().unwrap();

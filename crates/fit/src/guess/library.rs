@@ -27,7 +27,8 @@ const BATCH: usize = 32;
 ///
 /// What is kept does not depend on a goal but for the side from which it was taken and, roughly, its
 /// size in pixels. Where something else is asked for, all is grown again: the answers are the same bits
-/// as those of a fresh library. It takes some 20 MB for the twenty species.
+/// as those of a fresh library. It takes some 16 MB for the twenty species and
+/// goals of 256 pixels.
 #[derive(Debug, Default)]
 pub struct GuessLibrary {
     shelf: Option<(Key, Vec<Entry>)>,

@@ -32,9 +32,10 @@ const DEEPEST: f64 = 0.35;
 const MAX_SPECKS: u64 = 12;
 /// Pixels in the tone that none of their four neighbours has, per pixel, in noise.
 const GRAINY: f64 = 0.025;
-/// Pixels of ink with none around them, per pixel, in noise: bare crowns have 0.0023 at most, and at half their
-/// size up to 0.006.
-const SPECKLED: f64 = 0.006;
+/// Pixels of ink with none within [`APART`] pixels, per pixel, in noise: goals have 0.0012 at most, whole, tightly
+/// cropped, or at half their size; with one pixel in a hundred turned over they have 0.0024 at least.
+const SPECKLED: f64 = 0.0017;
+const APART: u32 = 2;
 /// Ink per convex hull from which on a shape is solid.
 const SOLID: f64 = 0.95;
 /// Rows narrower than this part of the widest are bare trunk.
@@ -58,10 +59,10 @@ pub(crate) fn warnings(ink: &Bitmap) -> Vec<GoalWarning> {
     if let Some(row) = ground {
         found.push(GoalWarning::Ground { row });
     }
-    let lone = shape.lone().0;
-    let is_speckled = lone as f64 > SPECKLED * ink.area() as f64;
+    let lone = shape.lone();
+    let is_speckled = lone.apart as f64 > SPECKLED * ink.area() as f64;
     if specks > MAX_SPECKS || is_speckled || shape.grain() > GRAINY {
-        found.push(GoalWarning::Noise { specks: lone });
+        found.push(GoalWarning::Noise { specks: lone.count });
     }
     let solidity = shape.solidity();
     if solidity > SOLID {
@@ -71,6 +72,16 @@ pub(crate) fn warnings(ink: &Bitmap) -> Vec<GoalWarning> {
         found.push(GoalWarning::UpsideDown);
     }
     found
+}
+
+/// Pixels of ink that touch none.
+#[derive(Default)]
+struct Lone {
+    count: u64,
+    /// Of them, those that are [far](APART) from all other ink.
+    apart: u64,
+    /// Where the first few are.
+    places: Vec<(u32, u32)>,
 }
 
 /// A silhouette with what several questions need.
@@ -165,16 +176,16 @@ impl<'a> Shape<'a> {
         let sizes = pieces::sizes(&cells, &grounds);
         let largest = sizes.first().copied().unwrap_or(0) as f64;
         let similar = sizes.iter().filter(|&&size| size as f64 >= SIMILAR * largest).count();
-        let (_, lone) = self.lone();
+        let lone = self.lone().places;
         let Some(tree) = pieces::piece(&cells, &grounds, None) else { return (similar, 0) };
         let away = lone.iter().filter(|&&(x, y)| !tree.get(x / cell, y / cell)).count();
         (similar, away as u64)
     }
 
-    /// Pixels of ink with no ink among their eight neighbours: how many, and the first few where.
-    fn lone(&self) -> (u64, Vec<(u32, u32)>) {
+    /// Pixels of ink with no ink among their eight neighbours.
+    fn lone(&self) -> Lone {
         const MAX: usize = 4096;
-        let (mut count, mut places) = (0, Vec::new());
+        let mut found = Lone::default();
         let blank = vec![0; self.ink.row(0).len()];
         let row = |y: Option<u32>| match y {
             Some(y) if y < self.ink.height() => self.ink.row(y),
@@ -194,14 +205,25 @@ impl<'a> Shape<'a> {
                     near |= row[i] << 1 | before >> 63 | row[i] >> 1 | after << 63;
                 }
                 let mut lone = here & !near;
-                count += u64::from(lone.count_ones());
-                while lone != 0 && places.len() < MAX {
-                    places.push((i as u32 * 64 + lone.trailing_zeros(), y));
+                while lone != 0 {
+                    let x = i as u32 * 64 + lone.trailing_zeros();
+                    found.count += 1;
+                    found.apart += u64::from(self.is_apart(x, y));
+                    if found.places.len() < MAX {
+                        found.places.push((x, y));
+                    }
                     lone &= lone - 1;
                 }
             }
         }
-        (count, places)
+        found
+    }
+
+    /// Whether a pixel of ink has none within [`APART`] pixels.
+    fn is_apart(&self, x: u32, y: u32) -> bool {
+        let columns = x.saturating_sub(APART)..=(x + APART).min(self.ink.width() - 1);
+        let mut rows = y.saturating_sub(APART)..=(y + APART).min(self.ink.height() - 1);
+        rows.all(|b| columns.clone().all(|a| (a, b) == (x, y) || !self.ink.get(a, b)))
     }
 
     /// Share of pixels, of ink or paper, whose four neighbours are all of the other tone.
