@@ -1,0 +1,20 @@
+// The workers of the rooms. Each starts with its first call.
+import { Client } from "./client";
+import type { Family } from "./protocol";
+
+/** Opens species, changes their values, writes them. */
+export const speciesClient = new Client("the species room");
+/** Grows the tree of the species room, apart from the above: meshes take longer than values. */
+export const treeClient = new Client("the tree");
+export const goalClient = new Client("the goal");
+export const mapClient = new Client("the map");
+
+let all: Promise<{ version: string; families: Family[] }> | undefined;
+
+export function loadCatalogue(): Promise<{ version: string; families: Family[] }> {
+  all ??= speciesClient.call("catalogue", null).catch((error: unknown) => {
+    all = undefined;
+    throw error;
+  });
+  return all;
+}

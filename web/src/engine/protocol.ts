@@ -1,0 +1,245 @@
+// What the page and its workers say to each other: one named operation, its input and its output.
+
+export type SpeciesSource = { readonly builtin: string } | { readonly toml: string; readonly name: string };
+
+/** A species: a source, and the whole list of values where they were changed. */
+export interface Spec {
+  readonly source: SpeciesSource;
+  readonly values: readonly number[] | null;
+}
+
+export interface SpeciesEntry {
+  name: string;
+  description: string;
+  season_names?: string[];
+}
+export interface Family {
+  family: string;
+  species: SpeciesEntry[];
+}
+export interface SpeciesInfo {
+  name: string;
+  description: string;
+  generator: string;
+  tree_seed: number | null;
+  own_draws: number;
+  seasons: string[];
+}
+export type Bound = number | null;
+export interface Slot {
+  slot: string;
+  index: number;
+  range: [Bound, Bound];
+  search: [number, number];
+  plausible: [number, number];
+  log: boolean;
+  default: number;
+}
+export interface Parameter {
+  name: string;
+  group: string;
+  doc: string;
+  source: string;
+  unit: string;
+  kind: "real" | "integer" | "choice";
+  choices: string[];
+  first: number;
+  slots: Slot[];
+}
+export interface OpenedSpecies {
+  info: SpeciesInfo;
+  declared: Parameter[];
+  values: number[];
+  active: boolean[];
+}
+export interface TreeStats {
+  height: number;
+  width: number;
+  stems: number;
+  leaves: number;
+  [more: string]: number;
+}
+export interface Ink {
+  width: number;
+  height: number;
+  ink: Uint8Array<ArrayBuffer>;
+}
+export interface MeshPart {
+  material: string;
+  color: [number, number, number];
+  double_sided: boolean;
+  first: number;
+  count: number;
+}
+export interface MeshData {
+  parts: MeshPart[];
+  positions: Float32Array<ArrayBuffer>;
+  normals: Float32Array<ArrayBuffer>;
+  wind: Float32Array<ArrayBuffer>;
+  colors: Float32Array<ArrayBuffer>;
+  indices: Uint32Array<ArrayBuffer>;
+  stats: TreeStats;
+}
+export interface Picture {
+  size: number;
+  rgba: Uint8Array<ArrayBuffer>;
+  stats: TreeStats;
+}
+export interface GoalInfo {
+  name: string;
+  width: number;
+  height: number;
+  ink: number;
+  masked: boolean;
+  confidence: number | null;
+  ground_row: number;
+  axis_column: number;
+  height_in_pixels: number;
+  warnings: string[];
+}
+export interface GoalData {
+  info: GoalInfo;
+  ink: Uint8Array<ArrayBuffer>;
+  photo: Uint8Array<ArrayBuffer>;
+}
+/** A goal as pixels and the two lines: all that a worker needs to make it again. */
+export interface GoalPixels extends Ink {
+  name: string;
+  ground: number | null;
+  axis: number | null;
+}
+export interface Card {
+  likeness: number;
+  likeness_parts: { mass: number; rim: number; strokes: number; gaps: number };
+  iou: number;
+  ellipse_iou: number;
+  pixel_accuracy: number;
+  empty_accuracy: number;
+  dice: number;
+  boundary_f: number;
+}
+export interface FitOptions {
+  height: number;
+  generator: string;
+  seconds: number | null;
+  evaluations: number | null;
+  seed: number;
+  tree_seed: number | null;
+  leaves: boolean | null;
+  start: string;
+}
+export interface Guess {
+  looks_like: [string, number][];
+  leaves: boolean;
+  species: string;
+}
+export interface FitProgress {
+  evaluations: number;
+  generation: number;
+  cost: number;
+  iou: number;
+  likeness: number;
+  used: number | null;
+  ended: string | null;
+}
+export interface FitStep {
+  pieces: Uint8Array<ArrayBuffer>[];
+  progress: FitProgress;
+  /** The best so far, when it was asked for. */
+  best: Uint8Array<ArrayBuffer> | null;
+}
+export type Seen = "determined" | "loosely" | "not-seen" | "not-tried";
+export interface FitResult {
+  toml: string;
+  name: string;
+  looks_like: [string, number][];
+  evaluations: number;
+  generations: number;
+  seconds: number;
+  stop: string;
+  card: Card;
+  verdict: string | null;
+  fresh: { likeness: { mean: number; sd: number }; iou: { mean: number; sd: number }; count: number } | null;
+  references: { what: string; likeness: number; iou: number }[] | null;
+  parameters: { slot: string; value: number; seen: Seen }[];
+  history: { evaluations: number[]; iou: number[]; likeness: number[]; cost: number[] };
+}
+export type Layout = "numbers" | "looks";
+export interface Plane {
+  dots: { name: string; x: number; y: number }[];
+  hull: [number, number][];
+  box: [number, number, number, number];
+  explained: number[];
+  axes: string[][];
+  switches: { parameter: string; lines: [[number, number], [number, number]][] }[];
+}
+export interface PointAbout {
+  weights: [string, number][];
+  outside: number;
+  toml_comments: string[];
+}
+interface At {
+  layout: Layout;
+  x: number;
+  y: number;
+}
+
+/** Every operation: what goes in, what comes out. */
+export interface Ops {
+  catalogue: { in: null; out: { version: string; families: Family[] } };
+  open: { in: Spec; out: OpenedSpecies };
+  active: { in: Spec; out: boolean[] };
+  dice: { in: { spec: Spec; seed: number; locked: Uint8Array; strength: number }; out: number[] };
+  toml: { in: { spec: Spec; name: string | null; treeSeed: number | null }; out: string };
+  silhouette: {
+    in: { spec: Spec; seed: number; size: number; coarse: boolean };
+    out: Ink & { stats: TreeStats };
+  };
+  mesh: { in: { spec: Spec; seed: number; season: string; leaves: string; level: number }; out: MeshData };
+  picture: {
+    in: { spec: Spec; seed: number; season: string; size: number; azimuth: number; elevation: number };
+    out: Picture;
+  };
+  export: {
+    in: {
+      spec: Spec;
+      seed: number;
+      format: string;
+      season: string;
+      leaves: string;
+      levels: number;
+      wind: boolean;
+    };
+    out: Uint8Array<ArrayBuffer>;
+  };
+  goalRead: { in: { name: string; bytes: Uint8Array; mask: "auto" | "off" }; out: GoalData };
+  goalCheck: { in: GoalPixels; out: GoalInfo };
+  mapPlane: { in: Layout; out: Plane };
+  mapTree: { in: At & { size: number; coarse: boolean }; out: Ink };
+  mapAbout: { in: At; out: PointAbout };
+  mapToml: { in: At & { name: string }; out: string };
+  fitGuess: { in: { goal: GoalPixels; options: FitOptions; drawings: Uint8Array | null }; out: Guess };
+  fitRecipe: { in: null; out: Uint8Array<ArrayBuffer> };
+  fitStep: {
+    in: { scores: Uint8Array[] | null; parts: number; elapsed: number; best: boolean };
+    out: FitStep;
+  };
+  fitBest: { in: null; out: { toml: string; ink: Uint8Array<ArrayBuffer> } };
+  fitFinish: { in: null; out: FitResult & { ink: Uint8Array<ArrayBuffer> } };
+  evaluator: { in: Uint8Array; out: null };
+  evaluate: { in: Uint8Array; out: Uint8Array<ArrayBuffer> };
+}
+export type Op = keyof Ops;
+
+export type Progress = { stage: string; done?: number; all?: number };
+
+export interface Request<K extends Op = Op> {
+  id: number;
+  op: K;
+  input: Ops[K]["in"];
+}
+export type ToWorker = { module: WebAssembly.Module } | Request;
+export type FromWorker =
+  | { kind: "done"; id: number; value: unknown; ms: number }
+  | { kind: "failed"; id: number; message: string; fatal: boolean }
+  | { kind: "progress"; id: number; progress: Progress };

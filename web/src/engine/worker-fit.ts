@@ -1,0 +1,58 @@
+// Fits. One worker holds the search, others the evaluators that grow and score its trees.
+import { Evaluator, Fit } from "../wasm/pleach_web.js";
+import type { FitProgress, FitResult, Guess } from "./protocol";
+import type { Handlers } from "./worker";
+import { makeGoal } from "./worker-goal";
+
+let fit: Fit | undefined;
+let evaluator: Evaluator | undefined;
+
+function running(): Fit {
+  if (!fit) throw new Error("No fit has been started in this worker.");
+  return fit;
+}
+
+export const fitHandlers: Handlers<
+  "fitGuess" | "fitRecipe" | "fitStep" | "fitBest" | "fitFinish" | "evaluator" | "evaluate"
+> = {
+  fitGuess({ goal, options, drawings }, report) {
+    const made = makeGoal(goal);
+    fit?.free();
+    fit = new Fit(made, JSON.stringify(options));
+    if (drawings) fit.use_drawings(drawings);
+    const said = fit.guess((done: number, all: number) => report({ stage: "looking for kin", done, all }));
+    return JSON.parse(said) as Guess;
+  },
+
+  fitRecipe: () => running().recipe().slice(),
+
+  fitStep({ scores, parts, elapsed, best }) {
+    const search = running();
+    if (scores) search.tell(scores, elapsed);
+    const pieces = search.ask(parts, elapsed).map((piece) => piece.slice());
+    return {
+      pieces,
+      progress: JSON.parse(search.progress()) as FitProgress,
+      best: best ? search.best_silhouette().slice() : null,
+    };
+  },
+
+  fitBest: () => ({ toml: running().best_toml(), ink: running().best_silhouette().slice() }),
+
+  fitFinish(_, report) {
+    const search = running();
+    const result = JSON.parse(search.finish((stage: string) => report({ stage }))) as FitResult;
+    return { ...result, ink: search.best_silhouette().slice() };
+  },
+
+  evaluator(recipe) {
+    evaluator?.free();
+    evaluator = new Evaluator(recipe);
+    return null;
+  },
+
+  evaluate(batch) {
+    if (!evaluator) throw new Error("This worker holds no evaluator.");
+    return evaluator.score(batch).slice();
+  },
+};

@@ -1,0 +1,31 @@
+// Goals: reading pictures, and checking a mask that was painted.
+import { Goal } from "../wasm/pleach_web.js";
+import type { GoalInfo, GoalPixels } from "./protocol";
+import type { Handlers } from "./worker";
+
+const info = (goal: Goal) => JSON.parse(goal.info()) as GoalInfo;
+
+/** The goal of these pixels and lines. The caller frees it. */
+export function makeGoal(pixels: GoalPixels): Goal {
+  const plain = Goal.from_pixels(pixels.name, pixels.width, pixels.height, pixels.ink);
+  if (pixels.ground === null && pixels.axis === null) return plain;
+  const lined = plain.with_ground(pixels.ground ?? undefined, pixels.axis ?? undefined);
+  plain.free();
+  return lined;
+}
+
+export const goalHandlers: Handlers<"goalRead" | "goalCheck"> = {
+  goalRead({ name, bytes, mask }) {
+    const goal = Goal.read(name, bytes, JSON.stringify({ mask }));
+    const out = { info: info(goal), ink: goal.pixels().slice(), photo: goal.photo().slice() };
+    goal.free();
+    return out;
+  },
+
+  goalCheck(pixels) {
+    const goal = makeGoal(pixels);
+    const out = info(goal);
+    goal.free();
+    return out;
+  },
+};

@@ -1,0 +1,120 @@
+// Species and trees: opening, changing, growing, drawing, exporting.
+import { catalogue, Species, type Tree, version } from "../wasm/pleach_web.js";
+import { Cache } from "./cache";
+import type {
+  Family,
+  MeshPart,
+  OpenedSpecies,
+  Parameter,
+  Spec,
+  SpeciesInfo,
+  SpeciesSource,
+  TreeStats,
+} from "./protocol";
+import type { Handlers } from "./worker";
+
+// Handles on wasm memory: freed when they leave the cache.
+const sources = new Cache<Species>(12, (species) => species.free());
+const variants = new Cache<Species>(12, (species) => species.free());
+const trees = new Cache<Tree>(3, (tree) => tree.free());
+
+function sourceKey(source: SpeciesSource): string {
+  return "builtin" in source ? source.builtin : `\n${source.name}\n${source.toml}`;
+}
+
+function specKey(spec: Spec): string {
+  return spec.values ? `${sourceKey(spec.source)}\n${spec.values.join()}` : sourceKey(spec.source);
+}
+
+function openSource(source: SpeciesSource): Species {
+  return sources.get(sourceKey(source), () =>
+    "builtin" in source ? Species.named(source.builtin) : Species.read(source.toml, source.name),
+  );
+}
+
+function species(spec: Spec): Species {
+  const { values } = spec;
+  if (!values) return openSource(spec.source);
+  return variants.get(specKey(spec), () => openSource(spec.source).with_values(Float64Array.from(values)));
+}
+
+const LEAFY = true;
+
+function grow(spec: Spec, seed: number): Tree {
+  return trees.get(`${seed}\n${specKey(spec)}`, () => species(spec).grow(seed, LEAFY));
+}
+
+const stats = (tree: Tree) => JSON.parse(tree.stats()) as TreeStats;
+
+const flags = (list: Uint8Array) => Array.from(list, (flag) => flag !== 0);
+
+export const speciesHandlers: Handlers<
+  "catalogue" | "open" | "active" | "dice" | "toml" | "silhouette" | "mesh" | "picture" | "export"
+> = {
+  catalogue: () => ({ version: version(), families: JSON.parse(catalogue()) as Family[] }),
+
+  open(spec): OpenedSpecies {
+    const opened = species(spec);
+    return {
+      info: JSON.parse(opened.info()) as SpeciesInfo,
+      declared: JSON.parse(opened.declared()) as Parameter[],
+      values: Array.from(opened.values()),
+      active: flags(opened.active()),
+    };
+  },
+
+  active: (spec) => flags(species(spec).active()),
+
+  dice({ spec, seed, locked, strength }) {
+    const thrown = species(spec).dice(seed, locked, strength);
+    const values = Array.from(thrown.values());
+    thrown.free();
+    return values;
+  },
+
+  toml({ spec, name, treeSeed }) {
+    let written = species(spec);
+    const made: Species[] = [];
+    if (treeSeed !== null) {
+      written = written.with_tree_seed(treeSeed);
+      made.push(written);
+    }
+    if (name !== null) {
+      written = written.named_as(name);
+      made.push(written);
+    }
+    const text = written.to_toml();
+    for (const each of made) each.free();
+    return text;
+  },
+
+  silhouette({ spec, seed, size, coarse }) {
+    const tree = grow(spec, seed);
+    const ink = coarse ? tree.coarse_silhouette(size) : tree.silhouette(size, 0, 0);
+    return { width: size, height: size, ink: ink.slice(), stats: stats(tree) };
+  },
+
+  mesh({ spec, seed, season, leaves, level }) {
+    const tree = grow(spec, seed);
+    const mesh = tree.mesh(season, leaves, level);
+    const out = {
+      parts: JSON.parse(mesh.parts()) as MeshPart[],
+      positions: mesh.positions().slice(),
+      normals: mesh.normals().slice(),
+      wind: mesh.wind().slice(),
+      colors: mesh.colors().slice(),
+      indices: mesh.indices().slice(),
+      stats: stats(tree),
+    };
+    mesh.free();
+    return out;
+  },
+
+  picture({ spec, seed, season, size, azimuth, elevation }) {
+    const tree = grow(spec, seed);
+    return { size, rgba: tree.picture(size, season, azimuth, elevation).slice(), stats: stats(tree) };
+  },
+
+  export: ({ spec, seed, format, season, leaves, levels, wind }) =>
+    grow(spec, seed).export(format, season, leaves, levels, wind).slice(),
+};

@@ -1,0 +1,35 @@
+import { render } from "preact";
+import "./styles/tokens.css";
+import "./styles/base.css";
+import "./styles/controls.css";
+import "./styles/frame.css";
+import "./styles/fit.css";
+import "./styles/map.css";
+import "./styles/species.css";
+import "./styles/gallery.css";
+import { App } from "./app";
+import { reportDeaths } from "./engine/client";
+import { wasmModule } from "./engine/module";
+import { fitLink, restoreFit } from "./rooms/fit/autosave";
+import { mapLink } from "./rooms/map/map-state";
+import { say, sayError } from "./state/notes";
+import { register, startRouting } from "./state/route";
+import { speciesLink } from "./state/species-link";
+
+// The library loads while the page is drawn.
+wasmModule().catch(sayError);
+reportDeaths((what, message) =>
+  say(`The worker of ${what} stopped (${message}). A new one was started.`, "error"),
+);
+register(speciesLink);
+register(mapLink);
+register(fitLink);
+
+const root = document.getElementById("app");
+if (root) {
+  await restoreFit().catch(sayError);
+  // Sets the room at once; what a link holds follows when the library has read it.
+  const routing = startRouting();
+  render(<App />, root);
+  await routing;
+}

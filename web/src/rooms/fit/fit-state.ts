@@ -1,0 +1,143 @@
+// The running fit and its result.
+import { computed, signal } from "@preact/signals";
+import type { FitProgress, FitResult, Guess } from "../../engine/protocol";
+import { FitSession } from "../../engine/session";
+import { announce, sentence } from "../../state/notes";
+import { goalPixels, treeHeight } from "./goal-state";
+
+export type Phase = "idle" | "guessing" | "searching" | "paused" | "judging" | "done";
+
+export const phase = signal<Phase>("idle");
+export const stage = signal<{ text: string; share: number | null }>({ text: "", share: null });
+export const guess = signal<Guess | null>(null);
+export const progress = signal<FitProgress | null>(null);
+export const elapsed = signal(0);
+export const failure = signal<string | null>(null);
+export const result = signal<FitResult | null>(null);
+
+/** The best tree so far, in the goal's frame. */
+export interface Best {
+  ink: Uint8Array<ArrayBuffer>;
+  width: number;
+  height: number;
+  /** The goal that it was fitted to, which may be painted over since. */
+  goal: Uint8Array<ArrayBuffer>;
+}
+export const best = signal<Best | null>(null);
+
+export interface CurvePoint {
+  seconds: number;
+  likeness: number;
+  iou: number;
+}
+export const curve = signal<readonly CurvePoint[]>([]);
+
+export const seconds = signal(30);
+export const generator = signal("weber-penn");
+export const leafiness = signal<"auto" | "leafy" | "bare">("auto");
+
+export const running = computed(() => !["idle", "done"].includes(phase.value));
+export const rate = computed(() => {
+  const count = progress.value?.evaluations ?? 0;
+  return elapsed.value > 0.5 ? count / elapsed.value : null;
+});
+
+let session: FitSession | null = null;
+
+/** Points on the curve: more than a screen shows would cost time and say nothing. */
+const MAX_POINTS = 400;
+
+function addPoint(point: CurvePoint): void {
+  const points = curve.peek();
+  const last = points.at(-1);
+  if (last && point.seconds - last.seconds < Math.max(0.1, point.seconds / MAX_POINTS)) return;
+  curve.value = [...points, point];
+}
+
+const LEAVES = { auto: null, leafy: true, bare: false } as const;
+
+export async function startFit(): Promise<void> {
+  const goal = goalPixels();
+  if (!goal || running.peek()) return;
+  const { width, height } = goal;
+  const options = {
+    height: treeHeight.peek(),
+    generator: generator.peek(),
+    seconds: seconds.peek(),
+    evaluations: null,
+    seed: 1,
+    tree_seed: null,
+    leaves: LEAVES[leafiness.peek()],
+    start: "guess",
+  };
+  // On a telephone the pictures are above the button.
+  document.getElementById("room")?.scrollTo({ top: 0, behavior: "smooth" });
+  phase.value = "guessing";
+  failure.value = null;
+  guess.value = null;
+  progress.value = null;
+  elapsed.value = 0;
+  curve.value = [];
+  const keptBest = best.peek();
+  const keptResult = result.peek();
+  let said = 0;
+  session = new FitSession(goal, options, {
+    stage(now) {
+      const share = now.done !== undefined && now.all ? now.done / now.all : null;
+      stage.value = { text: now.stage, share };
+      if (phase.peek() === "searching") phase.value = "judging";
+    },
+    guessed(said) {
+      guess.value = said;
+      result.value = null;
+      best.value = null;
+      phase.value = "searching";
+      announce("The search begins");
+    },
+    step(now, time, ink) {
+      progress.value = now;
+      elapsed.value = time;
+      if (now.evaluations > 0) addPoint({ seconds: time, likeness: now.likeness, iou: now.iou });
+      if (ink) best.value = { ink, width, height, goal: goal.ink };
+      // Screen readers hear of it now and then, not forty times a second.
+      if (time - said > 10) {
+        said = time;
+        announce(`${Math.round(time)} seconds, likeness ${now.likeness.toFixed(2)}`);
+      }
+    },
+  });
+  try {
+    const { ink, ...finished } = await session.run();
+    best.value = { ink, width, height, goal: goal.ink };
+    result.value = finished;
+    phase.value = "done";
+    announce(`The fit has ended with likeness ${finished.card.likeness.toFixed(2)}`);
+  } catch (error) {
+    failure.value = sentence(error);
+    best.value ??= keptBest;
+    result.value ??= keptResult;
+    phase.value = result.peek() ? "done" : "idle";
+  } finally {
+    session = null;
+  }
+}
+
+export function pauseFit(): void {
+  session?.pause();
+  phase.value = "paused";
+}
+
+export function resumeFit(): void {
+  session?.resume();
+  phase.value = "searching";
+}
+
+/** Ends the search; the best so far is judged. */
+export function stopFit(): void {
+  if (phase.peek() === "guessing" || phase.peek() === "judging") {
+    session?.cancel();
+    return;
+  }
+  phase.value = "searching";
+  session?.stop();
+}

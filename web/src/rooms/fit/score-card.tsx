@@ -1,0 +1,130 @@
+// The score card in words.
+import type { ComponentChildren, JSX } from "preact";
+import type { Card, FitResult } from "../../engine/protocol";
+import { result } from "./fit-state";
+
+/** Medians over fifteen species, from the library's documents: two seeds of a species, two species. */
+const SAME_SPECIES = 0.77;
+const OTHER_SPECIES = 0.44;
+
+function meaning(likeness: number): string {
+  if (likeness >= 0.9) return "Very like the goal: closer than two trees of one species usually are.";
+  if (likeness >= SAME_SPECIES) return "Like the goal as two trees of one species are.";
+  if (likeness >= 0.6) return "A relative: the habit is right, some of the parts are not.";
+  if (likeness >= OTHER_SPECIES) return "Only as like as trees of two species are.";
+  return "Unlike the goal: check its mask, its ground and its height, or search longer.";
+}
+
+const percent = (share: number) => `${(100 * share).toFixed(1)} %`;
+
+const PARTS: readonly { key: keyof Card["likeness_parts"]; label: string; what: string }[] = [
+  { key: "mass", label: "Mass", what: "how much ink stands where" },
+  { key: "rim", label: "Rim", what: "how ragged the outline is" },
+  { key: "strokes", label: "Strokes", what: "how thick stems and tufts are" },
+  { key: "gaps", label: "Gaps", what: "how large the holes are" },
+];
+
+function Row({
+  name,
+  value,
+  children,
+}: {
+  name: string;
+  value: string;
+  children: ComponentChildren;
+}): JSX.Element {
+  return (
+    <div class="scorerow">
+      <dt>{name}</dt>
+      <dd>
+        <strong>{value}</strong>
+        <span>{children}</span>
+      </dd>
+    </div>
+  );
+}
+
+function Fresh({ fresh }: { fresh: FitResult["fresh"] }): JSX.Element | null {
+  if (!fresh) return null;
+  return (
+    <Row name="Other seeds" value={`${fresh.likeness.mean.toFixed(2)} ± ${fresh.likeness.sd.toFixed(2)}`}>
+      likeness of {fresh.count} more trees of this species: what you get when you grow it.
+    </Row>
+  );
+}
+
+function References({ references }: { references: FitResult["references"] }): JSX.Element | null {
+  if (!references || references.length === 0) return null;
+  return (
+    <>
+      <h4>For this goal, about</h4>
+      <table class="references">
+        <thead>
+          <tr>
+            <th scope="col">Picture</th>
+            <th scope="col">Likeness</th>
+            <th scope="col">IoU</th>
+          </tr>
+        </thead>
+        <tbody>
+          {references.map((each) => (
+            <tr key={each.what}>
+              <th scope="row">{each.what}</th>
+              <td>{each.likeness.toFixed(2)}</td>
+              <td>{each.iou.toFixed(2)}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </>
+  );
+}
+
+export function ScoreCard(): JSX.Element | null {
+  const fit = result.value;
+  if (!fit) return null;
+  const { card } = fit;
+  return (
+    <section class="card score" aria-label="Score card" data-testid="score">
+      <header>
+        <p class="big">{card.likeness.toFixed(2)}</p>
+        <div>
+          <h3>Likeness</h3>
+          <p>{meaning(card.likeness)}</p>
+        </div>
+      </header>
+      <p class="hint">
+        1 is the same picture. Two trees of one species have about {SAME_SPECIES}, trees of two species about{" "}
+        {OTHER_SPECIES}.
+      </p>
+      <dl class="parts">
+        {PARTS.map(({ key, label, what }) => (
+          <div key={key}>
+            <dt>
+              {label} <span>{what}</span>
+            </dt>
+            <dd>
+              <meter min={0} max={1} value={card.likeness_parts[key]} aria-label={`${label}, ${what}`} />
+              {card.likeness_parts[key].toFixed(2)}
+            </dd>
+          </div>
+        ))}
+      </dl>
+      <dl class="scores">
+        <Row name="IoU" value={card.iou.toFixed(2)}>
+          the ink that both have over the ink that either has. The best ellipse has{" "}
+          {card.ellipse_iou.toFixed(2)}.
+        </Row>
+        <Row name="Pixels right" value={percent(card.pixel_accuracy)}>
+          an empty picture has {percent(card.empty_accuracy)}.
+        </Row>
+        <Row name="Outline" value={card.boundary_f.toFixed(2)}>
+          how well the outlines meet, 1 is best.
+        </Row>
+        <Fresh fresh={fit.fresh} />
+      </dl>
+      {fit.verdict && <p class="verdict">{fit.verdict}</p>}
+      <References references={fit.references} />
+    </section>
+  );
+}

@@ -1,0 +1,71 @@
+// The three pictures of a fit: goal, best tree so far, and both over each other.
+import { useSignalEffect } from "@preact/signals";
+import type { JSX } from "preact";
+import { useRef } from "preact/hooks";
+import { BOTH, inkImage, overlayImage, show } from "../../ui/ink";
+import { best, progress, result } from "./fit-state";
+import { GoalEditor } from "./goal-editor";
+
+function Best(): JSX.Element {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useSignalEffect(() => {
+    const now = best.value;
+    if (now && canvas.current) show(canvas.current, inkImage(now.ink, now.width, now.height, BOTH));
+  });
+  return <canvas ref={canvas} role="img" aria-label={`Best tree so far. ${scoreText()}`} />;
+}
+
+function Overlay(): JSX.Element {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useSignalEffect(() => {
+    const now = best.value;
+    if (now && canvas.current) show(canvas.current, overlayImage(now.goal, now.ink, now.width, now.height));
+  });
+  return (
+    <canvas
+      ref={canvas}
+      role="img"
+      data-testid="overlay"
+      aria-label={`Goal in blue and tree in orange over each other, dark where both are. ${scoreText()}`}
+    />
+  );
+}
+
+function scoreText(): string {
+  const card = result.value?.card ?? progress.value;
+  return card ? `Likeness ${card.likeness.toFixed(2)}, IoU ${card.iou.toFixed(2)}.` : "";
+}
+
+export function Tiles(): JSX.Element {
+  const now = best.value;
+  return (
+    <div class={`tiles${now ? " three" : ""}`}>
+      <figure class="tile goal">
+        <div class="paper">
+          <GoalEditor />
+        </div>
+        <figcaption>Goal</figcaption>
+      </figure>
+      {now && (
+        <>
+          <figure class="tile">
+            <div class="paper">
+              <Overlay />
+            </div>
+            <figcaption>
+              <span class="swatch goal">goal only</span>
+              <span class="swatch tree">tree only</span>
+              <span class="swatch both">both</span>
+            </figcaption>
+          </figure>
+          <figure class="tile">
+            <div class="paper">
+              <Best />
+            </div>
+            <figcaption>{result.value ? "Best tree" : "Best tree so far"}</figcaption>
+          </figure>
+        </>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,63 @@
+// The species by name: the user's own, then all built-in ones by family.
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+import { loadCatalogue } from "../../engine/clients";
+import type { Family } from "../../engine/protocol";
+import { mySpecies } from "../../state/library";
+import { sayError } from "../../state/notes";
+import { recipes, speciesName, startOrSay } from "../../state/species";
+import { Field } from "../../ui/controls";
+
+/** The value of the entry for a species that is in no list. */
+const OTHER = "other:";
+
+export function Picker(): JSX.Element {
+  const families = useSignal<readonly Family[]>([]);
+  useEffect(() => {
+    loadCatalogue()
+      .then((all) => {
+        families.value = all.families;
+      })
+      .catch(sayError);
+  }, [families]);
+  const { source } = recipes.value;
+  const own = "toml" in source ? mySpecies.value.find((kept) => kept.toml === source.toml) : undefined;
+  const value = "builtin" in source ? `built:${source.builtin}` : own ? `mine:${own.id}` : OTHER;
+  const pick = (picked: string) => {
+    const [kind, key = ""] = picked.split(":", 2);
+    const kept = mySpecies.peek().find((each) => each.id === key);
+    if (kind === "built") void startOrSay({ builtin: key });
+    else if (kind === "mine" && kept) void startOrSay({ toml: kept.toml, name: kept.name });
+  };
+  return (
+    <Field label="Start from">
+      <select
+        aria-label="Start from a species"
+        value={value}
+        onChange={(event) => pick(event.currentTarget.value)}
+      >
+        {value === OTHER && <option value={OTHER}>{speciesName.value}</option>}
+        {mySpecies.value.length > 0 && (
+          <optgroup label="My species">
+            {mySpecies.value.map((kept) => (
+              <option key={kept.id} value={`mine:${kept.id}`}>
+                {kept.name.replaceAll("_", " ")}
+              </option>
+            ))}
+          </optgroup>
+        )}
+        {families.value.map(({ family, species }) => (
+          <optgroup key={family} label={family}>
+            {species.map(({ name }) => (
+              <option key={name} value={`built:${name}`}>
+                {name.replaceAll("_", " ")}
+              </option>
+            ))}
+          </optgroup>
+        ))}
+        {families.value.length === 0 && value !== OTHER && <option value={value}>{speciesName.value}</option>}
+      </select>)}
+    </Field>
+  );
+}

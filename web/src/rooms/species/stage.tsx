@@ -1,0 +1,180 @@
+// The canvas of the species room, its name, its keys and what stands on it.
+import { useSignal, useSignalEffect } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import type { TreeStats } from "../../engine/protocol";
+import { sayError } from "../../state/notes";
+import { recipes, speciesName } from "../../state/species";
+import { reducedMotion, theme } from "../../state/theme";
+import { Alert, Button, Segmented } from "../../ui/controls";
+import { exportView } from "./exports";
+import { counts, failure, growing, LEAVES, type Leaves, leaves, level, mesh } from "./tree-state";
+import { setView, view } from "./view-handle";
+
+const number = new Intl.NumberFormat("en");
+
+export function describe(stats: TreeStats, name: string, seed: number, season: string): string {
+  const when = season ? ` in ${season}` : "";
+  return `${name.replaceAll("_", " ")}${when}, seed ${seed}: ${stats.height.toFixed(1)} m high, ${stats.width.toFixed(1)} m wide, ${number.format(stats.stems)} stems, ${number.format(stats.leaves)} leaves`;
+}
+
+const KEYS: Record<string, [number, number, number]> = {
+  ArrowLeft: [-0.15, 0, 1],
+  ArrowRight: [0.15, 0, 1],
+  ArrowUp: [0, 0.1, 1],
+  ArrowDown: [0, -0.1, 1],
+  "+": [0, 0, 0.87],
+  "=": [0, 0, 0.87],
+  "-": [0, 0, 1.15],
+};
+
+export function Stage(): JSX.Element {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const ready = useSignal(false);
+  const lost = useSignal(false);
+  const broken = useSignal<string | null>(null);
+  const wind = useSignal(false);
+
+  useEffect(() => {
+    let gone = false;
+    import("../../view3d/tree-view")
+      .then((module) => {
+        if (gone || !canvas.current) return;
+        setView(
+          new module.TreeView(canvas.current, (isLost) => {
+            lost.value = isLost;
+          }),
+        );
+        ready.value = true;
+      })
+      .catch((error: unknown) => {
+        broken.value = `The view in three dimensions could not start: ${error instanceof Error ? error.message : error}`;
+      });
+    return () => {
+      gone = true;
+      setView(null);
+    };
+  }, [ready, lost, broken]);
+
+  useSignalEffect(() => {
+    if (ready.value && mesh.value) view()?.setMesh(mesh.value.data);
+  });
+  useSignalEffect(() => {
+    if (ready.value) view()?.setTheme(theme() === "dark");
+  });
+  useSignalEffect(() => {
+    if (ready.value) view()?.setWind(wind.value && !reducedMotion.value);
+  });
+
+  const shown = mesh.value;
+  const { seed, season } = recipes.value;
+  const text = shown ? describe(shown.data.stats, speciesName.value, seed, season) : "The tree is growing";
+  return (
+    <section class="stage" aria-label="The tree">
+      {/* biome-ignore lint/a11y/useSemanticElements: no element means "a view that arrow keys turn". */}
+      <div
+        class="view"
+        role="group"
+        aria-label="View of the tree. Arrow keys turn it, plus and minus come nearer and go back."
+        // biome-ignore lint/a11y/noNoninteractiveTabindex: the keys below turn the tree.
+        tabIndex={0}
+        onKeyDown={(event) => {
+          const step = KEYS[event.key];
+          if (!step || event.ctrlKey || event.metaKey) return;
+          event.preventDefault();
+          view()?.orbit(...step);
+        }}
+      >
+        <canvas ref={canvas} role="img" aria-label={text} data-testid="tree" />
+      </div>
+      <div class={`busy${growing.value ? " on" : ""}`} aria-hidden="true" />
+      {failure.value && <Alert text={failure.value} />}
+      {broken.value && <Alert text={broken.value} />}
+      {lost.value && (
+        <Alert text="The graphics card lost the view. It comes back by itself; the species is kept." />
+      )}
+      <div class="stagebar">
+        <Segmented
+          label="Level of detail"
+          value={String(level.value)}
+          options={["0", "1", "2", "3"].map((value) => ({
+            value,
+            label: value === "0" ? "Finest" : `LOD ${value}`,
+          }))}
+          onPick={(value) => {
+            level.value = Number(value);
+          }}
+        />
+        <label class="inline">
+          <span>Leaves</span>
+          <select
+            value={leaves.value}
+            onChange={(event) => {
+              leaves.value = event.currentTarget.value as Leaves;
+            }}
+          >
+            {LEAVES.map((kind) => (
+              <option key={kind} value={kind}>
+                {kind}
+              </option>
+            ))}
+          </select>
+        </label>
+        <Button
+          icon="wind"
+          label="Wind"
+          pressed={wind.value}
+          disabled={reducedMotion.value}
+          {...(reducedMotion.value ? { title: "Your system asks for little motion." } : {})}
+          onPress={() => {
+            wind.value = !wind.value;
+          }}
+        />
+        <Button
+          icon="download"
+          label="PNG"
+          title="Download this view as a picture"
+          onPress={() => {
+            void exportView().catch(sayError);
+          }}
+        />
+      </div>
+      <Numbers text={text} />
+    </section>
+  );
+}
+
+function Numbers({ text }: { text: string }): JSX.Element {
+  const shown = mesh.value;
+  if (!shown) return <p class="numbers">{text}</p>;
+  const { bark, leaves: leafy, vertices } = counts(shown.data);
+  const { height, width, stems } = shown.data.stats;
+  return (
+    <dl class="numbers" data-testid="counts">
+      <div>
+        <dt>Height</dt>
+        <dd>{height.toFixed(1)} m</dd>
+      </div>
+      <div>
+        <dt>Width</dt>
+        <dd>{width.toFixed(1)} m</dd>
+      </div>
+      <div>
+        <dt>Stems</dt>
+        <dd>{number.format(stems)}</dd>
+      </div>
+      <div>
+        <dt>Bark triangles</dt>
+        <dd>{number.format(bark)}</dd>
+      </div>
+      <div>
+        <dt>Leaf triangles</dt>
+        <dd>{number.format(leafy)}</dd>
+      </div>
+      <div>
+        <dt>Vertices</dt>
+        <dd>{number.format(vertices)}</dd>
+      </div>
+    </dl>
+  );
+}

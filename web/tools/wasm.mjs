@@ -1,0 +1,86 @@
+// Compiles crates/web to WebAssembly and writes it, with what JavaScript needs to load it, to src/wasm.
+// Environment: CARGO_TARGET_DIR as for cargo.
+
+import { spawnSync } from "node:child_process";
+import { copyFileSync, existsSync, mkdirSync, rmSync, statSync } from "node:fs";
+import { createRequire } from "node:module";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const web = dirname(dirname(fileURLToPath(import.meta.url)));
+const root = dirname(web);
+const target = process.env.CARGO_TARGET_DIR ? resolve(process.env.CARGO_TARGET_DIR) : join(root, "target");
+const TRIPLE = "wasm32-unknown-unknown";
+
+/** Runs a program at the root of the repository; ends the build if it fails. */
+function run(program, args, more = {}) {
+  const { status, error } = spawnSync(program, args, { cwd: root, stdio: "inherit", ...more });
+  if (error || status !== 0) {
+    console.error(error ? `${program} cannot be run: ${error.message}` : `${program} has failed`);
+    process.exit(status || 1);
+  }
+}
+
+/** Whether the standard library for WebAssembly is there, or can be had. */
+function hasTarget() {
+  const root = spawnSync("rustc", ["--print", "sysroot"], { encoding: "utf8" });
+  const there = root.status === 0 && existsSync(join(root.stdout.trim(), "lib", "rustlib", TRIPLE));
+  return there || spawnSync("rustup", ["target", "add", TRIPLE], { stdio: "inherit" }).status === 0;
+}
+
+if (!hasTarget()) {
+  console.error(
+    `The Rust target ${TRIPLE} is missing: \`rustup target add ${TRIPLE}\` installs it; on Debian the packages rustc-web and rust-web-src have it. The rest of pleach does not need it.`,
+  );
+  process.exit(1);
+}
+
+// Vector instructions without fused ones: every browser since 2023 has them, and they round as scalar ones do.
+const RUSTFLAGS = `${process.env.RUSTFLAGS ?? ""} -C target-feature=+simd128`.trim();
+run("cargo", ["build", "--quiet", "-p", "pleach-web", "--target", TRIPLE, "--profile", "wasm"], {
+  env: { ...process.env, RUSTFLAGS },
+});
+
+const made = join(target, "web");
+rmSync(made, { recursive: true, force: true });
+mkdirSync(made, { recursive: true });
+const compiled = join(target, TRIPLE, "wasm", "pleach_web.wasm");
+run("cargo", ["run", "--quiet", "-p", "pleach-web-bindgen", "--", compiled, made]);
+
+// Binaryen takes another tenth off.
+const optimiser = join(
+  dirname(createRequire(import.meta.url).resolve("binaryen/package.json")),
+  "bin",
+  "wasm-opt",
+);
+const out = join(web, "src", "wasm");
+mkdirSync(out, { recursive: true });
+const features = [
+  "bulk-memory",
+  "nontrapping-float-to-int",
+  "sign-ext",
+  "mutable-globals",
+  "multivalue",
+  "reference-types",
+  "simd",
+];
+run(process.execPath, [
+  optimiser,
+  join(made, "pleach_web_bg.wasm"),
+  "-O3",
+  "--strip-debug",
+  "--strip-producers",
+  ...features.map((feature) => `--enable-${feature}`),
+  "-o",
+  join(out, "pleach_web_bg.wasm"),
+]);
+for (const file of ["pleach_web.js", "pleach_web.d.ts", "pleach_web_bg.wasm.d.ts"]) {
+  copyFileSync(join(made, file), join(out, file));
+}
+
+// Drawings of the known species, for a first guess without growing them.
+mkdirSync(join(web, "public"), { recursive: true });
+copyFileSync(join(root, "crates", "pleach", "src", "plan", "known.bin"), join(web, "public", "known.bin"));
+console.log(
+  `src/wasm/pleach_web_bg.wasm: ${(statSync(join(out, "pleach_web_bg.wasm")).size / 1e6).toFixed(2)} MB`,
+);
