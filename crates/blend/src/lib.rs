@@ -34,6 +34,7 @@
 //! Nothing here prints, reads the clock or draws unseeded random numbers, and results do not depend
 //! on the number of threads. No generator is known by name: what is special about a parameter comes
 //! from its declaration or from [`pleach_tree::Generator`]. `linfa` and `ndarray` stay inside.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod coding;
 pub mod draw;
@@ -44,6 +45,7 @@ pub mod map;
 pub mod measures;
 mod mix;
 pub mod natural;
+mod notes;
 pub mod pca;
 pub mod picture;
 pub mod plane;
@@ -56,5 +58,6 @@ pub use landmarks::{Landmarks, Weights};
 pub use map::{Blend, BlendMap, Settings};
 pub use measures::Measure;
 pub use mix::mix;
+pub use notes::notes;
 pub use pca::Pca;
 pub use plane::{Hull, Point};

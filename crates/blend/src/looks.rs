@@ -10,6 +10,7 @@ use crate::plane::Point;
 use pleach_silhouette::Detail;
 use pleach_silhouette::score::blurred_iou;
 use pleach_tree::Species;
+use pleach_tree::math;
 use rayon::prelude::*;
 
 /// Seeds 1 to this of each species are compared.
@@ -68,7 +69,7 @@ pub fn stress(distances: &[Vec<f64>], dots: &[Point]) -> f64 {
     let (mut off, mut all) = (0.0, 0.0);
     for (i, row) in distances.iter().enumerate() {
         for (j, wanted) in row.iter().enumerate().take(i) {
-            off += (dots[i].distance(dots[j]) - wanted).powi(2);
+            off += math::powi(dots[i].distance(dots[j]) - wanted, 2);
             all += wanted * wanted;
         }
     }
@@ -137,7 +138,7 @@ fn turned(dots: &[Point]) -> Vec<Point> {
         xy += d.x * d.y;
         yy += d.y * d.y;
     }
-    let (sin, cos) = (0.5 * (2.0 * xy).atan2(xx - yy)).sin_cos();
+    let (sin, cos) = math::sin_cos(0.5 * math::atan2(2.0 * xy, xx - yy));
     let along = |d: Point| Point { x: cos * d.x + sin * d.y, y: cos * d.y - sin * d.x };
     dots.iter().map(|d| along(*d - mean)).collect()
 }

@@ -6,6 +6,7 @@ use crate::landmarks::{Landmarks, Weights};
 use crate::natural::NaturalNeighbor;
 use crate::pca::Pca;
 use crate::plane::{Hull, Point};
+use pleach_tree::math;
 use pleach_tree::{CheckedParams, Slot, Species};
 
 /// What a map is made by.
@@ -171,7 +172,7 @@ impl BlendMap {
             if distance == 0.0 {
                 return dot;
             }
-            let weight = distance.powi(-4);
+            let weight = math::powi(distance, -4);
             mean = mean + dot * weight;
             sum += weight;
         }
@@ -194,7 +195,7 @@ impl BlendMap {
     pub fn residual(&self, landmark: usize) -> f64 {
         let code = &self.landmarks.codes()[landmark].values;
         let back = self.pca.back(&[self.pca.coordinate(0, code), self.pca.coordinate(1, code)]);
-        let square = |(value, back): (&Option<f64>, &f64)| value.map_or(0.0, |v| (v - back).powi(2));
+        let square = |(value, back): (&Option<f64>, &f64)| value.map_or(0.0, |v| math::powi(v - back, 2));
         code.iter().zip(&back).map(square).sum::<f64>().sqrt()
     }
 

@@ -1,6 +1,7 @@
 //! What people see of a tree, as numbers: how traits change across the map.
 
 use pleach_silhouette::{Bitmap, Detail, Rasterizer};
+use pleach_tree::math;
 use pleach_tree::{StemKind, Tree, TreeStats};
 
 use crate::draw::{Drawing, picture};
@@ -101,7 +102,7 @@ fn branches(tree: &Tree) -> impl Iterator<Item = (f64, f64)> + '_ {
         let (first, last) = (knots.first()?, knots.last()?);
         let leaving = (first.handle_out - first.point).try_normalize()?;
         let arriving = (last.point - last.handle_in).try_normalize()?;
-        let angle = |z: f64| z.clamp(-1.0, 1.0).acos().to_degrees();
+        let angle = |z: f64| math::acos(z.clamp(-1.0, 1.0)).to_degrees();
         Some((angle(leaving.z), angle(arriving.z)))
     })
 }

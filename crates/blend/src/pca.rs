@@ -13,6 +13,7 @@ use linfa::DatasetBase;
 use linfa::traits::Fit;
 use linfa_reduction::Pca as LinfaPca;
 use ndarray::Array2;
+use pleach_tree::math;
 
 /// Axes along which rows of numbers vary most, at right angles to each other.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +59,7 @@ impl Pca {
             return Err(failed("a feature is not finite"));
         }
         let cells = (0..count).flat_map(|r| (0..width).map(move |c| (r, c)));
-        let centered: f64 = cells.map(|(r, c)| (value(r, c) - mean[c]).powi(2)).sum();
+        let centered: f64 = cells.map(|(r, c)| math::powi(value(r, c) - mean[c], 2)).sum();
         if centered == 0.0 {
             return Err(failed("all rows are alike"));
         }

@@ -1,5 +1,7 @@
 //! Points of the plane, and the convex hull of some.
 
+use pleach_tree::math;
+
 /// A point of the map, in units of the features: two species that differ by the whole search range of
 /// one parameter are about 1 apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,7 +33,7 @@ impl Point {
     }
 
     pub(crate) fn length(self) -> f64 {
-        self.x.hypot(self.y)
+        math::hypot(self.x, self.y)
     }
 
     pub(crate) fn dot(self, other: Self) -> f64 {

@@ -12,6 +12,7 @@
 //! | [`noise`] | the two laws of chance |
 //! | `count` | how many branches are certain, before any grows |
 //! | `grow` | the recursion, as a stack |
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod count;
 mod family;

@@ -1,6 +1,7 @@
 //! What growing a tree may take.
 
 use crate::graph::{Linking, Rules, Work};
+use pleach_tree::math;
 use pleach_tree::{Blame, GrowError, Limits};
 
 /// Steps that a node takes: its links, its edges' weights, its place in the queue.
@@ -23,7 +24,7 @@ pub(crate) struct Budget {
 impl Budget {
     pub(crate) fn new(limits: Limits, rules: &Rules) -> Self {
         let each = if rules.linking == Linking::Threshold { STEPS_TO_KEEP } else { STEPS_TO_LOOK };
-        let steps_per_node = (STEPS_PER_NODE + each * rules.link.powi(3)) as u64;
+        let steps_per_node = (STEPS_PER_NODE + each * math::powi(rules.link, 3)) as u64;
         Self { limits, steps_per_node, steps: 0, work: Work::default() }
     }
 

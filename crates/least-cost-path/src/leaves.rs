@@ -4,6 +4,7 @@ use crate::numbers::Numbers;
 use crate::purpose::LEAF;
 use glam::{DVec3, Vec3};
 use pleach_tree::leaf_shape::LeafShape;
+use pleach_tree::math;
 use pleach_tree::trig::sin_cos;
 use pleach_tree::{Blame, GrowError, Key, Leaf, Limits, Tree};
 use std::f64::consts::TAU;
@@ -22,7 +23,7 @@ pub(crate) fn put(n: &Numbers, tips: &[Key], limits: &Limits, tree: &mut Tree) -
     }
     let shape = LeafShape::from_number(n.leaf_shape as i64).unwrap_or_default();
     tree.leaf_shapes.push(Arc::clone(shape.outline()));
-    let last = if n.levels > 1.0 { n.reach * n.shrink.powi(n.levels as i32 - 2) } else { 0.3 };
+    let last = if n.levels > 1.0 { n.reach * math::powi(n.shrink, n.levels as i32 - 2) } else { 0.3 };
     let longest = n.leaf_zone * n.crown_radius * last;
     for (index, tip) in tips.iter().enumerate() {
         if tree.leaves.len() + number as usize > limits.leaves {

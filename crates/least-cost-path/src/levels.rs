@@ -9,6 +9,7 @@ use crate::purpose::{LIGHT, ROOTS, SUBGRAPH};
 use crate::skeleton::{Batch, End, Skeleton};
 use crate::volume::{Part, Side, Solid, Volume, underground};
 use glam::DVec3;
+use pleach_tree::math;
 use pleach_tree::{GrowError, Key};
 use rayon::prelude::*;
 
@@ -124,8 +125,8 @@ impl Levels {
             }
             let shape = Shape {
                 kind: n.subgraph_shape[at] as u32,
-                radius: n.crown_radius * n.reach * n.shrink.powi(level as i32 - 2),
-                cos: n.angle[at].to_radians().cos(),
+                radius: n.crown_radius * n.reach * math::powi(n.shrink, level as i32 - 2),
+                cos: math::cos(n.angle[at].to_radians()),
                 side: Side::Above,
                 nodes: n.subgraph_nodes as usize,
             };

@@ -5,6 +5,7 @@ use crate::generator::LeastCostPath;
 use crate::numbers::space;
 use crate::structure::{Drawn, Structure};
 use pleach_tree::Species;
+use pleach_tree::math;
 use pleach_tree::species::Appearance;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -50,7 +51,7 @@ fn radius(views: &[SideView], at: f64, direction: f64) -> f64 {
     let (mut sum, mut weights, mut hull, mut halves) = (0.0, 0.0, f64::INFINITY, 0.0);
     for view in views {
         let [left, right] = extents(view, at).unwrap_or([0.0; 2]);
-        let cos = (direction - view.azimuth).cos();
+        let cos = math::cos(direction - view.azimuth);
         let reach = (if cos > 0.0 { right } else { left }).max(0.0);
         halves += (left + right).max(0.0) / 2.0;
         sum += cos * cos * reach;
@@ -103,7 +104,7 @@ pub fn species_around(views: &[SideView], height: f64) -> Option<(Species, Vec<V
     let structure = Structure { outline: Drawn::of_radii(&radii), volumes: None };
     let (fork, crown_height) = (at(fork) * height, (1.0 - at(fork)) * height);
     let leaf = 0.025 * height;
-    let thickness = trunk_radius / (1.2 * height).powf(0.6);
+    let thickness = trunk_radius / math::pow(1.2 * height, 0.6);
     let list = |branching: [f64; 3], reach: f64| {
         let mut values = space().defaults();
         let mut set = |name: &str, numbers: &[f64]| {

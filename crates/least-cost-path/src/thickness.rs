@@ -2,6 +2,7 @@
 
 use crate::numbers::Numbers;
 use crate::skeleton::Skeleton;
+use pleach_tree::math;
 
 /// Radii of a skeleton.
 #[derive(Debug, Default)]
@@ -39,7 +40,7 @@ impl Thickness {
                     continue;
                 }
                 let length = self.length[node] + skeleton.edge(node);
-                let radius = n.thickness * (length / n.taper_length).powf(taper);
+                let radius = n.thickness * math::pow(length / n.taper_length, taper);
                 self.through[node] = self.through[node].max(radius);
                 let parent = skeleton.parents[node] as usize;
                 self.length[parent] = self.length[parent].max(length);

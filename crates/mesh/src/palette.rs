@@ -1,6 +1,7 @@
 //! Colours of a species in a season.
 
 use crate::part::Material;
+use pleach_tree::math;
 pub use pleach_tree::species::BarkPattern;
 use pleach_tree::species::{Color, Look, Season};
 use pleach_tree::{Species, Tree};
@@ -81,7 +82,7 @@ impl Palette {
 pub fn linear(Color(channels): Color) -> [f32; 3] {
     channels.map(|c| {
         let c = f32::from(c) / 255.0;
-        if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        if c <= 0.040_45 { c / 12.92 } else { math::powf((c + 0.055) / 1.055, 2.4) }
     })
 }
 

@@ -1,6 +1,7 @@
 //! Where the picture is taken from, and which part of the world it shows.
 
 use glam::DVec3;
+use pleach_tree::math;
 use pleach_tree::stats::Bounds;
 use pleach_tree::{Parts, Tree};
 
@@ -44,7 +45,7 @@ impl View {
     /// The axes of the picture in the world: right, up, and away from the viewer.
     #[must_use]
     pub fn axes(&self) -> [DVec3; 3] {
-        let ((sin_a, cos_a), (sin_e, cos_e)) = (self.azimuth.sin_cos(), self.elevation.sin_cos());
+        let ((sin_a, cos_a), (sin_e, cos_e)) = (math::sin_cos(self.azimuth), math::sin_cos(self.elevation));
         let right = DVec3::new(cos_a, sin_a, 0.0);
         let level = DVec3::new(-sin_a, cos_a, 0.0);
         [right, level * sin_e + DVec3::Z * cos_e, level * cos_e - DVec3::Z * sin_e]

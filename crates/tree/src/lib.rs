@@ -8,6 +8,7 @@
 //! | --- | --- |
 //! | [`plant`] | [`Tree`], [`Stem`], [`Knot`], [`Leaf`]: flat arrays, metres, z up, right-handed |
 //! | [`spline`] | one cubic Bézier piece: evaluate, differentiate, flatten by tolerance |
+//! | [`math`] | powers, logarithms and the like, the same bits everywhere |
 //! | [`trig`] | fast sine, cosine and arc tangent, the same bits everywhere |
 //! | [`turtle`] | a position with two axes that walks and turns |
 //! | [`random`] | draws that are a function of an address, never of the draws before |
@@ -24,15 +25,18 @@
 //! Nothing here reads the clock, the environment or the operating system's randomness, and nothing
 //! here prints. Angles are in radians inside and in degrees in files; the name says which where both
 //! occur.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 #[cfg(any(test, feature = "conformance"))]
 pub mod conformance;
 pub mod dendrometry;
+mod fnv;
 pub mod generator;
 mod grow_error;
 mod growth;
 pub mod individual;
 pub mod leaf_shape;
+pub mod math;
 mod model;
 pub mod param;
 pub mod plant;
@@ -44,6 +48,7 @@ pub mod trig;
 pub mod turtle;
 mod variation;
 
+pub use fnv::Fnv;
 pub use generator::Generator;
 pub use grow_error::{Blame, Conflict, GrowError};
 pub use growth::{Foliage, Growth, Limits, Workspace};

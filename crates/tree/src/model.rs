@@ -1,5 +1,6 @@
 //! The identity of a generator.
 
+use crate::fnv::Fnv;
 use std::fmt;
 
 /// What tells a generator from others, whatever its numbers: its family and a hash of its structure.
@@ -16,7 +17,7 @@ impl ModelId {
     /// [structure](crate::Generator::structure).
     #[must_use]
     pub fn new(family: &'static str, structure: &str) -> Self {
-        Self { family, structure: fnv1a(structure.as_bytes()) }
+        Self { family, structure: Fnv::of(structure.as_bytes()) }
     }
 
     /// The family's name.
@@ -31,13 +32,6 @@ impl fmt::Display for ModelId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {:016x}", self.family, self.structure)
     }
-}
-
-/// The 64-bit hash of Fowler, Noll and Vo (FNV-1a): against accidents, not against intent.
-fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
 }
 
 #[cfg(test)]

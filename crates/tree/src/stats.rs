@@ -65,7 +65,7 @@ impl Bounds {
             for (i, knot) in knots.iter().enumerate() {
                 // The disc across the stem reaches r·sqrt(1 − t²) along each axis.
                 let t = along(i);
-                let reach = (DVec3::ONE - t * t).max(DVec3::ZERO).powf(0.5) * knot.radius;
+                let reach = (DVec3::ONE - t * t).max(DVec3::ZERO).map(f64::sqrt) * knot.radius;
                 bounds.add(knot.point - reach);
                 bounds.add(knot.point + reach);
             }

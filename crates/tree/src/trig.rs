@@ -17,7 +17,7 @@ const ROUNDER: f64 = 6_755_399_441_055_744.0;
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
     if x.is_nan() || x.abs() > 1e5 {
-        return x.sin_cos();
+        return crate::math::sin_cos(x);
     }
     let shifted = x * FRAC_2_PI + ROUNDER;
     let quarter = shifted.to_bits();

@@ -1,5 +1,7 @@
 //! What follows from the numbers of a species.
 
+use pleach_tree::math;
+
 pub(crate) use crate::params::table::{Level, Model};
 
 impl Level {
@@ -30,9 +32,9 @@ impl Model {
         if !(0.0..=1.0).contains(&q) {
             0.0
         } else if q < 1.0 - w {
-            (q / (1.0 - w)).powf(self.prune_power_high)
+            math::pow(q / (1.0 - w), self.prune_power_high)
         } else if w > 0.0 {
-            ((1.0 - q) / w).powf(self.prune_power_low)
+            math::pow((1.0 - q) / w, self.prune_power_low)
         } else {
             1.0
         }
@@ -44,8 +46,8 @@ impl Model {
         use std::f64::consts::{FRAC_PI_2, PI};
         let flame = |q: f64| if q <= 0.7 { q / 0.7 } else { (1.0 - q) / 0.3 };
         match self.shape {
-            1 => 0.2 + 0.8 * (PI * q).sin(),
-            2 => 0.2 + 0.8 * (FRAC_PI_2 * q).sin(),
+            1 => 0.2 + 0.8 * math::sin(PI * q),
+            2 => 0.2 + 0.8 * math::sin(FRAC_PI_2 * q),
             3 => 1.0,
             4 => 0.5 + 0.5 * q,
             5 => flame(q),

@@ -7,6 +7,7 @@ use crate::model::{Level, Model};
 use crate::purpose;
 use crate::stem::{ForkStart, ForkState, StemSpec};
 use glam::DVec3;
+use pleach_tree::math;
 use pleach_tree::turtle::{Turtle, rotate};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -159,7 +160,7 @@ fn part(
     forks: &mut impl Forks,
 ) {
     let arrival = *turtle;
-    let declination = arrival.direction.z.clamp(-1.0, 1.0).acos();
+    let declination = math::acos(arrival.direction.z.clamp(-1.0, 1.0));
     let varied = level.split_angle_v * stem.key.signed(purpose::SPLIT_ANGLE, i);
     let direct = level.split_angle < 0.0;
     let first_handle = (level.split_angle_v >= 0.0).then_some(arrival.direction);
@@ -251,7 +252,7 @@ fn helix(model: &Model, level: &Level, stem: &StemSpec, length: f64, path: &mut 
     let vary = |purpose| 0.8 + 0.4 * stem.key.unit(purpose, 0);
     let declination = (-level.curve_v).clamp(1.0_f64.to_radians(), 89.0_f64.to_radians());
     let pitch = 2.0 * length / f64::from(segments) * vary(purpose::HELIX_PITCH);
-    let radius = 3.0 * pitch / (16.0 * (FRAC_PI_2 - declination).tan()) * vary(purpose::HELIX_RADIUS);
+    let radius = 3.0 * pitch / (16.0 * math::tan(FRAC_PI_2 - declination)) * vary(purpose::HELIX_RADIUS);
 
     let b0 = DVec3::new(0.0, -radius, -pitch / 4.0);
     let b1 = DVec3::new(4.0 * radius / 3.0, -radius, 0.0);

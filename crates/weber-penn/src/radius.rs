@@ -1,5 +1,7 @@
 //! Radius along a stem: taper and flare (Weber and Penn 1995, §4.4; Hewitt 2017, §3.2.1).
 
+use pleach_tree::math;
+
 /// What the radius of a stem depends on beside the place on it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Profile {
@@ -22,7 +24,7 @@ impl Profile {
             return tapered;
         }
         let y = (1.0 - 8.0 * z).max(0.0);
-        tapered * (1.0 + self.flare * (100.0_f64.powf(y) - 1.0) / 100.0)
+        tapered * (1.0 + self.flare * (math::pow(100.0, y) - 1.0) / 100.0)
     }
 
     /// Without flare: a cone up to taper 1, rounded to taper 2, beads to taper 3.
@@ -49,7 +51,7 @@ impl Profile {
         if taper < 2.0 && from_center >= cone {
             return cone;
         }
-        let round = (cone * cone - (from_center - cone).powi(2)).max(0.0).sqrt();
+        let round = (cone * cone - math::powi(from_center - cone, 2)).max(0.0).sqrt();
         (1.0 - depth) * cone + depth * round
     }
 }

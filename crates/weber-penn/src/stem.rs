@@ -1,6 +1,7 @@
 //! What is known of a stem before its path is walked.
 
 use crate::model::Model;
+use pleach_tree::math;
 use pleach_tree::turtle::Turtle;
 use pleach_tree::{Address, Key};
 
@@ -84,7 +85,8 @@ impl StemSpec {
     /// are Hewitt's): thinner by a power of the length ratio, never thicker than its parent there.
     pub(crate) fn branch_radius(&self, model: &Model) -> f64 {
         let part = self.length / self.parent_length;
-        let radius = model.levels[self.level].radius_mod * self.parent_radius * part.powf(model.ratio_power);
+        let radius =
+            model.levels[self.level].radius_mod * self.parent_radius * math::pow(part, model.ratio_power);
         radius.max(MIN_RADIUS).min(self.radius_limit)
     }
 }

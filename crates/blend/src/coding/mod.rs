@@ -26,6 +26,7 @@
 
 mod slot;
 
+use pleach_tree::math;
 pub use slot::Feature;
 use slot::SlotCode;
 
@@ -126,8 +127,8 @@ fn rounded(value: f64) -> f64 {
     if value.abs() < 1e-200 {
         return 0.0;
     }
-    let digits = 11 - value.abs().log10().floor() as i32;
-    let power = 10.0_f64.powi(digits.abs());
+    let digits = 11 - math::log10(value.abs()).floor() as i32;
+    let power = math::powi(10.0, digits.abs());
     if digits >= 0 { (value * power).round() / power } else { (value / power).round() * power }
 }
 

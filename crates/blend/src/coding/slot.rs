@@ -1,5 +1,6 @@
 //! The code of one slot.
 
+use pleach_tree::math;
 use pleach_tree::param::Scale;
 use pleach_tree::{Kind, ParamSpace, Slot};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -47,16 +48,16 @@ impl Stretch {
     fn apply(self, value: f64) -> f64 {
         match self {
             Self::Linear => value,
-            Self::Log { floor } => value.max(floor).ln(),
-            Self::LogCount => value.max(0.0).ln_1p(),
+            Self::Log { floor } => math::ln(value.max(floor)),
+            Self::LogCount => math::log1p(value.max(0.0)),
         }
     }
 
     fn undo(self, value: f64) -> f64 {
         match self {
             Self::Linear => value,
-            Self::Log { .. } => value.exp(),
-            Self::LogCount => value.exp_m1(),
+            Self::Log { .. } => math::exp(value),
+            Self::LogCount => math::expm1(value),
         }
     }
 }

@@ -6,6 +6,7 @@ mod font;
 mod place;
 mod scene;
 
+use pleach_tree::math;
 pub use scene::{Anchor, Color, Scene, Shape};
 
 use crate::error::BlendError;
@@ -225,8 +226,35 @@ fn clip(polygon: &[Point], window: &[Point]) -> Vec<Point> {
 
 /// Lines where choices and signs switch, or the number of levels does: darker where more of them do.
 fn switches(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) -> Result<(), BlendError> {
+    for Switch { ends, count } in switch_lines_on(map, sheet, SWITCH_COLUMNS)? {
+        let color = Color { rgb: [90, 90, 110], opacity: (0.2 + 0.12 * count).min(0.75) as f32 };
+        let points = ends.map(|end| sheet.at(end)).to_vec();
+        scene.add(Shape::Line { points, color, width: 1.3, dash: None });
+    }
+    Ok(())
+}
+
+/// A piece of a line where choices switch, between two points of the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Switch {
+    /// Its ends.
+    pub ends: [Point; 2],
+    /// How many choices, signs and numbers of levels differ across it; at least 1.
+    pub count: f64,
+}
+
+/// The lines inside the hull where choices and signs switch, or the number of levels does, from samples of the plane,
+/// `columns` across.
+///
+/// # Errors
+/// None for a map and its own points.
+pub fn switch_lines(map: &BlendMap, columns: usize) -> Result<Vec<Switch>, BlendError> {
+    switch_lines_on(map, &Sheet::new(map), columns.max(2))
+}
+
+fn switch_lines_on(map: &BlendMap, sheet: &Sheet, columns: usize) -> Result<Vec<Switch>, BlendError> {
     let space = map.landmarks().space();
-    let (points, _) = sheet.grid(SWITCH_COLUMNS);
+    let (points, _) = sheet.grid(columns);
     let slots: Vec<Slot> = space
         .slots()
         .filter(|&slot| space.kind_of(slot).is_choice() || space.kind_of(slot).is_flagged())
@@ -254,18 +282,22 @@ fn switches(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) -> Result<(), Blen
             Ok(Some(slots.iter().map(switch).chain(few.iter().map(choice)).collect::<Vec<f64>>()))
         })
         .collect::<Result<Vec<Option<Vec<f64>>>, BlendError>>()?;
-    let grid = Grid { columns: SWITCH_COLUMNS, cells };
+    let grid = Grid { columns, cells };
     let differing = |a: &Vec<f64>, b: &Vec<f64>| {
         // Values that are not active are NaN and differ from nothing.
         a.iter().zip(b).filter(|(a, b)| !a.is_nan() && !b.is_nan() && a != b).count() as f64
     };
-    let step = (sheet.high.x - sheet.low.x) / (SWITCH_COLUMNS - 1) as f64;
-    let place = |p: (f64, f64)| sheet.at(Point { x: sheet.low.x + p.0 * step, y: sheet.high.y - p.1 * step });
-    for ([a, b], weight) in contour::boundaries(&grid, differing) {
-        let color = Color { rgb: [90, 90, 110], opacity: (0.2 + 0.12 * weight).min(0.75) as f32 };
-        scene.add(Shape::Line { points: vec![place(a), place(b)], color, width: 1.3, dash: None });
-    }
-    Ok(())
+    let step = (sheet.high.x - sheet.low.x) / (columns - 1) as f64;
+    let place = |p: (f64, f64)| Point { x: sheet.low.x + p.0 * step, y: sheet.high.y - p.1 * step };
+    let pieces = contour::boundaries(&grid, differing).into_iter();
+    Ok(pieces.map(|(ends, count)| Switch { ends: ends.map(place), count }).collect())
+}
+
+/// The corners of the rectangle that the picture of the map shows: the least and the greatest coordinates.
+#[must_use]
+pub fn extent(map: &BlendMap) -> [Point; 2] {
+    let Sheet { low, high, .. } = Sheet::new(map);
+    [low, high]
 }
 
 fn hull(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) {
@@ -304,7 +336,7 @@ fn isolines(map: &BlendMap, sheet: &Sheet, field: &TraitField, rgb: [u8; 3], sce
 
 /// A round number near `step`: 1, 2 or 5 times a power of ten.
 fn round_step(step: f64) -> f64 {
-    let power = 10.0_f64.powf(step.max(1e-9).log10().floor());
+    let power = math::pow(10.0, math::log10(step.max(1e-9)).floor());
     let part = step / power;
     power
         * if part < 1.5 {
@@ -331,7 +363,7 @@ fn species(map: &BlendMap, sheet: &Sheet, thumbnails: &[Bitmap], scene: &mut Sce
     let boxes = place::boxes(&dots, &sizes, window);
     for ((dot, corner), size) in dots.iter().zip(&boxes).zip(&sizes) {
         let near = place::nearest(*dot, *corner, *size);
-        if (near.0 - dot.0).hypot(near.1 - dot.1) > 6.0 {
+        if math::hypot(near.0 - dot.0, near.1 - dot.1) > 6.0 {
             // To the middle of the box, where the silhouette covers it.
             let end = if side > 0.0 { (corner.0 + size.0 / 2.0, corner.1 + 0.6 * side) } else { near };
             scene.add(Shape::Line { points: vec![*dot, end], color: GRAY, width: 1.0, dash: None });

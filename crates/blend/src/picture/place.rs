@@ -1,5 +1,7 @@
 //! Where names and thumbnails go, so that they cover neither each other nor the dots.
 
+use pleach_tree::math;
+
 type Pair = (f64, f64);
 
 /// Directions that are tried around a dot.
@@ -45,7 +47,7 @@ fn candidates(dot: Pair, size: Pair) -> impl Iterator<Item = Pair> {
     GAPS.into_iter().flat_map(move |gap| {
         (0..DIRECTIONS).map(move |k| {
             let angle = std::f64::consts::TAU * (f64::from(k) / f64::from(DIRECTIONS) - 0.25);
-            let (sin, cos) = angle.sin_cos();
+            let (sin, cos) = math::sin_cos(angle);
             // From the box's middle to its edge in this direction.
             let to_edge = (size.0 / 2.0 / cos.abs().max(1e-9)).min(size.1 / 2.0 / sin.abs().max(1e-9));
             let middle = (dot.0 + cos * (to_edge + gap + 5.0), dot.1 + sin * (to_edge + gap + 5.0));
@@ -55,7 +57,7 @@ fn candidates(dot: Pair, size: Pair) -> impl Iterator<Item = Pair> {
 }
 
 fn middle_distance(corner: Pair, size: Pair, dot: Pair) -> f64 {
-    (corner.0 + size.0 / 2.0 - dot.0).hypot(corner.1 + size.1 / 2.0 - dot.1)
+    math::hypot(corner.0 + size.0 / 2.0 - dot.0, corner.1 + size.1 / 2.0 - dot.1)
 }
 
 /// The point of a box that is nearest to `dot`.

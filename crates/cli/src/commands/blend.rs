@@ -5,7 +5,7 @@ use crate::{files, input, output};
 use anyhow::{Context, bail};
 use pleach_blend::draw::{Drawing, silhouettes};
 use pleach_blend::plane::readable;
-use pleach_blend::{Blend, BlendError, BlendMap, Landmarks, Point, Weights};
+use pleach_blend::{Blend, BlendError, BlendMap, Landmarks, Point, Weights, notes};
 use pleach_silhouette::Detail;
 use pleach_silhouette::picture::sheet;
 use pleach_tree::Species;
@@ -136,16 +136,7 @@ impl Made {
     }
 
     fn comments(&self) -> Vec<String> {
-        let mut lines = vec![format!("A blend: {}", self.species.description)];
-        if let Some((Point { x, y }, count)) = self.place {
-            let [x, y] = [x, y].map(|v| readable((v * 1e4).round() / 1e4));
-            lines.push(format!("At {x},{y} of a map of {count} species"));
-        }
-        if self.outside > 0.0 {
-            let outside = readable((self.outside * 1e4).round() / 1e4);
-            lines.push(format!("Extrapolated: {outside} outside the hull of the species"));
-        }
-        lines
+        notes(&self.species.description, self.place, self.outside)
     }
 
     fn report(&self) -> serde_json::Value {

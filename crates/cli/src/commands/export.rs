@@ -8,7 +8,7 @@ use anyhow::{Context, bail};
 use pleach_mesh::forest;
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::weld::WeldSettings;
-use pleach_mesh::write::glb::{Glb, Placed, Scene};
+use pleach_mesh::write::glb::{Glb, Placed, Scene, extras};
 use pleach_mesh::write::{obj, ply, stl, usda};
 use pleach_mesh::{
     Block, Card, Cards, LeafStyle, Material, MeshError, MeshSettings, Mesher, Palette, Rig, Source, Welded,
@@ -17,7 +17,7 @@ use pleach_mesh::{
 use pleach_render::{Billboards, billboard, leaf_picture, png_file};
 use pleach_tree::species::Season;
 use pleach_tree::{Parts, Species, Tree};
-use serde_json::{Map, Value, json};
+use serde_json::json;
 use std::io::Write;
 use std::path::Path;
 
@@ -385,26 +385,4 @@ impl MeshArgs {
         }
         Ok(pictures)
     }
-}
-
-/// Species, parameters and seed, for anyone who finds the file without its history.
-fn extras(species: &Species, seed: Value) -> Value {
-    let space = species.generator.space();
-    let parameters: Map<String, Value> = space
-        .params()
-        .iter()
-        .enumerate()
-        .map(|(i, param)| {
-            let values = species.params.of(i);
-            let value = if let [one] = values { json!(one) } else { json!(values) };
-            (param.name.to_string(), value)
-        })
-        .collect();
-    json!({
-        "species": species.name,
-        "generator": species.generator.family(),
-        "seed": seed,
-        "units": "metres",
-        "parameters": parameters,
-    })
 }

@@ -5,6 +5,7 @@ use crate::purpose::{AXIS, DART};
 use crate::volume::Volume;
 use glam::DVec3;
 use pleach_tree::Key;
+use pleach_tree::math;
 use pleach_tree::trig::sin_cos;
 use std::f64::consts::TAU;
 
@@ -52,7 +53,7 @@ impl Nodes {
         self.points.clear();
         self.parts.clear();
         self.chain.clear();
-        let mean_spacing = (volume.content / count as f64).cbrt();
+        let mean_spacing = math::cbrt(volume.content / count as f64);
         if !(mean_spacing > 0.0 && mean_spacing.is_finite()) {
             self.put(root, ON_AXIS);
             self.sort_into_clusters(volume, mean_spacing);

@@ -6,6 +6,7 @@ use crate::numbers::Numbers;
 use crate::purpose::CLUSTER;
 use glam::DVec3;
 use pleach_tree::Key;
+use pleach_tree::math;
 use pleach_tree::trig::sin_cos;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -22,7 +23,7 @@ pub(crate) fn first(n: &Numbers, drawn: Option<&Arc<Outline>>, key: Key) -> Volu
         // A narrow portion meets the cylinder at the cylinder's width, not in a point.
         let alpha = n.crown_angle.to_radians();
         if alpha < 0.45 * PI {
-            foot -= n.trunk_width / alpha.tan();
+            foot -= n.trunk_width / math::tan(alpha);
         }
     }
     let crown = Part::new(solid, fork + DVec3::Z * foot, DVec3::Z, true);
@@ -42,7 +43,7 @@ pub(crate) fn first(n: &Numbers, drawn: Option<&Arc<Outline>>, key: Key) -> Volu
     if clusters.is_empty() {
         parts.push(crown);
     }
-    let wander = n.cluster_size * 0.3 * n.crown_radius / n.clusters.max(1.0).cbrt();
+    let wander = n.cluster_size * 0.3 * n.crown_radius / math::cbrt(n.clusters.max(1.0));
     axes.extend(clusters.iter().map(|&(from, to)| Axis { from, to, wander }));
     Volume { axes, clusters, ..Volume::new(parts, Side::Above) }
 }
@@ -51,7 +52,7 @@ pub(crate) fn first(n: &Numbers, drawn: Option<&Arc<Outline>>, key: Key) -> Volu
 fn crown(n: &Numbers, drawn: Option<&Arc<Outline>>) -> (Solid, f64) {
     let (radius, height) = (n.crown_radius, n.crown_height);
     match n.crown_shape as u32 {
-        0 => (Solid::Portion { radius, cos: n.crown_angle.to_radians().cos() }, 0.0),
+        0 => (Solid::Portion { radius, cos: math::cos(n.crown_angle.to_radians()) }, 0.0),
         1 => (Solid::Cone { radius, height }, 0.0),
         2 => (Solid::Ellipsoid { across: radius, along: height / 2.0 }, height / 2.0),
         _ => {
@@ -69,7 +70,7 @@ fn crown(n: &Numbers, drawn: Option<&Arc<Outline>>) -> (Solid, f64) {
 /// fork. Returns the stretches from there to the points.
 fn refine(parts: &mut Vec<Part>, crown: &Part, fork: DVec3, n: &Numbers, key: Key) -> Vec<(DVec3, DVec3)> {
     let wanted = n.clusters as usize;
-    let spacing = (crown.solid.content() / wanted as f64).cbrt();
+    let spacing = math::cbrt(crown.solid.content() / wanted as f64);
     let radius = n.cluster_size * spacing;
     let mut points: Vec<DVec3> = Vec::new();
     for throw in 0..50 * wanted as u32 {

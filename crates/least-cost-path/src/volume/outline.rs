@@ -1,6 +1,7 @@
 //! A drawn curve, turned about its axis; or several, one for each direction.
 
 use glam::DVec3;
+use pleach_tree::math;
 use pleach_tree::trig::atan2;
 use std::f64::consts::TAU;
 
@@ -107,7 +108,7 @@ impl Outline {
     /// Whether `p` is inside, where radius and height are 1.
     pub(crate) fn holds(&self, p: DVec3) -> bool {
         let across = p.truncate().length_squared();
-        across <= self.widest * self.widest && across <= self.radius(p).powi(2)
+        across <= self.widest * self.widest && across <= math::powi(self.radius(p), 2)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::outline::Outline;
 use glam::{DVec3, dvec3};
+use pleach_tree::math;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -25,7 +26,7 @@ impl Solid {
     pub(crate) fn content(&self) -> f64 {
         match self {
             Self::Cylinder { radius, height } => PI * radius * radius * height,
-            Self::Portion { radius, cos } => TAU / 3.0 * radius.powi(3) * (1.0 - cos),
+            Self::Portion { radius, cos } => TAU / 3.0 * math::powi(*radius, 3) * (1.0 - cos),
             Self::Cone { radius, height } => PI / 3.0 * radius * radius * height,
             Self::Ellipsoid { across, along } => 2.0 * TAU / 3.0 * across * across * along,
             Self::Turned { outline, radius, height } => outline.content() * radius * radius * height,
@@ -44,15 +45,15 @@ impl Solid {
             Self::Portion { radius, cos } => {
                 let along = 1.0 - u * (1.0 - cos);
                 let across = (1.0 - along * along).max(0.0).sqrt();
-                around(across, along) * (radius * w.cbrt())
+                around(across, along) * (radius * math::cbrt(w))
             }
             Self::Cone { radius, height } => {
-                let left = u.cbrt();
+                let left = math::cbrt(u);
                 around(radius * left * w.sqrt(), height * (1.0 - left))
             }
             Self::Ellipsoid { across, along } => {
                 let z = 1.0 - 2.0 * u;
-                let ball = around((1.0 - z * z).max(0.0).sqrt(), z) * w.cbrt();
+                let ball = around((1.0 - z * z).max(0.0).sqrt(), z) * math::cbrt(w);
                 ball * dvec3(*across, *across, *along)
             }
             Self::Turned { outline, radius, height } => {
@@ -77,7 +78,7 @@ impl Solid {
             Self::Cone { radius, height } => {
                 (0.0..=*height).contains(&p.z) && across.sqrt() <= radius * (1.0 - p.z / height)
             }
-            Self::Ellipsoid { across: r, along } => across / (r * r) + (p.z / along).powi(2) <= 1.0,
+            Self::Ellipsoid { across: r, along } => across / (r * r) + math::powi(p.z / along, 2) <= 1.0,
             Self::Turned { outline, radius, height } => outline.holds(p / dvec3(*radius, *radius, *height)),
         }
     }
@@ -92,7 +93,7 @@ impl Solid {
             Self::Portion { radius, .. } => p.length() >= radius * least,
             Self::Cone { radius, height } => {
                 // Distance to the mantle.
-                let slant = radius.hypot(*height);
+                let slant = math::hypot(*radius, *height);
                 (radius * (height - p.z) - across * height) / slant <= shell * radius
             }
             Self::Ellipsoid { across: r, along } => {

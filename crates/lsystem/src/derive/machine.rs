@@ -4,6 +4,7 @@ use crate::diagnostic::Fault;
 use crate::program::{Binary, Code, Op, Program, Unary};
 use crate::syntax::{BinaryOp, Function, Span};
 use pleach_tree::Key;
+use pleach_tree::math;
 use pleach_tree::trig::{atan2, sin_cos};
 use std::f64::consts::TAU;
 
@@ -142,7 +143,7 @@ impl<'a> Machine<'a> {
                     top -= 1;
                     let (mean, deviation) = (stack[top - 1], stack[top]);
                     // Box and Muller: 1 - u is in (0, 1].
-                    let far = (-2.0 * (1.0 - key.unit(purpose::NORMAL, site)).ln()).sqrt();
+                    let far = (-2.0 * math::ln(1.0 - key.unit(purpose::NORMAL, site))).sqrt();
                     let (_, cos) = sin_cos(TAU * key.unit(purpose::DRAW, site));
                     stack[top - 1] = mean + deviation * far * cos;
                 }
@@ -176,12 +177,12 @@ fn call(function: Function, x: f64) -> f64 {
             let (sin, cos) = sin_cos(x.to_radians());
             sin / cos
         }
-        Function::Asin => x.asin().to_degrees(),
-        Function::Acos => x.acos().to_degrees(),
-        Function::Atan => x.atan().to_degrees(),
+        Function::Asin => math::asin(x).to_degrees(),
+        Function::Acos => math::acos(x).to_degrees(),
+        Function::Atan => math::atan(x).to_degrees(),
         Function::Sqrt => x.sqrt(),
-        Function::Exp => x.exp(),
-        Function::Log => x.ln(),
+        Function::Exp => math::exp(x),
+        Function::Log => math::ln(x),
         Function::Abs => x.abs(),
         Function::Sign => f64::from(i8::from(x > 0.0) - i8::from(x < 0.0)),
         Function::Floor => x.floor(),
@@ -222,7 +223,7 @@ fn binary(op: Binary, a: f64, b: f64) -> f64 {
 /// Whole powers by multiplication alone, which gives the same bits everywhere.
 fn power(a: f64, b: f64) -> f64 {
     if b.fract() != 0.0 || b.abs() > 64.0 {
-        return a.powf(b);
+        return math::pow(a, b);
     }
     let (mut result, mut square, mut rest) = (1.0, a, b.abs() as u32);
     while rest > 0 {

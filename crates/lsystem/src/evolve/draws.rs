@@ -1,6 +1,7 @@
 //! Draws of one change.
 
 use pleach_tree::Key;
+use pleach_tree::math;
 
 /// Draws of one change, one after the other.
 #[derive(Clone, Debug)]
@@ -43,8 +44,8 @@ impl Draws {
 
     /// A normal number of mean 0 and variance 1 (Box and Muller 1958).
     pub(super) fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.unit()).cos()
+        let radius = (-2.0 * math::ln(1.0 - self.unit())).sqrt();
+        radius * math::cos(std::f64::consts::TAU * self.unit())
     }
 }
 

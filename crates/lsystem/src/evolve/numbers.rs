@@ -3,6 +3,7 @@
 use super::draws::{Draws, rounded};
 use super::walk::{Role, exprs, literal, number};
 use crate::syntax::{Grammar, Item, SettingKey, Values};
+use pleach_tree::math;
 
 /// Steps are drawn by ratio between these parts of a number, or of [`TURN`].
 const STEPS: (f64, f64) = (0.004, 0.5);
@@ -44,7 +45,7 @@ pub(super) fn vary(grammar: &mut Grammar, draws: &mut Draws) {
     let mut count = 0;
     exprs(grammar, &mut |expr, _| count += usize::from(literal(expr).is_some()));
     let (low, high) = STEPS;
-    let step = low * (high / low).powf(draws.unit());
+    let step = low * math::pow(high / low, draws.unit());
     let (share, step) = match draws.unit() {
         u if u < 0.45 => (0.0, step),
         u if u < 0.8 => (2.5 / count.max(1) as f64, step),
@@ -86,7 +87,7 @@ fn stepped(value: f64, role: Role, step: f64, draws: &mut Draws) -> f64 {
             let moved = if value.abs() < SMALL {
                 value + SMALL * step * draws.normal()
             } else {
-                value * (step * draws.normal()).exp()
+                value * math::exp(step * draws.normal())
             };
             rounded(moved.clamp(-MAX_NUMBER, MAX_NUMBER))
         }
@@ -115,7 +116,7 @@ fn bend_list(grammar: &mut Grammar, draws: &mut Draws) -> bool {
                 for (i, value) in list.iter_mut().enumerate() {
                     let along = 2.0 * i as f64 / last - 1.0;
                     if let Some(old) = literal(value) {
-                        let factor = (all + end * along + middle * (1.0 - along * along)).exp();
+                        let factor = math::exp(all + end * along + middle * (1.0 - along * along));
                         *value = number(rounded((old * factor).clamp(-MAX_NUMBER, MAX_NUMBER)));
                     }
                 }

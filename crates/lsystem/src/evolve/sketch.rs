@@ -2,6 +2,7 @@
 //! all numbers drawn. Lengths are parts of the tree's height.
 
 use super::draws::{Draws, rounded};
+use pleach_tree::math;
 
 /// The header of a search from nothing.
 macro_rules! blank {
@@ -26,7 +27,7 @@ pub(super) fn sketch(draws: &mut Draws) -> String {
     let shape = ["ovate", "linear", "elliptic", "cordate", "triangle"][draws.below(5)];
     let lift = if draws.chance(0.5) { 0.0 } else { between(draws, -6.0, 4.0) };
     let lean = if draws.chance(0.7) { 0.0 } else { between(draws, -1.5, 1.5) };
-    let leaf = rounded(0.012 * 5.0_f64.powf(draws.unit()));
+    let leaf = rounded(0.012 * math::pow(5.0, draws.unit()));
     format!(
         "{}steps: {}\nthickness: 0.5\nthinning: {}\ntropism: ({lean}, 0, {lift})\nleaf_shape: {shape}\nleaf_scale: {leaf}\n\
          leaf_scale_x: {}\n{body}",
@@ -90,12 +91,12 @@ fn branch(draws: &mut Draws) -> String {
 
 /// How long branches are along the crown, from its foot (0) to its top (1).
 fn profile(draws: &mut Draws) -> impl Fn(f64) -> f64 + use<> {
-    let most = 0.1 * 6.0_f64.powf(draws.unit());
+    let most = 0.1 * math::pow(6.0, draws.unit());
     let widest = draws.between(0.0, 0.7);
     let (foot, top) = (draws.between(0.1, 1.0), draws.between(0.05, 0.6));
     move |h| {
         let (from, way) = if h < widest { (foot, h / widest) } else { (top, (1.0 - h) / (1.0 - widest)) };
-        most * (from + (1.0 - from) * (1.0 - (1.0 - way).powi(2)).max(0.0).sqrt())
+        most * (from + (1.0 - from) * (1.0 - math::powi(1.0 - way, 2)).max(0.0).sqrt())
     }
 }
 

@@ -15,6 +15,7 @@ use crate::system::Derived;
 use glam::DVec3;
 use leaves::Leaves;
 pub(crate) use pen::{Pen, Steps};
+use pleach_tree::math;
 use pleach_tree::{Foliage, Key, Limits, Tree};
 use std::f64::consts::TAU;
 use stems::Stems;
@@ -169,7 +170,7 @@ impl Walk<'_> {
         if self.steps.bendiness > 0.0 {
             let side = key.unit(purpose::BEND, 1) * TAU;
             let turtle = &mut self.pen.turtle;
-            let axis = turtle.right * side.cos() + turtle.down() * side.sin();
+            let axis = turtle.right * math::cos(side) + turtle.down() * math::sin(side);
             let angle = key.unit(purpose::BEND, 0) * self.steps.bendiness;
             turtle.rotate_about(axis, angle.to_radians());
         }

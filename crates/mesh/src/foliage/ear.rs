@@ -48,7 +48,10 @@ fn is_ear(outline: &[Point], left: &[u32], ear: [u32; 3]) -> bool {
 /// Area over the sum of squared edges: largest for an equilateral triangle.
 fn quality(outline: &[Point], ear: [u32; 3]) -> f32 {
     let [a, b, c] = ear.map(|i| outline[i as usize]);
-    let square = |p: Point, q: Point| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
+    let square = |p: Point, q: Point| {
+        let (x, y) = (p[0] - q[0], p[1] - q[1]);
+        x * x + y * y
+    };
     cross(a, b, c) / (square(a, b) + square(b, c) + square(c, a))
 }
 

@@ -1,6 +1,7 @@
 //! How far a point is from a piece of stem: two spheres and everything between them.
 
 use glam::DVec3;
+use pleach_tree::math;
 
 /// A unit vector, and how far along it the plane lies, in metres.
 #[derive(Clone, Copy, Debug)]
@@ -104,7 +105,7 @@ impl Cone {
     /// About how many cubic metres lie nearer to the surface than `margin` metres.
     pub(super) fn volume_around(&self, margin: f64) -> f64 {
         let radius = (self.radii[0] + self.radii[1]) / 2.0;
-        let ring = (radius + margin).powi(2) - (radius - margin).max(0.0).powi(2);
+        let ring = math::powi(radius + margin, 2) - math::powi((radius - margin).max(0.0), 2);
         std::f64::consts::PI * ring * self.length
     }
 

@@ -3,6 +3,7 @@
 use super::WeldError;
 use super::nearby::{Nearby, Room, Stems};
 use glam::{DVec3, IVec3, ivec3};
+use pleach_tree::math;
 use rayon::prelude::*;
 
 /// Cells along a brick: two eights.
@@ -57,7 +58,7 @@ impl Grid {
         }
         // Told before the work, not after: a grid too fine would take minutes to overflow.
         let volume: f64 = stems.cones.iter().map(|cone| cone.volume_around(BAND * cell)).sum();
-        if volume / cell.powi(3) > MAX_CELLS {
+        if volume / math::powi(cell, 3) > MAX_CELLS {
             return Err(WeldError::TooFine { cell });
         }
         Ok(Self { origin, cell, along: along as i32 })

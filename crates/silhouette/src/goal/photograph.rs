@@ -1,6 +1,7 @@
 //! Whether a picture that was split by brightness is a photograph rather than a silhouette.
 
 use super::read::Tones;
+use pleach_tree::math;
 
 /// Levels of 255 within which a pixel has its side's tone.
 const LIKE: i32 = 40;
@@ -66,7 +67,7 @@ fn off(tones: &Tones, threshold: u8) -> f64 {
     let is_off = |color: &&[u8; 3]| {
         let at: [f64; 3] = std::array::from_fn(|i| f64::from(color[i]) - from[i]);
         let share = (at.iter().zip(along).map(|(a, b)| a * b).sum::<f64>() / length).clamp(0.0, 1.0);
-        at.iter().zip(along).map(|(a, b)| (a - share * b).powi(2)).sum::<f64>() > f64::from(LIKE * LIKE)
+        at.iter().zip(along).map(|(a, b)| math::powi(a - share * b, 2)).sum::<f64>() > f64::from(LIKE * LIKE)
     };
     tones.colors.iter().filter(is_off).count() as f64 / tones.colors.len() as f64
 }

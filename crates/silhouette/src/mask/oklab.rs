@@ -4,6 +4,8 @@
 //! about even to the eye: 0.02 can just be told apart, black and white are 1 apart. It keeps the hue of
 //! blues steady while they fade, as skies do.
 
+use pleach_tree::math;
+
 /// Lightness 0 to 1, green to red, blue to yellow.
 pub(super) type Oklab = [f32; 3];
 
@@ -18,7 +20,7 @@ impl Converter {
     pub(super) fn new() -> Self {
         let linear = std::array::from_fn(|value| {
             let v = value as f32 / 255.0;
-            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+            if v <= 0.04045 { v / 12.92 } else { math::powf((v + 0.055) / 1.055, 2.4) }
         });
         Self { linear }
     }
@@ -26,9 +28,9 @@ impl Converter {
     #[expect(clippy::excessive_precision, reason = "as they were published")]
     pub(super) fn oklab(&self, [r, g, b]: [u8; 3]) -> Oklab {
         let [r, g, b] = [r, g, b].map(|v| self.linear[usize::from(v)]);
-        let l = (0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b).cbrt();
-        let m = (0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b).cbrt();
-        let s = (0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b).cbrt();
+        let l = math::cbrtf(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+        let m = math::cbrtf(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+        let s = math::cbrtf(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
         [
             0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
             1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,

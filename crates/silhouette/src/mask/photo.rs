@@ -68,6 +68,12 @@ impl Photo {
         self.several
     }
 
+    /// Red, green, blue and opacity, row by row.
+    #[must_use]
+    pub fn pixels(&self) -> &[[u8; 4]] {
+        &self.pixels
+    }
+
     pub(super) fn rgb(&self, x: u32, y: u32) -> [u8; 3] {
         let [r, g, b, _] = self.pixels[y as usize * self.width as usize + x as usize];
         [r, g, b]

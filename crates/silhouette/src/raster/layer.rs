@@ -10,6 +10,7 @@ use super::{ACROSS, Detail, Rasterizer};
 use crate::bitmap::Bitmap;
 use crate::view::{Camera, Frame, View};
 use glam::DVec3;
+use pleach_tree::math;
 use pleach_tree::{Leaf, Parts, Tree};
 use std::ops::Range;
 
@@ -146,7 +147,7 @@ impl LayerPainter {
 
 /// How far the corners of a unit shape are from its foot.
 fn reach(corners: &[[f32; 2]]) -> f32 {
-    corners.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f32::max)
+    corners.iter().map(|[x, y]| math::hypotf(*x, *y)).fold(0.0, f32::max)
 }
 
 /// A box of a picture, in pixels, that grows.

@@ -2,6 +2,7 @@
 
 use pleach_tree::Leaf;
 use pleach_tree::leaf_shape::Outline;
+use pleach_tree::math;
 
 /// Removes corners of a closed outline while the new edge passes within `tolerance` of the removed
 /// corner, then scales what is left about its centroid so that its area stays the same.
@@ -43,8 +44,8 @@ fn simplify(shape: &Outline, scale: [f32; 2], tolerance: f32, kept: &mut Vec<[f3
 fn height(a: [f32; 2], b: [f32; 2], c: [f32; 2], scale: [f32; 2]) -> f32 {
     let to = |p: [f32; 2]| [(p[0] - a[0]) * scale[0], (p[1] - a[1]) * scale[1]];
     let (ab, ac) = (to(b), to(c));
-    let length = ac[0].hypot(ac[1]);
-    if length < 1e-12 { ab[0].hypot(ab[1]) } else { (ab[0] * ac[1] - ab[1] * ac[0]).abs() / length }
+    let length = math::hypotf(ac[0], ac[1]);
+    if length < 1e-12 { math::hypotf(ab[0], ab[1]) } else { (ab[0] * ac[1] - ab[1] * ac[0]).abs() / length }
 }
 
 fn area(corners: &[[f32; 2]]) -> f32 {
@@ -102,7 +103,7 @@ impl Outlines {
     ///
     /// Sizes within a tenth share an outline, so that a search over leaf sizes seldom makes one.
     pub(crate) fn get(&mut self, shape: &Outline, scale: [f32; 2]) -> Blade<'_> {
-        let steps = scale.map(|s| (s.clamp(1e-4, 1e6).ln() * 10.0).round());
+        let steps = scale.map(|s| (math::lnf(s.clamp(1e-4, 1e6)) * 10.0).round());
         let known = self.known.iter().position(|known| known.steps == steps && known.shape == *shape);
         let known = match known {
             Some(known) => known,
@@ -116,7 +117,7 @@ impl Outlines {
     }
 
     fn add(&mut self, shape: &Outline, steps: [f32; 2]) -> usize {
-        let scale = steps.map(|s| (s / 10.0).exp());
+        let scale = steps.map(|s| math::expf(s / 10.0));
         let least = (shape.width() * scale[0]).min(scale[1]);
         let mut corners = Vec::new();
         simplify(shape, scale, TOLERANCE.min(RELATIVE_TOLERANCE * least), &mut corners);

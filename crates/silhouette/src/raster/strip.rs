@@ -3,6 +3,7 @@
 use super::grid::{Corner, Grid};
 use crate::view::Camera;
 use glam::{DVec3, Vec2};
+use pleach_tree::math;
 use pleach_tree::spline::Cubic;
 use pleach_tree::{Stem, Tree};
 
@@ -90,7 +91,7 @@ fn cap(grid: &mut Grid, camera: &Camera, scale: Vec2, piece: &Cubic, t: f64, rad
     }
     let short = rib.side.perp() * (high / wide);
     let corners: [Corner; CORNERS] = std::array::from_fn(|i| {
-        let (sin, cos) = (i as f32 * std::f32::consts::TAU / CORNERS as f32).sin_cos();
+        let (sin, cos) = math::sin_cos_f32(i as f32 * std::f32::consts::TAU / CORNERS as f32);
         ((rib.center + rib.side * cos + short * sin) * scale).to_array()
     });
     grid.fill(&corners);

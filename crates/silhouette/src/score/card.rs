@@ -5,6 +5,7 @@ use super::distance::squared_distances;
 use super::ellipse::best_ellipse_iou;
 use super::likeness::Likeness;
 use crate::bitmap::Bitmap;
+use pleach_tree::math;
 use serde::Serialize;
 
 /// The scores of a picture against a goal of the same size. The names are those of the JSON.
@@ -137,7 +138,7 @@ fn outline(bitmap: &Bitmap) -> Bitmap {
 /// Boundary F-score and chamfer distance.
 fn outlines(image: &Bitmap, goal: &Bitmap) -> (f64, f64) {
     let height = f64::from(goal.height());
-    let diagonal = f64::from(goal.width()).hypot(height);
+    let diagonal = math::hypot(f64::from(goal.width()), height);
     match (image.ink(), goal.ink()) {
         (0, 0) => return (1.0, 0.0),
         (0, _) | (_, 0) => return (0.0, diagonal / height),

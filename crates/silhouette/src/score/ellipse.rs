@@ -3,6 +3,7 @@
 //! IoU flatters blobs. A fit that does not beat one ellipse has found no tree, whatever its IoU.
 
 use crate::bitmap::Bitmap;
+use pleach_tree::math;
 
 /// Columns or rows of the picture in which ellipses are tried.
 const SIDE: u32 = 128;
@@ -25,10 +26,10 @@ pub fn best_ellipse(goal: &Bitmap) -> Bitmap {
     let Some((_, [cx, cy, a, b, angle])) = search(goal) else {
         return Bitmap::new(goal.width(), goal.height());
     };
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = math::sin_cos(angle);
     Bitmap::from_fn(goal.width(), goal.height(), |x, y| {
         let (dx, dy) = (f64::from(x) + 0.5 - cx, f64::from(y) + 0.5 - cy);
-        ((dx * cos + dy * sin) / a).powi(2) + ((dy * cos - dx * sin) / b).powi(2) <= 1.0
+        math::powi((dx * cos + dy * sin) / a, 2) + math::powi((dy * cos - dx * sin) / b, 2) <= 1.0
     })
 }
 
@@ -155,11 +156,11 @@ impl Rows {
         if a.min(b) < 0.3 || a.max(b) > self.longest {
             return 0.0;
         }
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = math::sin_cos(angle);
         // Of the quadratic form: p x² + 2 q x y + r y² = 1 about the centre.
-        let p = (cos / a).powi(2) + (sin / b).powi(2);
+        let p = math::powi(cos / a, 2) + math::powi(sin / b, 2);
         let q = sin * cos * (1.0 / (a * a) - 1.0 / (b * b));
-        let r = (sin / a).powi(2) + (cos / b).powi(2);
+        let r = math::powi(sin / a, 2) + math::powi(cos / b, 2);
         let reach = (p / (p * r - q * q)).sqrt();
         let first = (cy - reach).floor().max(0.0) as usize;
         let last = ((cy + reach).ceil().max(0.0) as usize).min(self.height);
@@ -250,10 +251,10 @@ impl Rows {
         let (xx, yy) = (squares[0] / n - mean[0] * mean[0], squares[2] / n - mean[1] * mean[1]);
         let xy = squares[1] / n - mean[0] * mean[1];
         // Axes of the covariance; a filled ellipse has half axes of two standard deviations.
-        let (middle, off) = (f64::midpoint(xx, yy), ((xx - yy) / 2.0).hypot(xy));
+        let (middle, off) = (f64::midpoint(xx, yy), math::hypot((xx - yy) / 2.0, xy));
         let axis = |variance: f64| (2.0 * variance.max(0.0).sqrt()).clamp(0.5, self.longest);
         let moments =
-            [mean[0], mean[1], axis(middle + off), axis(middle - off), 0.5 * (2.0 * xy).atan2(xx - yy)];
+            [mean[0], mean[1], axis(middle + off), axis(middle - off), 0.5 * math::atan2(2.0 * xy, xx - yy)];
         let center = [0, 1].map(|k| f64::midpoint(low[k], high[k]));
         let half = [0, 1].map(|k| ((high[k] - low[k]) / 2.0).max(0.5));
         vec![

@@ -7,6 +7,7 @@ use crate::skeleton::Skeleton;
 use crate::surface::{Ellipsoid, Grid, Mesh, Union};
 use crate::write::{Budget, Writer};
 use glam::{DMat3, DVec3};
+use pleach_tree::math;
 use pleach_tree::{GrowError, Key};
 
 /// Cells of the grid at each level of detail, over the radius of a blob's first sphere.
@@ -90,7 +91,7 @@ impl Blobs {
         let union = Union { parts: &self.spheres, fillet: FILLET };
         // Large blobs have somewhat larger cells: detail is seen against the whole.
         let (low, high) = union.bounds();
-        let half = ((high - low) / 2.0).element_product().cbrt();
+        let half = math::cbrt(((high - low) / 2.0).element_product());
         let cell = CELLS[numbers.subdivision.min(3) as usize] * half.max(1.0).sqrt();
         budget.spend(Grid::count(&union, cell), "subdivision")?;
         self.grid.sample(&union, cell);

@@ -4,6 +4,7 @@ use super::{Chain, Dealt, Skeleton, relax, smooth};
 use crate::draws::{TRUNKS, signed3, turned};
 use crate::params::{MIN_PARTING_HEIGHT, Numbers};
 use glam::{DVec3, dvec3};
+use pleach_tree::math;
 use pleach_tree::{Address, Growth, Key, StemKind};
 
 /// Radius of a trunk of width 1.
@@ -75,7 +76,7 @@ pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, growth: &Growth<'
     let axes = axes(tree);
     skeleton.trunk_count = trunks;
     // Where several trunks part rises more slowly than their ends.
-    let parting = HEIGHTS[0] * if trunks > 1 { height.powf(0.7) } else { height };
+    let parting = HEIGHTS[0] * if trunks > 1 { math::pow(height, 0.7) } else { height };
     let lean = if trunks > 1 { 0.0 } else { 0.05 * randomness * height };
     let v1 = dvec3(lean * tree.signed(purpose::INNER, 0), lean * tree.signed(purpose::INNER, 1), parting);
     let firmness = 0.5 * height / (height + 2.0) * (2.0 + f64::from(trunks)) / 6.0 * (1.0 + randomness) / 2.0;
@@ -110,7 +111,7 @@ pub(super) fn grow(skeleton: &mut Skeleton, numbers: &Numbers, growth: &Growth<'
         }
         // Arms share what the trunk below carries, as Leonardo has it, though not quite: thin arms look
         // lost in this style.
-        let share = f64::from(trunks).powf(-0.35);
+        let share = math::pow(f64::from(trunks), -0.35);
         let body = RADIUS * numbers.trunk_width;
         let mut radii: Vec<f64> = (0..points.len())
             .map(|i| {

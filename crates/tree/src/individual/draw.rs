@@ -1,5 +1,6 @@
 //! What one stem has drawn in place of its own draws.
 
+use crate::math;
 use crate::random::{Key, Purpose};
 
 /// What draws of one stem are for.
@@ -38,7 +39,7 @@ impl Draw {
     /// How far it lies from the stem's own draws, in squares of `spread`; the mean of the three numbers.
     #[must_use]
     pub fn price(&self, spread: &Spread) -> f64 {
-        let part = |distance: f64, most: f64| if most > 0.0 { (distance / most).powi(2) } else { 0.0 };
+        let part = |distance: f64, most: f64| if most > 0.0 { math::powi(distance / most, 2) } else { 0.0 };
         let Spread { azimuth, pitch, length } = *spread;
         (part(self.azimuth, azimuth) + part(self.pitch, pitch) + part(self.length - 1.0, length)) / 3.0
     }

@@ -2,6 +2,7 @@
 
 mod blob;
 mod check;
+mod digest;
 mod leaf;
 mod parts;
 mod stem;

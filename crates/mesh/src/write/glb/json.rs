@@ -5,6 +5,7 @@ use super::{Placed, Scene, animation, upright};
 use crate::palette::linear;
 use crate::part::Material;
 use glam::Vec3;
+use pleach_tree::math;
 use serde_json::{Map, Value, json};
 
 const ARRAY_BUFFER: u32 = 34_962;
@@ -253,7 +254,7 @@ impl File {
         if !coarse.is_empty() {
             self.uses(LEVELS);
             // What part of the screen's height a level is good for; below the last, nothing is drawn.
-            let covers: Vec<f64> = (0..=coarse.len()).map(|i| 0.5 / 2.5_f64.powi(i as i32)).collect();
+            let covers: Vec<f64> = (0..=coarse.len()).map(|i| 0.5 / math::powi(2.5, i as i32)).collect();
             let covers: Vec<f64> = covers.iter().map(|c| (c * 1e3).round() / 1e3).collect();
             self.nodes[node]["extensions"] = json!({(LEVELS): {"ids": coarse}});
             self.nodes[node]["extras"] = json!({"MSFT_screencoverage": covers});

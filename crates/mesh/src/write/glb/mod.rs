@@ -13,8 +13,11 @@
 //! | sway | a skin of rigid joints with one looping animation |
 
 mod animation;
+mod extras;
 mod json;
 mod layout;
+
+pub use extras::extras;
 
 use crate::block::{Block, Vertex, Wind};
 use crate::mesher::Mesher;

@@ -19,7 +19,7 @@ pub(super) fn amounts(picture: &Bitmap, columns: &mut Columns) -> Cells {
         let row = picture.row(y);
         columns.count(|i| row[i], &mut counts[band..band + CELLS]);
     }
-    let area = (side as f32 / CELLS as f32).powi(2);
+    let area = (side as f32 / CELLS as f32) * (side as f32 / CELLS as f32);
     let mut cells = counts.map(|n| n as f32 / area);
     smooth(&mut cells, false);
     cells

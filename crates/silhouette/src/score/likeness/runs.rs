@@ -8,6 +8,7 @@
 
 use super::LANES;
 use crate::bitmap::Bitmap;
+use pleach_tree::math;
 
 /// Lengths that are told apart: 1, 2, 4, … 128 parts in 256 of S. What lies between two counts for
 /// both, in proportion on a logarithmic scale: a run that grows by a pixel moves little.
@@ -82,7 +83,7 @@ fn spread(counts: &[u32], unit: f32, amounts: &mut [f32]) {
     let side = counts.len() - 1;
     let last = LENGTHS - 1;
     for (length, &n) in counts.iter().enumerate().filter(|(_, n)| **n > 0) {
-        let scale = (256.0 * length as f32 / side as f32).log2().clamp(0.0, last as f32);
+        let scale = math::log2f(256.0 * length as f32 / side as f32).clamp(0.0, last as f32);
         let (below, part) = (scale as usize, scale.fract());
         let amount = n as f32 * length as f32 * unit;
         amounts[below] += amount * (1.0 - part);

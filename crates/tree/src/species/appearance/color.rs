@@ -1,5 +1,6 @@
 //! Colours, and mixing them as the eye would.
 
+use crate::math;
 use std::fmt;
 
 /// A colour as on screens: sRGB, 0 to 255 a channel. Written `#rrggbb`.
@@ -47,11 +48,11 @@ impl Color {
     fn oklab(self) -> [f64; 3] {
         let [r, g, b] = self.0.map(|channel| {
             let v = f64::from(channel) / 255.0;
-            if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+            if v <= 0.040_45 { v / 12.92 } else { math::pow((v + 0.055) / 1.055, 2.4) }
         });
-        let l = (0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b).cbrt();
-        let m = (0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b).cbrt();
-        let s = (0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b).cbrt();
+        let l = math::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+        let m = math::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+        let s = math::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
         [
             0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
             1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
@@ -61,9 +62,9 @@ impl Color {
 
     /// The way back, to the nearest colour that a screen has.
     fn from_oklab([lightness, a, b]: [f64; 3]) -> Self {
-        let l = (lightness + 0.3963377774 * a + 0.2158037573 * b).powi(3);
-        let m = (lightness - 0.1055613458 * a - 0.0638541728 * b).powi(3);
-        let s = (lightness - 0.0894841775 * a - 1.2914855480 * b).powi(3);
+        let l = math::powi(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
+        let m = math::powi(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
+        let s = math::powi(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
         let linear = [
             4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
             -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
@@ -71,7 +72,7 @@ impl Color {
         ];
         Self(linear.map(|v| {
             let v = v.clamp(0.0, 1.0);
-            let v = if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+            let v = if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * math::pow(v, 1.0 / 2.4) - 0.055 };
             (255.0 * v).round() as u8
         }))
     }
