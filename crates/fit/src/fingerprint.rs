@@ -2,7 +2,7 @@
 
 use crate::problem::{FitProblem, GoalView};
 use crate::settings::FitSettings;
-use pleach_tree::Foliage;
+use pleach_tree::{Fnv, Foliage};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -108,29 +108,9 @@ fn goal_parts(problem: &FitProblem) -> [(&'static str, Vec<u8>); 4] {
     ]
 }
 
-/// The 64-bit hash of Fowler, Noll and Vo (FNV-1a): against accidents, not against intent.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Fnv;
-
-impl Fnv {
-    pub(crate) fn of(bytes: &[u8]) -> u64 {
-        bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_hash_is_the_published_one() {
-        // Test vectors of the FNV page by L. C. Noll.
-        assert_eq!(Fnv::of(b""), 0xcbf2_9ce4_8422_2325);
-        assert_eq!(Fnv::of(b"a"), 0xaf63_dc4c_8601_ec8c);
-        assert_eq!(Fnv::of(b"foobar"), 0x8594_4171_f739_67e8);
-    }
 
     #[test]
     fn differences_are_named() {

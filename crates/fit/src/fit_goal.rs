@@ -16,6 +16,7 @@ use crate::verdict::Verdict;
 use pleach_silhouette::score::ScoreCard;
 use pleach_tree::Species;
 use pleach_tree::param::SlotError;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 /// How a goal is fitted, from the first guess to the judging of the result.
@@ -158,11 +159,19 @@ pub fn fit_goal_with(
     library: &mut GuessLibrary,
     mut control: Control<'_>,
 ) -> Result<Fitted, FitError> {
-    let mut begun = begin(problem, settings, library, &mut control)?;
-    for observer in &mut control.observers {
-        observer.begun(&begun).map_err(FitError::Observer)?;
-    }
-    let mut outcome = fit(&begun.problem, &begun.settings, control.reborrow())?;
+    let begun = begin(problem, settings, library, &mut control)?;
+    let outcome = fit(&begun.problem, &begun.settings, control.reborrow())?;
+    conclude(begun, outcome, settings, library, control)
+}
+
+/// Judges what a search has found, unless the flag of `control` is raised, and looks for this very tree.
+pub(crate) fn conclude(
+    mut begun: Begun,
+    mut outcome: Outcome,
+    settings: &GoalSettings,
+    library: &mut GuessLibrary,
+    mut control: Control<'_>,
+) -> Result<Fitted, FitError> {
     let found = outcome.best.clone().filter(|best| best.score.cost.is_finite());
     let Some(mut best) = found else {
         return Err(match outcome.stop {
@@ -176,7 +185,9 @@ pub fn fit_goal_with(
         best.genome.structure = None;
     }
     let mut judged = None;
-    if let (Some(judging), false) = (settings.judging, outcome.stop == StopReason::Interrupted) {
+    if control.stop.load(Ordering::Relaxed) {
+        outcome.stop = StopReason::Interrupted;
+    } else if let Some(judging) = settings.judging {
         control.observers.iter_mut().for_each(|observer| observer.judging());
         let (clock, stop) = (control.clock, control.stop);
         let judge = Judge { begun: &begun, judging, candidates: &settings.candidates, clock, stop };
@@ -190,7 +201,7 @@ pub fn fit_goal_with(
     let mut found = Vec::new();
     let time_for_individuals = time_for_individuals(settings, outcome.elapsed, judged.as_ref());
     let individual = settings.individual.map(|how| IndividualSettings { time: time_for_individuals, ..how });
-    if let (Some(how), false) = (individual, outcome.stop == StopReason::Interrupted) {
+    if let (Some(how), false) = (individual, control.stop.load(Ordering::Relaxed)) {
         let Control { clock, stop, observers, .. } = &mut control;
         let tell = |progress: &_| observers.iter_mut().for_each(|observer| observer.individual(progress));
         match individuals(&begun.problem, &best.genome, how, *clock, stop, tell) {
@@ -203,8 +214,8 @@ pub fn fit_goal_with(
     Ok(Fitted { problem, settings, guess, outcome, best, judged, individuals: found })
 }
 
-/// Finds out where the search begins.
-fn begin(
+/// Finds out where the search begins, and tells the observers.
+pub(crate) fn begin(
     problem: &FitProblem,
     settings: &GoalSettings,
     library: &mut GuessLibrary,
@@ -212,18 +223,26 @@ fn begin(
 ) -> Result<Begun, FitError> {
     let search = &settings.search;
     let guess = match &settings.guess {
-        Guessing::Off => {
-            return Ok(Begun { problem: problem.clone(), settings: search.clone(), guess: None });
-        }
-        Guessing::Known(guess) => (**guess).clone(),
+        Guessing::Off => None,
+        Guessing::Known(guess) => Some((**guess).clone()),
         Guessing::Compare(how) => {
             let (stop, observers) = (control.stop, &mut control.observers);
             let tell = |done, all| observers.iter_mut().for_each(|observer| observer.guessing(done, all));
-            library.first_guess(problem, search, &settings.candidates, how, stop, tell)?
+            Some(library.first_guess(problem, search, &settings.candidates, how, stop, tell)?)
         }
     };
-    let settings = FitSettings { start: guess.start(), ..search.clone() };
-    Ok(Begun { problem: guess.problem(problem), settings, guess: Some(guess) })
+    let begun = match guess {
+        None => Begun { problem: problem.clone(), settings: search.clone(), guess: None },
+        Some(guess) => Begun {
+            problem: guess.problem(problem),
+            settings: FitSettings { start: guess.start(), ..search.clone() },
+            guess: Some(guess),
+        },
+    };
+    for observer in &mut control.observers {
+        observer.begun(&begun).map_err(FitError::Observer)?;
+    }
+    Ok(begun)
 }
 
 /// What is left for individuals of the time of the whole fit, of which the search took `searched`.

@@ -7,6 +7,7 @@ use crate::genome::{Genome, Score};
 use crate::objective::Objective;
 use crate::problem::FitProblem;
 use pleach_tree::Limits;
+use pleach_tree::math;
 use serde::Serialize;
 
 /// Mean and spread of a score over seeds.
@@ -72,7 +73,7 @@ impl Spread {
     fn new(values: impl ExactSizeIterator<Item = f64> + Clone) -> Self {
         let n = values.len() as f64;
         let mean = values.clone().sum::<f64>() / n;
-        let squares: f64 = values.map(|v| (v - mean).powi(2)).sum();
+        let squares: f64 = values.map(|v| math::powi(v - mean, 2)).sum();
         Self { mean, sd: (squares / (n - 1.0).max(1.0)).sqrt() }
     }
 }

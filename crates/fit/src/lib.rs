@@ -8,6 +8,7 @@
 //! | what is searched | [`Genome`], [`Score`], [`SearchSpace`], [`Gene`] |
 //! | a whole fit | [`fit_goal`], [`GoalSettings`], [`Fitted`] |
 //! | the known species that a goal looks like | [`first_guess`], [`GuessLibrary`], [`Candidate`] |
+//! | a fit driven from outside, batch by batch | [`Stepwise`], [`evaluator`] |
 //! | the search alone | [`fit`], [`FitSettings`], [`Control`], [`Outcome`] |
 //! | what is made small | [`Objective`], [`Evaluator`]: grow, draw, score, without allocating |
 //! | optimisers | [`Optimizer`], [`Method`], [`Search`]; with argmin: [`ArgminSolver`] |
@@ -23,6 +24,7 @@
 //! give the same bits on any number of threads, interrupted and resumed or not.
 //!
 //! Files of this crate use each other in one direction: problem, space, method, search, evaluator, run.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod begun;
 mod budget;
@@ -54,6 +56,7 @@ mod setting;
 mod settings;
 mod solver;
 mod space;
+mod stepwise;
 mod stream;
 #[cfg(test)]
 mod testing;
@@ -87,11 +90,12 @@ pub use observer::{Observer, Progress};
 pub use optimizer::{AnyMethod, Optimizer, UnknownOptimizer};
 pub use problem::{FitProblem, GoalView, ProblemError, placements};
 pub use profile::{Identifiability, PROFILE_STEPS, Profile, profile, reset_unidentified};
-pub use run::{fit, settled};
+pub use run::{evaluator, fit, settled};
 pub use search::{Search, SearchState};
 pub use setting::{SETTINGS, Setting, SettingKind};
 pub use settings::{FIT_LIMITS, FitSettings};
 pub use solver::{ArgminSolver, AskTell, Batch, EmptyBatch, FitState};
 pub use space::{Freedom, Gene, PRIOR, Place, SearchSpace, SpaceError, TreeSeed, check_freedom};
+pub use stepwise::Stepwise;
 pub use stream::Stream;
 pub use verdict::{Kindred, MIN_VERDICT_SPAN, Off, Verdict};

@@ -21,12 +21,8 @@ use pleach_tree::Slot;
 /// # Errors
 /// See [`FitError`]; once the search runs, it ends with an [`Outcome`].
 pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -> Result<Outcome, FitError> {
-    let mut evaluator =
-        Evaluator::new(problem, settings.objective, settings.limits)?.with_seeds(settings.robust);
     let space = search_space(problem, settings)?;
-    if (settings.rules.is_some() || settings.optimizer.matches_height()) && space.sizes_are_free() {
-        evaluator = evaluator.with_height_matching();
-    }
+    let evaluator = evaluator_in(&space, problem, settings)?;
     let fingerprint = Fingerprint::from_fit(problem, settings);
     match &settings.rules {
         None => drive(&evaluator, space, settings, &settings.optimizer, fingerprint, control),
@@ -45,6 +41,25 @@ pub fn fit(problem: &FitProblem, settings: &FitSettings, control: Control<'_>) -
             drive(&evaluator, space.priced(rules.price), settings, rules, fingerprint, control)
         }
     }
+}
+
+/// What scores the individuals of the search for `problem`'s goals, as [`fit`] does itself: for searches whose
+/// individuals are scored elsewhere.
+///
+/// # Errors
+/// Those of [`fit`] on the same problem and settings.
+pub fn evaluator(problem: &FitProblem, settings: &FitSettings) -> Result<Evaluator, FitError> {
+    evaluator_in(&search_space(problem, settings)?, problem, settings)
+}
+
+pub(crate) fn evaluator_in(
+    space: &SearchSpace,
+    problem: &FitProblem,
+    settings: &FitSettings,
+) -> Result<Evaluator, FitError> {
+    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?.with_seeds(settings.robust);
+    let matches = settings.rules.is_some() || settings.optimizer.matches_height();
+    Ok(if matches && space.sizes_are_free() { evaluator.with_height_matching() } else { evaluator })
 }
 
 /// Steps of work that a tree of a searched structure may take: a tenth of a second. Most changes of a

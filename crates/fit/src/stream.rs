@@ -4,6 +4,7 @@
 //! draws of that place, so that its whole random state is the number of the generation.
 
 use pleach_tree::Key;
+use pleach_tree::math;
 
 /// The draws of one place in a search.
 #[derive(Clone, Debug)]
@@ -55,13 +56,13 @@ impl Stream {
 
     /// A normal number of mean 0 and variance 1 (Box and Muller 1958; the second is not kept).
     pub fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.unit()).cos()
+        let radius = (-2.0 * math::ln(1.0 - self.unit())).sqrt();
+        radius * math::cos(std::f64::consts::TAU * self.unit())
     }
 
     /// A Cauchy number of median 0 and scale 1.
     pub fn cauchy(&mut self) -> f64 {
-        (std::f64::consts::PI * (self.unit() - 0.5)).tan()
+        math::tan(std::f64::consts::PI * (self.unit() - 0.5))
     }
 }
 

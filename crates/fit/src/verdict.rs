@@ -16,6 +16,7 @@
 
 use crate::guess::References;
 use pleach_silhouette::score::Crown;
+use pleach_tree::math;
 use serde::Serialize;
 use std::fmt;
 
@@ -117,8 +118,9 @@ impl Off {
     /// What of `crown` is farthest from `goal`, in its own tolerance, if anything is beyond it.
     #[must_use]
     pub fn new(crown: &Crown, goal: &Crown) -> Option<Self> {
-        let factor =
-            |a: f64, b: f64, most: f64| if a > 0.0 && b > 0.0 { (a / b).ln() / most.ln() } else { 0.0 };
+        let factor = |a: f64, b: f64, most: f64| {
+            if a > 0.0 && b > 0.0 { math::ln(a / b) / math::ln(most) } else { 0.0 }
+        };
         let density = |crown: &Crown| crown.ink / (crown.width * crown.height).max(1e-9);
         let bare = |crown: &Crown| crown.bare_height / crown.height.max(1e-9);
         let measured = [

@@ -122,8 +122,8 @@ pub use pleach_fit::{
     FirstGuess, FitError, FitProblem, FitSettings, Fitted, FoundIndividual, Freedom, Gene, Genome,
     GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing, Identifiability, IndividualProgress,
     IndividualSettings, Judged, Judging, Objective, Observer, ObserverError, Optimizer, Outcome, Profile,
-    Progress, Row, RulesSettings, Score, Scored, SearchSpace, Start, StopReason, TreeSeed, Unknown, Verdict,
-    fit, fit_goal, fit_goal_with, individuals,
+    Progress, Row, RulesSettings, Score, Scored, SearchSpace, Start, Stepwise, StopReason, TreeSeed, Unknown,
+    Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
 };
 
 #[cfg(feature = "fit")]

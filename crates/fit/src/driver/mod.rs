@@ -1,17 +1,17 @@
 //! A search that keeps to its budget, tells its observers and saves its state.
 
+mod course;
 mod pace;
 #[cfg(test)]
 mod tests;
 
-use crate::budget::{Budget, Spent, StopReason};
+use crate::budget::{Spent, StopReason};
 use crate::checkpoint::{BodyProblem, Checkpoint, CheckpointError};
 use crate::control::{Control, Outcome};
 use crate::error::FitError;
 use crate::evaluate::Evaluate;
 use crate::fingerprint::Fingerprint;
 use crate::genome::{Score, Scored};
-use crate::history::Row;
 use crate::method::{Method, MethodSettings};
 use crate::observer::{Observer, Progress};
 use crate::search::{Search, SearchState};
@@ -19,7 +19,7 @@ use crate::settings::FitSettings;
 use crate::solver::{ArgminSolver, AskTell, Batch, FitState};
 use crate::space::SearchSpace;
 use argmin::core::{Executor, TerminationReason};
-use pace::Pace;
+pub(crate) use course::Course;
 use serde::{Serialize, de::DeserializeOwned};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -37,7 +37,7 @@ pub(crate) fn drive<S: MethodSettings<Method: State>>(
     let mut driver = Driver::begin(objective, space, settings, method, fingerprint, control)?;
     driver.announce();
     if driver.verdict().is_none() {
-        let best = driver.search.state.best.clone();
+        let best = driver.course.search.state.best.clone();
         let executor =
             Executor::new(objective, ArgminSolver(driver)).ctrlc(false).configure(|mut state: FitState| {
                 // What argmin keeps of the earlier parts of a resumed run.
@@ -60,19 +60,13 @@ impl<M: Method + Clone + Serialize + DeserializeOwned> State for M {}
 struct Driver<'a, 'e, M> {
     /// For what scores do not tell.
     objective: &'e dyn Evaluate,
-    search: Search<M>,
-    budget: Budget,
+    course: Course<M>,
     fingerprint: Fingerprint,
     control: Control<'a>,
-    history: Vec<Row>,
     times: Times,
     evaluations_before: u64,
-    /// Likeness of the best, and the cost by which it is known again. Of a resumed run first none: that of
-    /// the last row counts.
-    likeness: Option<(f64, Option<f64>)>,
     /// When the state was last saved, by the clock of this part.
     saved: Duration,
-    pace: Pace,
 }
 
 /// The time of a run that may have several parts.
@@ -119,23 +113,9 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
             }
         };
         let evaluations_before = state.evaluations;
-        let mut search = Search::resume(state, Arc::new(space));
-        search.evaluation_limit = settings.budget.evaluations.unwrap_or(u64::MAX).max(evaluations_before);
-        let pace = Pace::new(now);
-        search.batch = pace.batch();
-        let driver = Self {
-            objective,
-            search,
-            budget: settings.budget,
-            fingerprint,
-            history,
-            times,
-            evaluations_before,
-            likeness: None,
-            saved: now,
-            pace,
-            control,
-        };
+        let search = Search::resume(state, Arc::new(space));
+        let course = Course::new(search, settings.budget, history, now);
+        let driver = Self { objective, course, fingerprint, times, evaluations_before, saved: now, control };
         // Before hours of work: is the folder there, can it be written?
         driver.save()?;
         Ok(driver)
@@ -150,22 +130,11 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
     }
 
     fn spent(&self) -> Spent {
-        let state = &self.search.state;
-        let best = state.best.as_ref().map(|best| best.score);
-        Spent {
-            evaluations: state.evaluations,
-            generations: state.generation,
-            elapsed: self.elapsed(),
-            best_cost: best.map_or(f64::INFINITY, |score| score.cost),
-            best_iou: best.map_or(f64::NEG_INFINITY, |score| score.iou),
-            interrupted: self.control.stop.load(Ordering::Relaxed),
-        }
+        self.course.spent(self.elapsed(), self.control.stop.load(Ordering::Relaxed))
     }
 
     fn verdict(&self) -> Option<StopReason> {
-        let verdict = self.budget.verdict(&self.spent());
-        // Whatever came before may have used all the time; there is a result all the same.
-        verdict.filter(|reason| *reason != StopReason::Timeout || self.search.state.evaluations > 0)
+        self.course.verdict(&self.spent())
     }
 
     fn tell_all(&mut self, tell: impl Fn(&mut dyn Observer)) {
@@ -174,7 +143,7 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
 
     /// Replays the rows of earlier parts and tells where things stand.
     fn announce(&mut self) {
-        for row in self.history.clone() {
+        for row in self.course.history.clone() {
             self.tell_all(|observer| observer.generation(&row));
         }
         self.tell_progress();
@@ -182,69 +151,32 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
 
     fn tell_progress(&mut self) {
         let spent = self.spent();
-        let best = self.search.state.best.clone();
-        let last_row = || self.history.last().and_then(|row| row.likeness);
-        let known = self.likeness.map_or_else(last_row, |known| known.1);
+        let best = self.course.search.state.best.clone();
         let progress = Progress {
             generation: spent.generations,
             evaluations: spent.evaluations,
             evaluations_now: spent.evaluations - self.evaluations_before,
             best: best.as_ref(),
-            likeness: best.as_ref().and_then(|best| best.score.likeness).or(known),
+            likeness: self.course.likeness(),
             elapsed: spent.elapsed,
             elapsed_now: spent.elapsed - self.times.earlier,
-            used: self.budget.used(&spent),
+            used: self.course.budget.used(&spent),
         };
         self.tell_all(|observer| observer.progress(&progress));
     }
 
     /// After a batch: a row if it finished a generation, progress, a checkpoint if one is due.
     fn after_batch(&mut self) {
-        if let Some(row) = self.new_row() {
-            self.history.push(row);
+        let (elapsed, now) = (self.elapsed(), self.control.clock.elapsed());
+        if let Some(row) = self.course.after_batch(self.objective, elapsed, now) {
             self.tell_all(|observer| observer.generation(&row));
         }
         self.tell_progress();
         let now = self.control.clock.elapsed();
-        self.search.batch = self.pace.next(now);
         if self.control.checkpoint.as_ref().is_some_and(|file| now - self.saved >= file.interval) {
             self.saved = now;
             self.try_to_save();
         }
-    }
-
-    /// The row of the generation that the last batch has finished, if it has.
-    fn new_row(&mut self) -> Option<Row> {
-        let elapsed_s = self.elapsed().as_secs_f64();
-        let likeness = self.likeness_of_best();
-        let best_cost = self.search.best_cost()?;
-        let state = &self.search.state;
-        let (best, last) = (state.best.as_ref()?, state.generation_best?);
-        state.is_between_generations().then_some(Row {
-            generation: state.generation,
-            evaluations: state.evaluations,
-            best_cost,
-            generation_best_cost: last.cost,
-            iou: best.score.iou,
-            accuracy: best.score.accuracy,
-            likeness,
-            elapsed_s,
-        })
-    }
-
-    /// Likeness of the best individual at the end of a generation: what its score says, or one more
-    /// tree where the best has changed and the objective does not look at likeness.
-    fn likeness_of_best(&mut self) -> Option<f64> {
-        let state = &self.search.state;
-        let best = state.best.as_ref().filter(|_| state.is_between_generations())?;
-        let cost = best.score.cost;
-        if best.score.likeness.is_some() {
-            return best.score.likeness;
-        }
-        let known = self.likeness.filter(|known| known.0.to_bits() == cost.to_bits());
-        let (_, likeness) =
-            *self.likeness.insert(known.unwrap_or_else(|| (cost, self.objective.likeness(&best.genome))));
-        likeness
     }
 
     fn save(&self) -> Result<(), CheckpointError> {
@@ -253,8 +185,8 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
         };
         let checkpoint = Checkpoint {
             fingerprint: self.fingerprint.clone(),
-            search: self.search.state.clone(),
-            history: self.history.clone(),
+            search: self.course.search.state.clone(),
+            history: self.course.history.clone(),
             elapsed_s: self.elapsed().as_secs_f64(),
             before_search_s: self.times.before_search.as_secs_f64(),
         };
@@ -276,11 +208,11 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
         Outcome {
             elapsed: self.elapsed(),
             before_search: self.times.before_search,
-            best: self.search.state.best,
-            evaluations: self.search.state.evaluations,
-            generations: self.search.state.generation,
+            best: self.course.search.state.best,
+            evaluations: self.course.search.state.evaluations,
+            generations: self.course.search.state.generation,
             stop,
-            history: self.history,
+            history: self.course.history,
         }
     }
 }
@@ -308,15 +240,15 @@ fn check<S: MethodSettings>(
 
 impl<M: State> AskTell for Driver<'_, '_, M> {
     fn name(&self) -> &str {
-        self.search.name()
+        self.course.search.name()
     }
 
     fn ask(&mut self) -> Batch<'_> {
-        self.search.ask()
+        self.course.search.ask()
     }
 
     fn tell(&mut self, scores: &[Score]) -> Option<Scored> {
-        let best = self.search.tell(scores);
+        let best = self.course.search.tell(scores);
         self.after_batch();
         best
     }

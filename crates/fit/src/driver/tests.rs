@@ -1,7 +1,7 @@
 //! The driver on functions whose minimum is known.
 
 use super::*;
-use crate::budget::Clock;
+use crate::budget::{Budget, Clock};
 use crate::control::CheckpointSettings;
 use crate::optimizer::Optimizer;
 use crate::space::{Freedom, TreeSeed};

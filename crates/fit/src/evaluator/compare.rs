@@ -6,6 +6,7 @@ use crate::problem::{FitProblem, GoalView};
 use pleach_silhouette::score::fast::{Overlaps, PreparedGoal, Scratch};
 use pleach_silhouette::score::likeness::{self, Descriptor};
 use pleach_silhouette::{Bitmap, Frame, Projection, View};
+use pleach_tree::math;
 
 /// Memory of the comparisons.
 #[derive(Debug, Default)]
@@ -102,7 +103,9 @@ impl PreparedView {
             Objective::Blend => blend(&overlaps),
             Objective::Likeness => alike,
             Objective::Balance => f64::midpoint(blend(&overlaps), alike),
-            Objective::Overlap => f64::midpoint(iou, blend(&overlaps)) * (alike / ALIKE).min(1.0).powi(2),
+            Objective::Overlap => {
+                f64::midpoint(iou, blend(&overlaps)) * math::powi((alike / ALIKE).min(1.0), 2)
+            }
         };
         Agreement { accuracy, iou, value, likeness }
     }

@@ -11,13 +11,12 @@ use super::{TREES_OF_SPECIES, looks};
 use crate::cancellable;
 use crate::error::FitError;
 use crate::evaluator::{Evaluator, height_of};
-use crate::fingerprint::Fnv;
 use crate::genome::Genome;
 use crate::problem::FitProblem;
 use crate::settings::FitSettings;
 use crate::space::TreeSeed;
 use pleach_silhouette::{Bitmap, Frame, View};
-use pleach_tree::{Foliage, Limits, ModelId, Tree};
+use pleach_tree::{Fnv, Foliage, Limits, ModelId, Tree};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
 

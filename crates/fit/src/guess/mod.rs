@@ -27,6 +27,7 @@ mod tries;
 pub use candidate::Candidate;
 pub use drawings::{Drawings, DrawingsError};
 pub use library::GuessLibrary;
+use pleach_tree::math;
 pub use race::Runner;
 pub use references::{Reference, References};
 pub use settings::{GuessSettings, RaceSettings};
@@ -357,7 +358,7 @@ const BARE_BY: f64 = 0.04;
 /// Names with the share of belief that their best scores deserve, best first.
 fn confidence(candidates: &[Candidate], costs: &[f64]) -> Vec<(String, f64)> {
     let best = costs.iter().copied().fold(f64::INFINITY, f64::min);
-    let weights: Vec<f64> = costs.iter().map(|cost| ((best - cost) / DOUBT).exp()).collect();
+    let weights: Vec<f64> = costs.iter().map(|cost| math::exp((best - cost) / DOUBT)).collect();
     let sum: f64 = weights.iter().sum();
     let mut names: Vec<_> =
         candidates.iter().zip(&weights).map(|(c, weight)| (c.species.name.clone(), weight / sum)).collect();

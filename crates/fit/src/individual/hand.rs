@@ -5,6 +5,7 @@ use super::units::Units;
 use crate::evaluator::{Comparisons, Likeness, PreparedView};
 use crate::objective::Objective;
 use pleach_silhouette::{Bitmap, Detail, Frame, Layer, LayerPainter, Stack, View};
+use pleach_tree::math;
 use pleach_tree::{CheckedParams, Draws, Growth, StemKind, Tree, Workspace};
 
 /// The pictures of the goals, and what all hands share.
@@ -36,7 +37,7 @@ impl Scene<'_> {
         let found = self.views[view].compare(picture, Objective::Blend, Likeness::Always, memory);
         let likeness = found.likeness.unwrap_or_default();
         let overlap = f64::midpoint(found.iou, found.value);
-        Looks { value: overlap * (likeness / ALIKE).min(1.0).powi(2), iou: found.iou, likeness }
+        Looks { value: overlap * math::powi((likeness / ALIKE).min(1.0), 2), iou: found.iou, likeness }
     }
 }
 

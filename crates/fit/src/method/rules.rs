@@ -12,6 +12,7 @@ use crate::genome::{Genome, Score, Scored};
 use crate::objective::Objective;
 use crate::space::{SearchSpace, TreeSeed};
 use crate::stream::Stream;
+use pleach_tree::math;
 use pleach_tree::{Key, Variation};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -124,7 +125,7 @@ impl Rules {
         draws: &mut Stream,
     ) -> Genome {
         let population = &self.islands[island].population;
-        let parent = &population[(population.len() as f64 * draws.unit().powf(GREED)) as usize].genome;
+        let parent = &population[(population.len() as f64 * math::pow(draws.unit(), GREED)) as usize].genome;
         let mut child = parent.clone();
         let structure = parent.structure.clone().unwrap_or_default();
         if draws.chance(CROSS) {

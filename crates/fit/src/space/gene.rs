@@ -3,6 +3,7 @@
 use crate::genome::Genome;
 use crate::nuisance::Nuisance;
 use crate::stream::Stream;
+use pleach_tree::math;
 use pleach_tree::param::Scale;
 use pleach_tree::{Kind, Slot};
 
@@ -133,7 +134,7 @@ impl Gene {
         if self.is_constant() {
             0.5
         } else if self.is_log() {
-            (value.max(self.low) / self.low).ln() / (self.high / self.low).ln()
+            math::ln(value.max(self.low) / self.low) / math::ln(self.high / self.low)
         } else {
             (value - self.low) / (self.high - self.low)
         }
@@ -143,7 +144,7 @@ impl Gene {
     #[must_use]
     pub fn from_unit(&self, unit: f64) -> f64 {
         self.clamp(if self.is_log() {
-            self.low * (self.high / self.low).powf(unit)
+            self.low * math::pow(self.high / self.low, unit)
         } else {
             self.low + unit * (self.high - self.low)
         })

@@ -1,6 +1,7 @@
 //! A mild pull of every number to where the search starts.
 
 use super::Gene;
+use pleach_tree::math;
 
 /// How strongly numbers are drawn to the start by default: the cost of having every free number a whole
 /// search range away from it.
@@ -30,7 +31,7 @@ impl Prior {
                 count += 1.0;
                 let (value, there) = (values[slot.index()], list[slot.index()]);
                 sum += if !gene.is_choice() {
-                    (gene.to_unit(value) - gene.to_unit(there)).powi(2)
+                    math::powi(gene.to_unit(value) - gene.to_unit(there), 2)
                 } else if value == there {
                     0.0
                 } else {

@@ -4,6 +4,7 @@ use super::margin::{Marginal, corrected};
 use super::strategy::Strategy;
 use linfa_linalg::eigh::Eigh;
 use ndarray::Array2;
+use pleach_tree::math;
 use serde::{Deserialize, Serialize};
 
 /// Mean m, step σ, covariance C and the factors A that the margin has put on coordinates: a sample is
@@ -99,13 +100,13 @@ impl Distribution {
         }
         let length = self.path_sigma.iter().map(|p| p * p).sum::<f64>().sqrt();
         let age = 2.0 * self.generation as f64;
-        let settled = (1.0 - (1.0 - c_sigma).powf(age)).sqrt();
+        let settled = (1.0 - math::pow(1.0 - c_sigma, age)).sqrt();
         let is_steady = length / settled < (1.4 + 2.0 / (n as f64 + 1.0)) * chi;
         let gain = if is_steady { (c_c * (2.0 - c_c) * mass).sqrt() } else { 0.0 };
         for (path, new) in self.path_c.iter_mut().zip(&mean_step) {
             *path = (1.0 - c_c) * *path + gain * new;
         }
-        self.sigma = (self.sigma * (c_sigma / d_sigma * (length / chi - 1.0)).exp()).min(WIDEST);
+        self.sigma = (self.sigma * math::exp(c_sigma / d_sigma * (length / chi - 1.0))).min(WIDEST);
 
         // A path that was held back is made up for.
         let held = if is_steady { 0.0 } else { c_1 * c_c * (2.0 - c_c) };

@@ -1,5 +1,7 @@
 //! The normal distribution's tail, and back.
 
+use pleach_tree::math;
+
 /// The chance that a standard normal number is above `x`, with an error below 1e-7 (Abramowitz and
 /// Stegun 1964, 26.2.17).
 pub(super) fn tail(x: f64) -> f64 {
@@ -17,7 +19,7 @@ pub(super) fn tail_at(p: f64) -> f64 {
     if p >= 0.5 {
         return 0.0;
     }
-    let t = (-2.0 * p.ln()).sqrt();
+    let t = (-2.0 * math::ln(p)).sqrt();
     let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
     let below = 1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308));
     let x = t - above / below;
@@ -25,7 +27,7 @@ pub(super) fn tail_at(p: f64) -> f64 {
 }
 
 fn density(x: f64) -> f64 {
-    (-0.5 * x * x).exp() / std::f64::consts::TAU.sqrt()
+    math::exp(-0.5 * x * x) / std::f64::consts::TAU.sqrt()
 }
 
 #[cfg(test)]

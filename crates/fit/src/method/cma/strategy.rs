@@ -1,5 +1,7 @@
 //! The strategy's constants: Hansen 2016, Table 1 and equations 49 to 58.
 
+use pleach_tree::math;
+
 /// Weights and learning rates for `dimensions` numbers and a population.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Strategy {
@@ -18,21 +20,22 @@ pub(super) struct Strategy {
 
 /// Individuals in a generation for `dimensions` numbers: equation 48.
 pub(super) fn population(dimensions: usize) -> usize {
-    4 + (3.0 * (dimensions.max(1) as f64).ln()) as usize
+    4 + (3.0 * math::ln(dimensions.max(1) as f64)) as usize
 }
 
 impl Strategy {
     pub(super) fn new(dimensions: usize, population: usize) -> Self {
         let n = dimensions.max(1) as f64;
-        let middle = ((population as f64 + 1.0) / 2.0).ln();
-        let raw: Vec<f64> = (1..=population).map(|i| middle - (i as f64).ln()).collect();
+        let middle = math::ln((population as f64 + 1.0) / 2.0);
+        let raw: Vec<f64> = (1..=population).map(|i| middle - math::ln(i as f64)).collect();
         let (good, bad) = raw.split_at(population / 2);
         let mass = |part: &[f64]| {
-            part.iter().sum::<f64>().powi(2) / part.iter().map(|w| w * w).sum::<f64>().max(f64::MIN_POSITIVE)
+            math::powi(part.iter().sum::<f64>(), 2)
+                / part.iter().map(|w| w * w).sum::<f64>().max(f64::MIN_POSITIVE)
         };
         let (mass_good, mass_bad) = (mass(good), mass(bad));
-        let c_1 = 2.0 / ((n + 1.3).powi(2) + mass_good);
-        let c_mu = (2.0 * (0.25 + mass_good + 1.0 / mass_good - 2.0) / ((n + 2.0).powi(2) + mass_good))
+        let c_1 = 2.0 / (math::powi(n + 1.3, 2) + mass_good);
+        let c_mu = (2.0 * (0.25 + mass_good + 1.0 / mass_good - 2.0) / (math::powi(n + 2.0, 2) + mass_good))
             .min(1.0 - c_1);
         let c_sigma = (mass_good + 2.0) / (n + mass_good + 5.0);
         let most_bad = (1.0 + c_1 / c_mu)

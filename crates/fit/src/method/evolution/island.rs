@@ -6,6 +6,7 @@ use super::settings::EvolutionSettings;
 use crate::genome::{Genome, Score, Scored};
 use crate::space::SearchSpace;
 use crate::stream::Stream;
+use pleach_tree::math;
 use serde::{Deserialize, Serialize};
 
 /// A population, best first, with the steps and the chances of operators that have worked.
@@ -154,7 +155,7 @@ impl Island {
             let share = if offspring.genes.len() == 1 { 1.0 } else { 0.3 };
             for &gene in &offspring.genes {
                 let factor = if better { LONGER } else { SHORTER };
-                self.steps[gene] = (self.steps[gene] * factor.powf(share)).clamp(STEPS.0, STEPS.1);
+                self.steps[gene] = (self.steps[gene] * math::pow(factor, share)).clamp(STEPS.0, STEPS.1);
                 let weight = &mut self.weight[gene];
                 *weight = (*weight + share * GENE_MEMORY * (reward - *weight)).max(MIN_GENE);
             }

@@ -3,6 +3,7 @@
 use crate::genome::{Genome, Scored};
 use crate::space::{Gene, Place, SearchSpace, TreeSeed};
 use crate::stream::Stream;
+use pleach_tree::math;
 use serde::{Deserialize, Serialize};
 
 /// A way to vary a parent.
@@ -93,7 +94,7 @@ impl Variation<'_> {
                 offspring.genes.push(self.step(&read, &mut child, draws));
             }
             Operator::StepFew => {
-                for _ in 0..2 + (6.0 * draws.unit().powi(3)) as usize {
+                for _ in 0..2 + (6.0 * math::powi(draws.unit(), 3)) as usize {
                     offspring.genes.push(self.step(&read, &mut child, draws));
                 }
             }
@@ -157,7 +158,7 @@ impl Variation<'_> {
     /// Moves numbers along the difference of two others, and one step.
     fn follow_difference(&self, read: &[usize], child: &mut Genome, draws: &mut Stream) {
         let (to, from) = (self.other(draws), self.other(draws));
-        let share = draws.unit().powi(2);
+        let share = math::powi(draws.unit(), 2);
         let factor = 0.2 + 0.8 * draws.unit();
         for gene in read.iter().map(|&g| self.gene(g)) {
             if draws.chance(share) {
@@ -178,7 +179,7 @@ impl Variation<'_> {
 
     /// A parent, the better the likelier.
     fn parent(&self, draws: &mut Stream) -> usize {
-        (self.population.len() as f64 * draws.unit().powf(self.greed)) as usize
+        (self.population.len() as f64 * math::pow(draws.unit(), self.greed)) as usize
     }
 
     /// An operator, as likely as its credit.

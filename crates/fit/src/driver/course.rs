@@ -1,0 +1,103 @@
+//! A search between its batches: what it has spent, the rows of its generations, and whether it is over.
+
+use super::pace::Pace;
+use crate::budget::{Budget, Spent, StopReason};
+use crate::evaluate::Evaluate;
+use crate::history::Row;
+use crate::method::Method;
+use crate::search::Search;
+use std::time::Duration;
+
+/// A search within a budget. It knows no clock: whoever drives it says what has passed.
+pub(crate) struct Course<M> {
+    pub(crate) search: Search<M>,
+    pub(crate) budget: Budget,
+    pub(crate) history: Vec<Row>,
+    /// Likeness of the best, and the cost by which it is known again. Of a resumed run first none: that of
+    /// the last row counts.
+    likeness: Option<(f64, Option<f64>)>,
+    pace: Pace,
+}
+
+impl<M: Method> Course<M> {
+    /// `search` from where it stands, with the rows of its earlier parts, driven from `now` on.
+    pub(crate) fn new(mut search: Search<M>, budget: Budget, history: Vec<Row>, now: Duration) -> Self {
+        search.evaluation_limit = budget.evaluations.unwrap_or(u64::MAX).max(search.state.evaluations);
+        let pace = Pace::new(now);
+        search.batch = pace.batch();
+        Self { search, budget, history, likeness: None, pace }
+    }
+
+    pub(crate) fn spent(&self, elapsed: Duration, interrupted: bool) -> Spent {
+        let state = &self.search.state;
+        let best = state.best.as_ref().map(|best| best.score);
+        Spent {
+            evaluations: state.evaluations,
+            generations: state.generation,
+            elapsed,
+            best_cost: best.map_or(f64::INFINITY, |score| score.cost),
+            best_iou: best.map_or(f64::NEG_INFINITY, |score| score.iou),
+            interrupted,
+        }
+    }
+
+    /// Why to stop now, if so.
+    pub(crate) fn verdict(&self, spent: &Spent) -> Option<StopReason> {
+        let verdict = self.budget.verdict(spent);
+        // Whatever came before may have used all the time; there is a result all the same.
+        verdict.filter(|reason| *reason != StopReason::Timeout || self.search.state.evaluations > 0)
+    }
+
+    /// Likeness of the best individual, so far as it is known.
+    pub(crate) fn likeness(&self) -> Option<f64> {
+        let of_best = self.search.state.best.as_ref().and_then(|best| best.score.likeness);
+        let last_row = || self.history.last().and_then(|row| row.likeness);
+        of_best.or_else(|| self.likeness.map_or_else(last_row, |known| known.1))
+    }
+
+    /// After a batch: the row of the generation that it has finished, if it has. `now` decides how large the
+    /// next batch is.
+    pub(crate) fn after_batch(
+        &mut self,
+        objective: &(impl Evaluate + ?Sized),
+        elapsed: Duration,
+        now: Duration,
+    ) -> Option<Row> {
+        let row = self.new_row(objective, elapsed);
+        self.history.extend(row);
+        self.search.batch = self.pace.next(now);
+        row
+    }
+
+    fn new_row(&mut self, objective: &(impl Evaluate + ?Sized), elapsed: Duration) -> Option<Row> {
+        let likeness = self.likeness_of_best(objective);
+        let best_cost = self.search.best_cost()?;
+        let state = &self.search.state;
+        let (best, last) = (state.best.as_ref()?, state.generation_best?);
+        state.is_between_generations().then_some(Row {
+            generation: state.generation,
+            evaluations: state.evaluations,
+            best_cost,
+            generation_best_cost: last.cost,
+            iou: best.score.iou,
+            accuracy: best.score.accuracy,
+            likeness,
+            elapsed_s: elapsed.as_secs_f64(),
+        })
+    }
+
+    /// Likeness of the best individual at the end of a generation: what its score says, or one more
+    /// tree where the best has changed and the objective does not look at likeness.
+    fn likeness_of_best(&mut self, objective: &(impl Evaluate + ?Sized)) -> Option<f64> {
+        let state = &self.search.state;
+        let best = state.best.as_ref().filter(|_| state.is_between_generations())?;
+        let cost = best.score.cost;
+        if best.score.likeness.is_some() {
+            return best.score.likeness;
+        }
+        let known = self.likeness.filter(|known| known.0.to_bits() == cost.to_bits());
+        let (_, likeness) =
+            *self.likeness.insert(known.unwrap_or_else(|| (cost, objective.likeness(&best.genome))));
+        likeness
+    }
+}
