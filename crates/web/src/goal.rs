@@ -1,0 +1,179 @@
+//! Goal pictures: read, masked, painted over, and scored.
+
+use crate::error::thrown;
+use crate::tree::ink;
+use pleach::{Bitmap, Encoded, Goal as Read, GoalOptions, GoalWarning, Mask, MaskOptions, Photo, ScoreCard};
+use serde_json::json;
+use wasm_bindgen::JsError;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Pixels of the longer side of the picture that a search compares with: as the program does by default.
+const WORKING_SIDE: u32 = 256;
+/// Pixels of the longer side of the backdrop that is shown.
+const SHOWN_SIDE: u32 = 2048;
+
+/// A picture of a tree that parameters are to be found for.
+#[wasm_bindgen]
+pub struct Goal {
+    name: String,
+    /// The ink as it was read or painted, before specks are taken out.
+    painted: Bitmap,
+    places: Places,
+    pub(crate) full: Read,
+    /// How sure the mask is, where one was made.
+    confidence: Option<f64>,
+    /// What is to be said of the mask, where one was made.
+    mask_warnings: Vec<GoalWarning>,
+    photo: Option<Photo>,
+}
+
+/// Where the tree stands, so far as the user has said.
+#[derive(Clone, Copy, Default)]
+struct Places {
+    ground_row: Option<f64>,
+    axis_column: Option<f64>,
+}
+
+impl Places {
+    fn options(self, max_side: Option<u32>) -> GoalOptions {
+        let Self { ground_row, axis_column } = self;
+        GoalOptions { ground_row, axis_column, max_side, ..GoalOptions::default() }
+    }
+}
+
+impl Goal {
+    /// As searches compare with it.
+    pub(crate) fn working(&self) -> Result<Read, JsError> {
+        Read::from_ink(self.painted.clone(), &self.places.options(Some(WORKING_SIDE))).map_err(thrown)
+    }
+
+    /// A name for the species that is found.
+    pub(crate) fn species_name(&self) -> String {
+        let stem = std::path::Path::new(&self.name).file_stem().unwrap_or_default();
+        pleach::species::safe_name(&stem.to_string_lossy())
+    }
+}
+
+#[wasm_bindgen]
+impl Goal {
+    /// Reads a PNG, JPEG, WebP or TIFF file. With `mask` `auto` a photograph is masked, and with `off` split by
+    /// brightness.
+    pub fn read(name: &str, bytes: Vec<u8>, mask: &str) -> Result<Self, JsError> {
+        let source = Encoded::new(name, bytes);
+        let by_tone = Read::from_encoded(&source, &GoalOptions::default());
+        let is_photo = match &by_tone {
+            Ok(goal) => goal.warnings.contains(&GoalWarning::Photograph),
+            Err(_) => false,
+        };
+        if is_photo && mask != "off" {
+            let photo = Photo::from_encoded(&source).map_err(thrown)?;
+            let found = Mask::from_photo(&photo, &MaskOptions::default()).map_err(thrown)?;
+            let full = Read::from_ink(found.bitmap.clone(), &GoalOptions::default()).map_err(thrown)?;
+            return Ok(Self {
+                name: name.to_owned(),
+                painted: found.bitmap,
+                places: Places::default(),
+                full,
+                confidence: Some(found.confidence),
+                mask_warnings: found.warnings,
+                photo: Some(photo),
+            });
+        }
+        let full = by_tone.map_err(thrown)?;
+        let photo = Photo::from_encoded(&source).ok();
+        Ok(Self {
+            name: name.to_owned(),
+            painted: full.bitmap.clone(),
+            places: Places::default(),
+            full,
+            confidence: None,
+            mask_warnings: Vec::new(),
+            photo,
+        })
+    }
+
+    /// A goal from ink at hand: one byte a pixel, row by row, 0 for paper.
+    pub fn from_pixels(name: &str, width: u32, height: u32, pixels: &[u8]) -> Result<Self, JsError> {
+        let painted = bitmap(width, height, pixels)?;
+        Ok(Self {
+            name: name.to_owned(),
+            full: Read::from_bitmap(painted.clone()).map_err(thrown)?,
+            painted,
+            places: Places::default(),
+            confidence: None,
+            mask_warnings: Vec::new(),
+            photo: None,
+        })
+    }
+
+    /// What was found in the picture: JSON.
+    #[must_use]
+    pub fn info(&self) -> String {
+        let goal = &self.full;
+        let warnings = self.mask_warnings.iter().chain(&goal.warnings);
+        let mut said: Vec<String> = Vec::new();
+        for warning in warnings.map(ToString::to_string) {
+            if !said.contains(&warning) {
+                said.push(warning);
+            }
+        }
+        json!({
+            "name": self.name,
+            "width": goal.bitmap.width(),
+            "height": goal.bitmap.height(),
+            "ink": goal.bitmap.ink(),
+            "masked": self.confidence.is_some(),
+            "confidence": self.confidence,
+            "ground_row": goal.ground_row,
+            "axis_column": goal.axis_column,
+            "height_in_pixels": goal.height_in_pixels(),
+            "warnings": said,
+        })
+        .to_string()
+    }
+
+    /// One byte a pixel, 1 for tree.
+    #[must_use]
+    pub fn pixels(&self) -> Vec<u8> {
+        ink(&self.full.bitmap)
+    }
+
+    /// The picture itself in four bytes a pixel, for a backdrop; empty where there is none, or a very large one.
+    #[must_use]
+    pub fn photo(&self) -> Vec<u8> {
+        let Some(photo) = &self.photo else { return Vec::new() };
+        if photo.width().max(photo.height()) > SHOWN_SIDE {
+            return Vec::new();
+        }
+        photo.pixels().as_flattened().to_vec()
+    }
+
+    /// The same with the ground and the trunk where the user says: in pixels from the upper left.
+    pub fn with_ground(&self, row: Option<f64>, axis: Option<f64>) -> Result<Self, JsError> {
+        let places = Places { ground_row: row, axis_column: axis };
+        Ok(Self {
+            name: self.name.clone(),
+            full: Read::from_ink(self.painted.clone(), &places.options(None)).map_err(thrown)?,
+            painted: self.painted.clone(),
+            places,
+            confidence: self.confidence,
+            mask_warnings: self.mask_warnings.clone(),
+            photo: self.photo.clone(),
+        })
+    }
+
+    /// The score card of a picture of the same size: JSON.
+    pub fn score(&self, pixels: &[u8]) -> Result<String, JsError> {
+        let picture = bitmap(self.full.bitmap.width(), self.full.bitmap.height(), pixels)?;
+        let card = ScoreCard::new(&picture, &self.full.bitmap).map_err(thrown)?;
+        serde_json::to_string(&card).map_err(thrown)
+    }
+}
+
+fn bitmap(width: u32, height: u32, pixels: &[u8]) -> Result<Bitmap, JsError> {
+    let expected = width as usize * height as usize;
+    if pixels.len() != expected {
+        return Err(thrown(format!("there are {} pixels, expected {width} × {height}", pixels.len())));
+    }
+    Ok(Bitmap::from_fn(width, height, |x, y| pixels[y as usize * width as usize + x as usize] != 0))
+}

@@ -1,0 +1,27 @@
+//! The library for the web page in `web/`: the facade in JavaScript's types, and no algorithm.
+//!
+//! Structured answers are JSON text, bulk is typed arrays, errors are sentences. Nothing here waits or starts
+//! threads: the page runs an instance of this module in each of its workers, and throws a worker away whose module
+//! has panicked.
+
+mod catalogue;
+mod declared;
+mod error;
+mod fit;
+mod goal;
+mod map;
+mod mesh;
+mod message;
+mod panic;
+mod report;
+mod species;
+mod tree;
+
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// The version of the library.
+#[must_use]
+#[wasm_bindgen]
+pub fn version() -> String {
+    env!("CARGO_PKG_VERSION").to_owned()
+}

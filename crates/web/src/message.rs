@@ -1,0 +1,91 @@
+//! What the worker that runs a search sends to those that score its individuals, and what they send back.
+
+use crate::error::thrown;
+use pleach::{Begun, Bitmap, FitProblem, FitSettings, Foliage, Frame, Genome, GoalView, Score, Start, View};
+use pleach::{Evaluator as Scorer, evaluator};
+use pleach_fit::{Evaluate as _, Size};
+use serde::{Deserialize, Serialize};
+use wasm_bindgen::JsError;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// All that scoring depends on.
+#[derive(Serialize, Deserialize)]
+struct Recipe {
+    species: String,
+    leafy: bool,
+    lists: Option<Vec<Vec<f64>>>,
+    /// Width, height and rows of the goal.
+    goal: (u32, u32, Vec<u64>),
+    /// Metres per pixel, axis and ground.
+    frame: [f64; 3],
+}
+
+/// Individuals to be scored.
+#[derive(Serialize, Deserialize)]
+struct Piece {
+    genomes: Vec<Genome>,
+    most: Size,
+}
+
+/// The bytes of the recipe of a fit to one picture, taken from the front.
+pub(crate) fn recipe(begun: &Begun) -> Result<Vec<u8>, JsError> {
+    let Begun { problem, settings, .. } = begun;
+    let GoalView { goal, frame, .. } = &problem.goals[0];
+    let lists = match &settings.start {
+        Start::Lists(lists) => Some(lists.clone()),
+        Start::Random => None,
+    };
+    let recipe = Recipe {
+        species: problem.start.to_toml(&[]),
+        leafy: problem.foliage != Foliage::None,
+        lists,
+        goal: (goal.width(), goal.height(), goal.words().to_vec()),
+        frame: [frame.meters_per_pixel, frame.axis_column, frame.ground_row],
+    };
+    postcard::to_stdvec(&recipe).map_err(thrown)
+}
+
+/// The bytes of some individuals.
+pub(crate) fn piece(genomes: &[Genome], most: Size) -> Result<Vec<u8>, JsError> {
+    postcard::to_stdvec(&Piece { genomes: genomes.to_vec(), most }).map_err(thrown)
+}
+
+/// The scores of one piece.
+pub(crate) fn scores(bytes: &[u8]) -> Result<Vec<Score>, JsError> {
+    postcard::from_bytes(bytes).map_err(thrown)
+}
+
+/// Scores individuals of a search that another worker runs.
+#[wasm_bindgen]
+pub struct Evaluator {
+    inner: Scorer,
+}
+
+#[wasm_bindgen]
+impl Evaluator {
+    /// From what `Fit.recipe` gives.
+    #[wasm_bindgen(constructor)]
+    pub fn new(recipe: &[u8]) -> Result<Self, JsError> {
+        let Recipe { species, leafy, lists, goal, frame } = postcard::from_bytes(recipe).map_err(thrown)?;
+        let start = pleach::read_species(species.as_bytes(), "the start").map_err(thrown)?;
+        let (width, height, words) = goal;
+        let [meters_per_pixel, axis_column, ground_row] = frame;
+        let goal = Bitmap::from_words(width, height, words).ok_or_else(|| thrown("the goal is damaged"))?;
+        let view = GoalView::new(
+            goal,
+            View::FRONT,
+            Frame { width, height, meters_per_pixel, axis_column, ground_row },
+        );
+        let foliage = if leafy { Foliage::All } else { Foliage::None };
+        let problem = FitProblem { start, goals: vec![view], foliage };
+        let start = lists.map_or(Start::Random, Start::Lists);
+        let settings = FitSettings { start, ..FitSettings::default() };
+        Ok(Self { inner: evaluator(&problem, &settings).map_err(thrown)? })
+    }
+
+    /// The scores of a piece of `Fit.ask`.
+    pub fn score(&self, piece: &[u8]) -> Result<Vec<u8>, JsError> {
+        let Piece { genomes, most } = postcard::from_bytes(piece).map_err(thrown)?;
+        postcard::to_stdvec(&self.inner.scores(&genomes, most)).map_err(thrown)
+    }
+}

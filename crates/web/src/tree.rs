@@ -1,0 +1,119 @@
+//! Grown trees, their pictures and files.
+
+use crate::error::thrown;
+use crate::mesh::{self, MeshBuffers, leaf_style, season_named};
+use pleach::{Bounds, Detail, Palette, Parts, Preview, PreviewSettings, Rasterizer, TreeStats, View};
+use serde_json::{Value, json};
+use std::sync::Arc;
+use wasm_bindgen::JsError;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// The tree of a species and a seed.
+#[wasm_bindgen]
+pub struct Tree {
+    pub(crate) species: Arc<pleach::Species>,
+    pub(crate) seed: u64,
+    pub(crate) inner: pleach::Tree,
+}
+
+/// Largest side of a picture, in pixels.
+const MAX_SIDE: u32 = 4096;
+
+fn check_side(size: u32) -> Result<(), JsError> {
+    if (1..=MAX_SIDE).contains(&size) {
+        return Ok(());
+    }
+    Err(thrown(format!("the size is {size} pixels, expected from 1 to {MAX_SIDE}")))
+}
+
+/// One byte a pixel, 1 where there is ink.
+pub(crate) fn ink(picture: &pleach::Bitmap) -> Vec<u8> {
+    let rows = 0..picture.height();
+    rows.flat_map(|y| (0..picture.width()).map(move |x| u8::from(picture.get(x, y)))).collect()
+}
+
+impl Tree {
+    /// The tree as it is in a season.
+    pub(crate) fn dressed(&self, season: &str) -> Result<(Palette, pleach::Tree), JsError> {
+        let palette = Palette::new(&self.species, season_named(season)?);
+        let mut tree = self.inner.clone();
+        palette.apply_season(&mut tree);
+        Ok((palette, tree))
+    }
+
+    fn drawn(&self, size: u32, view: View, detail: Detail) -> Result<Vec<u8>, JsError> {
+        check_side(size)?;
+        let frame = pleach::Frame::automatic(&self.inner, &view, Parts::LEAFY, size, size);
+        let mut picture = pleach::Bitmap::default();
+        Rasterizer::with_detail(detail).draw(&self.inner, &view, &frame, Parts::LEAFY, &mut picture);
+        Ok(ink(&picture))
+    }
+}
+
+#[wasm_bindgen]
+impl Tree {
+    /// What can be counted and measured: JSON.
+    pub fn stats(&self) -> Result<String, JsError> {
+        let mut stats = serde_json::to_value(TreeStats::new(&self.inner)).map_err(thrown)?;
+        let bounds = Bounds::new(&self.inner, Parts::LEAFY);
+        let [min, max] = bounds.map_or([[0.0; 3]; 2], |b| [b.min.to_array(), b.max.to_array()]);
+        if let Value::Object(stats) = &mut stats {
+            stats.insert("bounds".to_owned(), json!([min, max]));
+            stats.insert("height".to_owned(), json!(max[2]));
+            stats.insert("width".to_owned(), json!((max[0] - min[0]).max(max[1] - min[1])));
+            stats.insert("stems".to_owned(), json!(self.inner.stems.len()));
+            stats.insert("leaves".to_owned(), json!(self.inner.leaves.len() + self.inner.blobs.len()));
+            stats.insert("knots".to_owned(), json!(self.inner.knots.len()));
+        }
+        Ok(stats.to_string())
+    }
+
+    /// A hash of all its bits, in hexadecimal digits: two trees with the same are the same.
+    #[must_use]
+    pub fn digest(&self) -> String {
+        format!("{:016x}", self.inner.digest())
+    }
+
+    /// The binary picture from a direction in degrees: one byte a pixel, row by row, 1 for tree.
+    pub fn silhouette(&self, size: u32, azimuth: f64, elevation: f64) -> Result<Vec<u8>, JsError> {
+        self.drawn(size, View::degrees(azimuth, elevation), Detail::Full)
+    }
+
+    /// The picture from the front, sampled coarsely: for what follows the pointer.
+    pub fn coarse_silhouette(&self, size: u32) -> Result<Vec<u8>, JsError> {
+        self.drawn(size, View::FRONT, Detail::Draft)
+    }
+
+    /// Triangles, in a season (empty for the species' own), with leaves drawn as `outline`, `simple`, `cards` or
+    /// `none`, at a level of detail of which 0 is the finest.
+    pub fn mesh(&self, season: &str, leaves: &str, level: u32) -> Result<MeshBuffers, JsError> {
+        let (palette, tree) = self.dressed(season)?;
+        mesh::buffers(&tree, &palette, leaf_style(leaves)?, level)
+    }
+
+    /// A mesh file: `glb`, `obj` with the `mtl` that it names, `ply`, `stl` or `usda`.
+    pub fn export(
+        &self,
+        format: &str,
+        season: &str,
+        leaves: &str,
+        levels: u32,
+        wind: bool,
+    ) -> Result<Vec<u8>, JsError> {
+        let (palette, tree) = self.dressed(season)?;
+        let style = leaf_style(leaves)?;
+        let file =
+            mesh::File { species: &self.species, seed: self.seed, tree: &tree, palette, levels, style, wind };
+        file.bytes(format)
+    }
+
+    /// The shaded picture from a direction in degrees: four bytes a pixel, row by row.
+    pub fn picture(&self, size: u32, season: &str, azimuth: f64, elevation: f64) -> Result<Vec<u8>, JsError> {
+        check_side(size)?;
+        let (palette, tree) = self.dressed(season)?;
+        let View { azimuth, elevation, .. } = View::degrees(azimuth, elevation);
+        let settings =
+            PreviewSettings { width: size, height: size, azimuth, elevation, ..PreviewSettings::default() };
+        Ok(Preview::new(&tree, &palette, size).picture(&settings).rgba)
+    }
+}
