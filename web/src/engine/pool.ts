@@ -42,5 +42,5 @@ export class Pool {
 
 export const cores = Math.max(1, Math.min(navigator.hardwareConcurrency || 2, 8));
 
-/** Half of the cores, so that the room in front stays quick. */
-export const thumbnails = new Pool("the small pictures", Math.max(1, Math.min(4, cores >> 1)));
+/** Each worker has an instance of the library with its own memory: more than four gain little. */
+export const thumbnails = new Pool("the small pictures", Math.min(4, cores));

@@ -136,9 +136,10 @@ export interface Guess {
 export interface FitProgress {
   evaluations: number;
   generation: number;
-  cost: number;
-  iou: number;
-  likeness: number;
+  /** Null until the first trees are scored. */
+  cost: number | null;
+  iou: number | null;
+  likeness: number | null;
   used: number | null;
   ended: string | null;
 }
@@ -171,7 +172,8 @@ export interface Plane {
   box: [number, number, number, number];
   explained: number[];
   axes: string[][];
-  switches: { parameter: string; lines: [[number, number], [number, number]][] }[];
+  /** Pieces of lines, and how many choices switch there. */
+  switches: [[number, number], [number, number], number][];
 }
 export interface PointAbout {
   weights: [string, number][];

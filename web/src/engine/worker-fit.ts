@@ -18,10 +18,12 @@ export const fitHandlers: Handlers<
   fitGuess({ goal, options, drawings }, report) {
     const made = makeGoal(goal);
     fit?.free();
-    fit = new Fit(made, JSON.stringify(options));
+    // What is left open is left out.
+    const said = Object.entries(options).filter(([, value]) => value !== null);
+    fit = new Fit(made, JSON.stringify(Object.fromEntries(said)));
     if (drawings) fit.use_drawings(drawings);
-    const said = fit.guess((done: number, all: number) => report({ stage: "looking for kin", done, all }));
-    return JSON.parse(said) as Guess;
+    const found = fit.guess((done: number, all: number) => report({ stage: "looking for kin", done, all }));
+    return JSON.parse(found) as Guess;
   },
 
   fitRecipe: () => running().recipe().slice(),
@@ -41,8 +43,10 @@ export const fitHandlers: Handlers<
 
   fitFinish(_, report) {
     const search = running();
+    // A fit that has ended shows no silhouette any more.
+    const ink = search.best_silhouette().slice();
     const result = JSON.parse(search.finish((stage: string) => report({ stage }))) as FitResult;
-    return { ...result, ink: search.best_silhouette().slice() };
+    return { ...result, ink };
   },
 
   evaluator(recipe) {

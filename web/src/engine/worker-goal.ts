@@ -16,7 +16,7 @@ export function makeGoal(pixels: GoalPixels): Goal {
 
 export const goalHandlers: Handlers<"goalRead" | "goalCheck"> = {
   goalRead({ name, bytes, mask }) {
-    const goal = Goal.read(name, bytes, JSON.stringify({ mask }));
+    const goal = Goal.read(name, bytes, mask);
     const out = { info: info(goal), ink: goal.pixels().slice(), photo: goal.photo().slice() };
     goal.free();
     return out;

@@ -145,6 +145,23 @@ export function Alert({ text, children }: { text: string; children?: ComponentCh
   );
 }
 
+/** A share of a whole, 0 to 1. */
+export function Meter({ label, value }: { label: string; value: number }): JSX.Element {
+  return (
+    // biome-ignore lint/a11y/useSemanticElements: the look of <meter> cannot be set in all browsers.
+    <div
+      class="meter"
+      role="meter"
+      aria-label={label}
+      aria-valuemin={0}
+      aria-valuemax={1}
+      aria-valuenow={Number(value.toFixed(3))}
+    >
+      <div style={{ width: `${100 * Math.max(0, Math.min(1, value))}%` }} />
+    </div>
+  );
+}
+
 export function Bar({ label, share }: { label: string; share: number | null }): JSX.Element {
   return (
     <progress class="bar" aria-label={label} max={1} {...(share === null ? {} : { value: share })}>

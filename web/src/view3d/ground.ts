@@ -14,7 +14,13 @@ const RINGS = [0, 0.35, 1];
 export class Ground {
   readonly group = new Group();
   private readonly shadow = new ShadowMaterial({ opacity: 0.32, color: 0x0a140c });
-  private readonly fade = new MeshBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false });
+  private readonly fade = new MeshBasicMaterial({
+    vertexColors: true,
+    transparent: true,
+    depthWrite: false,
+    toneMapped: false,
+    dithering: true,
+  });
   private readonly disc = new CircleGeometry(1, 72);
   private readonly meadow: Mesh;
 

@@ -227,7 +227,7 @@ function Running(): JSX.Element | null {
         <dl class="livenumbers">
           <div>
             <dt>Likeness</dt>
-            <dd data-testid="likeness">{now.likeness.toFixed(3)}</dd>
+            <dd data-testid="likeness">{now.likeness?.toFixed(3) ?? "…"}</dd>
           </div>
           <div>
             <dt>Trees</dt>

@@ -97,12 +97,13 @@ export async function startFit(): Promise<void> {
     step(now, time, ink) {
       progress.value = now;
       elapsed.value = time;
-      if (now.evaluations > 0) addPoint({ seconds: time, likeness: now.likeness, iou: now.iou });
+      const { likeness, iou } = now;
+      if (likeness !== null && iou !== null) addPoint({ seconds: time, likeness, iou });
       if (ink) best.value = { ink, width, height, goal: goal.ink };
       // Screen readers hear of it now and then, not forty times a second.
-      if (time - said > 10) {
+      if (likeness !== null && time - said > 10) {
         said = time;
-        announce(`${Math.round(time)} seconds, likeness ${now.likeness.toFixed(2)}`);
+        announce(`${Math.round(time)} seconds, likeness ${likeness.toFixed(2)}`);
       }
     },
   });

@@ -10,6 +10,7 @@ import { Button } from "../../ui/controls";
 import { canvasPng, download, fileName } from "../../ui/files";
 import { show } from "../../ui/ink";
 import { Thumb } from "../../ui/thumb";
+import { saveMesh } from "../species/exports";
 import { result } from "./fit-state";
 
 const specOf = (fit: FitResult): Spec => ({ source: { toml: fit.toml, name: fit.name }, values: null });
@@ -19,16 +20,8 @@ const PICTURE = 1024;
 async function exportMesh(fit: FitResult, format: "glb" | "obj"): Promise<void> {
   const spec = specOf(fit);
   const { info } = await openSource(spec.source);
-  const input = {
-    spec,
-    seed: info.tree_seed ?? 1,
-    format,
-    season: "",
-    leaves: "outline",
-    levels: 1,
-    wind: true,
-  };
-  download(fileName(fit.name, format), await treeClient.call("export", input));
+  const input = { spec, seed: info.tree_seed ?? 1, season: "", leaves: "outline", levels: 1, wind: true };
+  await saveMesh(fileName(fit.name, format), format, input);
 }
 
 async function exportPicture(fit: FitResult): Promise<void> {

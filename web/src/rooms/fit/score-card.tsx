@@ -1,6 +1,7 @@
 // The score card in words.
 import type { ComponentChildren, JSX } from "preact";
 import type { Card, FitResult } from "../../engine/protocol";
+import { Meter } from "../../ui/controls";
 import { result } from "./fit-state";
 
 /** Medians over fifteen species, from the library's documents: two seeds of a species, two species. */
@@ -104,7 +105,7 @@ export function ScoreCard(): JSX.Element | null {
               {label} <span>{what}</span>
             </dt>
             <dd>
-              <meter min={0} max={1} value={card.likeness_parts[key]} aria-label={`${label}, ${what}`} />
+              <Meter label={`${label}, ${what}`} value={card.likeness_parts[key]} />
               {card.likeness_parts[key].toFixed(2)}
             </dd>
           </div>

@@ -33,7 +33,8 @@ function Overlay(): JSX.Element {
 
 function scoreText(): string {
   const card = result.value?.card ?? progress.value;
-  return card ? `Likeness ${card.likeness.toFixed(2)}, IoU ${card.iou.toFixed(2)}.` : "";
+  if (!card || card.likeness === null || card.iou === null) return "";
+  return `Likeness ${card.likeness.toFixed(2)}, IoU ${card.iou.toFixed(2)}.`;
 }
 
 export function Tiles(): JSX.Element {

@@ -4,28 +4,43 @@ import type { Place } from "./map-state";
 
 /** From the plane to the canvas, in CSS pixels; +y goes up. */
 export interface Frame {
-  scale: number;
+  x: number;
+  y: number;
   left: number;
   top: number;
 }
 
 const THUMB = 56;
+/** How much one axis may be stretched against the other, to use a tall or wide canvas. */
+const MAX_STRETCH = 1.5;
 
 export function frameOf(plane: Plane, width: number, height: number): Frame {
-  const [x0, y0, x1, y1] = plane.box;
-  const margin = Math.min(56, width * 0.09);
-  const scale = Math.min((width - 2 * margin) / (x1 - x0), (height - 2 * margin) / (y1 - y0));
-  return { scale, left: width / 2 - ((x0 + x1) / 2) * scale, top: height / 2 + ((y0 + y1) / 2) * scale };
+  const places = [...plane.hull, ...plane.dots.map(({ x, y }) => [x, y] as const)];
+  const across = places.map(([x]) => x);
+  const up = places.map(([, y]) => y);
+  const [x0, x1, y0, y1] = [Math.min(...across), Math.max(...across), Math.min(...up), Math.max(...up)];
+  // Room for names and thumbnails at the rim, and for trees beyond the hull.
+  const side = Math.min(96, width * 0.14);
+  const x = (width - 2 * side) / Math.max(x1 - x0, 1e-9);
+  const y = (height - THUMB - 72) / Math.max(y1 - y0, 1e-9);
+  const least = Math.min(x, y);
+  const [scaleX, scaleY] = [Math.min(x, least * MAX_STRETCH), Math.min(y, least * MAX_STRETCH)];
+  return {
+    x: scaleX,
+    y: scaleY,
+    left: width / 2 - ((x0 + x1) / 2) * scaleX,
+    top: (height + THUMB - 16) / 2 + ((y0 + y1) / 2) * scaleY,
+  };
 }
 
 export const toCanvas = (frame: Frame, [x, y]: Place): [number, number] => [
-  frame.left + x * frame.scale,
-  frame.top - y * frame.scale,
+  frame.left + x * frame.x,
+  frame.top - y * frame.y,
 ];
 
 export const toPlane = (frame: Frame, x: number, y: number): Place => [
-  (x - frame.left) / frame.scale,
-  (frame.top - y) / frame.scale,
+  (x - frame.left) / frame.x,
+  (frame.top - y) / frame.y,
 ];
 
 export interface MapColors {
@@ -61,15 +76,18 @@ function trace(context: Context, points: readonly (readonly [number, number])[])
 function drawSwitches(context: Context, scene: MapScene, frame: Frame, colors: MapColors): void {
   context.strokeStyle = colors.line;
   context.lineWidth = 1;
-  context.setLineDash([3, 4]);
-  for (const { lines } of scene.plane.switches) {
-    for (const [from, to] of lines) {
-      trace(context, [toCanvas(frame, from), toCanvas(frame, to)]);
-      context.stroke();
-    }
+  for (const [from, to, count] of scene.plane.switches) {
+    // Where many choices switch at once, trees change most.
+    context.globalAlpha = Math.min(1, 0.25 + 0.15 * count);
+    trace(context, [toCanvas(frame, from), toCanvas(frame, to)]);
+    context.stroke();
   }
-  context.setLineDash([]);
+  context.globalAlpha = 1;
 }
+
+type Box = readonly [number, number, number, number];
+
+const meet = (a: Box, b: Box) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 
 function drawSpecies(
   context: Context,
@@ -78,24 +96,34 @@ function drawSpecies(
   colors: MapColors,
   width: number,
 ): void {
-  const side = width < 480 ? THUMB * 0.7 : THUMB;
+  const small = width < 480;
+  const side = small ? THUMB * 0.75 : THUMB;
   context.textAlign = "center";
-  context.font = `500 ${width < 480 ? 10 : 11}px system-ui, sans-serif`;
-  for (const { name, x, y } of scene.plane.dots) {
-    const [left, top] = toCanvas(frame, [x, y]);
-    const picture = scene.thumbs.get(name);
+  context.font = `500 ${small ? 10 : 11}px system-ui, sans-serif`;
+  const places = scene.plane.dots.map((dot) => ({ dot, at: toCanvas(frame, [dot.x, dot.y]) }));
+  for (const { dot, at } of places) {
+    const [left, top] = at;
+    const picture = scene.thumbs.get(dot.name);
     if (picture) context.drawImage(picture, left - side / 2, top - side, side, side);
     context.fillStyle = colors.ink;
     context.beginPath();
     context.arc(left, top, 2.5, 0, 7);
     context.fill();
-    const label = name.replaceAll("_", " ");
+  }
+  // A name that would lie on another one is left out: the panel names the nearest species.
+  const taken: Box[] = [];
+  for (const { dot, at } of places) {
+    const label = dot.name.replaceAll("_", " ");
     const half = context.measureText(label).width / 2 + 3;
-    const center = Math.min(Math.max(left, half), width - half);
+    const center = Math.min(Math.max(at[0], half), width - half);
+    const box: Box = [center - half, at[1] + 5, center + half, at[1] + 19];
+    if (taken.some((other) => meet(box, other))) continue;
+    taken.push(box);
     context.lineWidth = 3;
     context.strokeStyle = colors.paper;
-    context.strokeText(label, center, top + 15);
-    context.fillText(label, center, top + 15);
+    context.strokeText(label, center, at[1] + 15);
+    context.fillStyle = colors.ink;
+    context.fillText(label, center, at[1] + 15);
   }
 }
 

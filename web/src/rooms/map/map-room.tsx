@@ -6,7 +6,7 @@ import { sayError } from "../../state/notes";
 import { go } from "../../state/route";
 import { start } from "../../state/species";
 import { theme } from "../../state/theme";
-import { Button, Check, Segmented } from "../../ui/controls";
+import { Button, Check, Meter, Segmented } from "../../ui/controls";
 import { download } from "../../ui/files";
 import { inkImage, show, styleColor } from "../../ui/ink";
 import {
@@ -57,7 +57,7 @@ function Weights(): JSX.Element {
       {shown.map(([name, share]) => (
         <li key={name}>
           <span>{name.replaceAll("_", " ")}</span>
-          <meter min={0} max={1} value={share} aria-label={`Share of ${name.replaceAll("_", " ")}`} />
+          <Meter label={`Share of ${name.replaceAll("_", " ")}`} value={share} />
           <span class="share">{Math.round(share * 100)} %</span>
         </li>
       ))}
@@ -189,21 +189,26 @@ function Row(): JSX.Element | null {
 function Axes(): JSX.Element | null {
   const plane = planes.value[layout.value];
   if (!plane) return null;
+  const [across, up] = plane.axes;
   const explained = plane.explained.map((share) => `${Math.round(share * 100)} %`);
   return (
     <details class="axes">
       <summary>What the axes mean</summary>
-      <p>
-        Left to right: {plane.axes[0]?.join(", ") || "no single measure"}
-        {explained[0] && ` (${explained[0]} of the differences)`}.
-      </p>
-      <p>
-        Bottom to top: {plane.axes[1]?.join(", ") || "no single measure"}
-        {explained[1] && ` (${explained[1]})`}.
-      </p>
-      {plane.switches.length > 0 && (
-        <p>Dashed lines: {plane.switches.map((each) => each.parameter).join(", ")} switch there.</p>
+      {across && up ? (
+        <>
+          <p>
+            To the right: {across.join(", ")}
+            {explained[0] && ` (${explained[0]} of the differences)`}.
+          </p>
+          <p>
+            Upwards: {up.join(", ")}
+            {explained[1] && ` (${explained[1]})`}.
+          </p>
+        </>
+      ) : (
+        <p>The axes mean nothing here: species whose trees look alike are near each other.</p>
       )}
+      {plane.switches.length > 0 && <p>Thin lines: a choice, such as the shape of leaves, switches there.</p>}
     </details>
   );
 }

@@ -1,5 +1,6 @@
 // Downloads of the species room. Every file is written by the library.
 import { treeClient } from "../../engine/clients";
+import type { Ops } from "../../engine/protocol";
 import { announce } from "../../state/notes";
 import { recipes, spec, speciesName, toToml } from "../../state/species";
 import { download, fileName } from "../../ui/files";
@@ -29,10 +30,26 @@ export async function exportToml(): Promise<void> {
 export async function exportMesh(format: string, levels: number, wind: boolean): Promise<void> {
   const { seed, season } = recipes.peek();
   announce(`Writing ${format.toUpperCase()}`);
-  const input = { spec: spec.peek(), seed, format, season, leaves: leaves.peek(), levels, wind };
-  const bytes = await treeClient.call("export", input);
-  download(fileName(`${speciesName.peek()}-${seed}`, format), bytes, TYPES[format]);
-  announce(`${format.toUpperCase()} is written: ${Math.ceil(bytes.length / 1024)} KiB`);
+  const input = { spec: spec.peek(), seed, season, leaves: leaves.peek(), levels, wind };
+  const bytes = await saveMesh(fileName(`${speciesName.peek()}-${seed}`, format), format, input);
+  announce(`${format.toUpperCase()} is written: ${Math.ceil(bytes / 1024)} KiB`);
+}
+
+/** The length of the file. */
+export async function saveMesh(
+  name: string,
+  format: string,
+  input: Omit<Ops["export"]["in"], "format">,
+): Promise<number> {
+  const bytes = await treeClient.call("export", { ...input, format });
+  download(name, bytes, TYPES[format]);
+  if (format !== "obj") return bytes.length;
+  // The file of materials must have the name that the first lines of the mesh give it.
+  const head = new TextDecoder().decode(bytes.subarray(0, 2000));
+  const materials = /^mtllib (.+)$/m.exec(head)?.[1]?.trim();
+  if (materials)
+    download(materials, await treeClient.call("export", { ...input, format: "mtl" }), "model/mtl");
+  return bytes.length;
 }
 
 export async function exportView(): Promise<void> {

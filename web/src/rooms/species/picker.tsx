@@ -32,32 +32,32 @@ export function Picker(): JSX.Element {
   };
   return (
     <Field label="Start from">
-      <select
-        aria-label="Start from a species"
-        value={value}
-        onChange={(event) => pick(event.currentTarget.value)}
-      >
-        {value === OTHER && <option value={OTHER}>{speciesName.value}</option>}
-        {mySpecies.value.length > 0 && (
-          <optgroup label="My species">
-            {mySpecies.value.map((kept) => (
-              <option key={kept.id} value={`mine:${kept.id}`}>
-                {kept.name.replaceAll("_", " ")}
-              </option>
-            ))}
-          </optgroup>
-        )}
-        {families.value.map(({ family, species }) => (
-          <optgroup key={family} label={family}>
-            {species.map(({ name }) => (
-              <option key={name} value={`built:${name}`}>
-                {name.replaceAll("_", " ")}
-              </option>
-            ))}
-          </optgroup>
-        ))}
-        {families.value.length === 0 && value !== OTHER && <option value={value}>{speciesName.value}</option>}
-      </select>)}
+      {(id) => (
+        <select id={id} value={value} onChange={(event) => pick(event.currentTarget.value)}>
+          {value === OTHER && <option value={OTHER}>{speciesName.value}</option>}
+          {mySpecies.value.length > 0 && (
+            <optgroup label="My species">
+              {mySpecies.value.map((kept) => (
+                <option key={kept.id} value={`mine:${kept.id}`}>
+                  {kept.name.replaceAll("_", " ")}
+                </option>
+              ))}
+            </optgroup>
+          )}
+          {families.value.map(({ family, species }) => (
+            <optgroup key={family} label={family}>
+              {species.map(({ name }) => (
+                <option key={name} value={`built:${name}`}>
+                  {name.replaceAll("_", " ")}
+                </option>
+              ))}
+            </optgroup>
+          ))}
+          {families.value.length === 0 && value !== OTHER && (
+            <option value={value}>{speciesName.value}</option>
+          )}
+        </select>
+      )}
     </Field>
   );
 }

@@ -75,7 +75,13 @@ function Toolbar(): JSX.Element {
         onPress={() => recipes.redo()}
         testid="redo"
       />
-      <Button icon="reset" label="Reset all" disabled={recipes.value.values === null} onPress={resetAll} />
+      <Button
+        icon="reset"
+        iconOnly
+        label="Reset all"
+        disabled={recipes.value.values === null}
+        onPress={resetAll}
+      />
       <span class="joined">
         <Button
           icon="dice"

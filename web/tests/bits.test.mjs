@@ -1,0 +1,86 @@
+// Trees, silhouettes, blends and a fit have the bits of the library on every other platform: those of
+// tests/data/bits.csv, which the library's own test compares with what it gives.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const at = (path) => fileURLToPath(new URL(path, import.meta.url));
+const expected = readFileSync(at("../../tests/data/bits.csv"), "utf8").trim().split("\n").slice(1);
+const palm = readFileSync(at("../../targets/palm.png"));
+
+/** Everything that is compared, by the functions of a loaded module; runs in Node and in the browser. */
+function bits(pleach, names, goal) {
+  const fnv = (bytes) => {
+    let hash = 0xcbf29ce484222325n;
+    for (const byte of bytes) hash = ((hash ^ BigInt(byte)) * 0x100000001b3n) & 0xffffffffffffffffn;
+    return hash.toString(16).padStart(16, "0");
+  };
+  const text = (string) => fnv(new TextEncoder().encode(string));
+  const map = new pleach.BlendMap("numbers");
+  return names.map((name) => {
+    const [what, ...of] = name.split(" ");
+    if (what === "map") return `${name},${text(map.at(Number(of[0]), Number(of[1]), "blend").to_toml())}`;
+    if (what === "fit") {
+      const options = { height: 14, evaluations: 300 };
+      const fit = new pleach.Fit(pleach.Goal.read("palm.png", goal, "auto"), JSON.stringify(options));
+      fit.guess(() => {});
+      // Two evaluators, as two workers have them, and pieces of any size.
+      const evaluators = [0, 1].map(() => new pleach.Evaluator(fit.recipe()));
+      for (let round = 0; ; round += 1) {
+        const pieces = fit.ask(1 + (round % 3), 0);
+        if (pieces.length === 0) break;
+        const scores = pieces.map((piece, number) => evaluators[number % 2].score(piece));
+        fit.tell(scores, 0);
+      }
+      return `${name},${text(JSON.parse(fit.finish(() => {})).toml)}`;
+    }
+    const tree = pleach.Species.named(of[0]).grow(1, true);
+    const hash = what === "tree" ? tree.digest() : fnv(tree.silhouette(256, 0, 0));
+    tree.free();
+    return `${name},${hash}`;
+  });
+}
+
+const names = expected.map((line) => line.split(",")[0]);
+
+test("in Node", async () => {
+  const pleach = await import("../src/wasm/pleach_web.js");
+  await pleach.default({ module_or_path: readFileSync(at("../src/wasm/pleach_web_bg.wasm")) });
+  assert.deepEqual(bits(pleach, names, palm), expected);
+});
+
+test("in Chromium", async () => {
+  const types = { js: "text/javascript", wasm: "application/wasm" };
+  const server = createServer((request, response) => {
+    const name = request.url.slice(1);
+    if (!/^pleach_web(_bg)?\.(js|wasm)$/.test(name)) return response.end("<!doctype html>");
+    response.setHeader("content-type", types[name.split(".").pop()]);
+    return response.end(readFileSync(at(`../src/wasm/${name}`)));
+  });
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox"],
+  });
+  try {
+    const page = await browser.newPage();
+    await page.goto(`http://127.0.0.1:${server.address().port}/`);
+    const found = await page.evaluate(
+      async ([source, names, goal]) => {
+        const pleach = await import("/pleach_web.js");
+        await pleach.default();
+        const of = new Function(`return ${source}`)();
+        return of(pleach, names, Uint8Array.from(goal));
+      },
+      [bits.toString(), names, [...palm]],
+    );
+    assert.deepEqual(found, expected);
+  } finally {
+    await browser.close();
+    server.close();
+  }
+});
