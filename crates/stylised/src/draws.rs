@@ -16,7 +16,8 @@ pub(crate) const SPHERES: Purpose = 6;
 
 /// How a trunk turns and leans that has drawn this.
 pub(crate) fn turned(draw: &Draw) -> DQuat {
-    DQuat::from_rotation_z(draw.azimuth) * DQuat::from_rotation_y(draw.pitch)
+    let ((sin_a, cos_a), (sin_p, cos_p)) = (sin_cos(draw.azimuth / 2.0), sin_cos(draw.pitch / 2.0));
+    DQuat::from_xyzw(0.0, 0.0, sin_a, cos_a) * DQuat::from_xyzw(0.0, sin_p, 0.0, cos_p)
 }
 
 /// Three uniform numbers in [−1, 1).

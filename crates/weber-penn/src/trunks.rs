@@ -8,7 +8,7 @@ use crate::budget::{Budget, Cause, DARTS_A_STEP, Exceeded};
 use crate::model::Model;
 use crate::purpose;
 use glam::DVec2;
-use pleach_tree::Key;
+use pleach_tree::{Key, math};
 use std::f64::consts::TAU;
 
 /// Darts thrown for one trunk before the disc grows.
@@ -36,7 +36,8 @@ pub(crate) fn sites(
         for attempt in 0.. {
             budget.work(Cause::Darts, 0, 1 + sites.len() as u64 / DARTS_A_STEP)?;
             let distance = disc * dart_key.unit(purpose::DART_DISTANCE, attempt).sqrt();
-            let dart = DVec2::from_angle(TAU * dart_key.unit(purpose::DART_AZIMUTH, attempt)) * distance;
+            let (sin, cos) = math::sin_cos(TAU * dart_key.unit(purpose::DART_AZIMUTH, attempt));
+            let dart = DVec2::new(cos, sin) * distance;
             if sites.iter().all(|p| p.distance_squared(dart) >= spacing * spacing) {
                 sites.push(dart);
                 break;

@@ -20,6 +20,7 @@ mod render;
 mod score;
 mod silhouette;
 mod species;
+mod studio;
 
 use crate::{help, output};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -53,6 +54,7 @@ enum Command {
     Species(species::SpeciesCommand),
     Params(params::Params),
     Grammar(grammar::GrammarCommand),
+    Studio(studio::Studio),
     Experiment(experiment::Experiment),
     Completions(completions::Completions),
     Man(man::Man),
@@ -91,6 +93,7 @@ impl Arguments {
             Command::Species(command) => command.run(),
             Command::Params(command) => command.run(),
             Command::Grammar(command) => command.run(),
+            Command::Studio(command) => command.run(),
             Command::Completions(command) => command.run(),
             Command::Man(command) => command.run(),
         }

@@ -3,6 +3,7 @@
 use super::*;
 use crate::budget::{Budget, Clock};
 use crate::control::CheckpointSettings;
+use crate::history::Row;
 use crate::optimizer::Optimizer;
 use crate::space::{Freedom, TreeSeed};
 use crate::testing::{Function, choice, flagged, integer, params, real};
