@@ -11,7 +11,8 @@ import { App } from "./app";
 import { reportDeaths } from "./engine/client";
 import { wasmModule } from "./engine/module";
 import { fitLink, restoreFit } from "./rooms/fit/autosave";
-import { mapLink } from "./rooms/map/map-state";
+import { mapLink, times } from "./rooms/map/map-state";
+import { view } from "./rooms/species/view-handle";
 import { say, sayError } from "./state/notes";
 import { register, startRouting } from "./state/route";
 import { speciesLink } from "./state/species-link";
@@ -24,6 +25,9 @@ reportDeaths((what, message) =>
 register(speciesLink);
 register(mapLink);
 register(fitLink);
+
+// For the console and the tests: what the graphics card holds, how fast the map answers.
+Object.assign(window, { studio: { memory: () => view()?.memory() ?? null, mapTimes: times } });
 
 const root = document.getElementById("app");
 if (root) {

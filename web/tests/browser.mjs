@@ -1,4 +1,5 @@
 // A browser on the built page, which lets no request leave the page's own origin.
+import { readFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { serve } from "./server.mjs";
@@ -66,4 +67,12 @@ export async function colors(page, selector) {
     );
     return seen.size;
   }, png.toString("base64"));
+}
+
+/** The text of the file that a button downloads, after the tab of a panel was opened. */
+export async function saved(page, button, tab) {
+  if (tab) await page.getByRole("radio", { name: tab, exact: true }).check();
+  const waiting = page.waitForEvent("download");
+  await page.getByRole("button", { name: button }).first().click();
+  return readFile(await (await waiting).path(), "utf8");
 }

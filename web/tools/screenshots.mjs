@@ -55,7 +55,7 @@ const ROOMS = {
   gallery: {
     hash: "#gallery",
     async ready(page) {
-      await page.locator(".thumb.drawn").nth(7).waitFor({ state: "attached" });
+      await page.locator(".thumb.drawn").nth(3).waitFor({ state: "attached" });
       await page.waitForTimeout(3000);
     },
   },

@@ -55,7 +55,7 @@ async function read(
     lastBytes = { name, bytes, target };
     masks.reset({ ink: goal.ink, ground: null, axis: null });
     info.value = goal.info;
-    picture.value = { name: goal.info.name || baseName(name), width, height, photo, target };
+    picture.value = { name: baseName(goal.info.name || name), width, height, photo, target };
     announce(`${name} is the goal`);
   } catch (error) {
     // The goal before stays as it is.

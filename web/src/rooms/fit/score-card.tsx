@@ -124,7 +124,7 @@ export function ScoreCard(): JSX.Element | null {
         </Row>
         <Fresh fresh={fit.fresh} />
       </dl>
-      {fit.verdict && <p class="verdict">{fit.verdict}</p>}
+      {fit.verdict && <p class="verdict">{fit.verdict}.</p>}
       <References references={fit.references} />
     </section>
   );

@@ -1,0 +1,136 @@
+// The fit room: a search that finds the tree, a page that never stalls, a brush, and pictures that are none.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { newPage, open, saved } from "./browser.mjs";
+import { plainPng } from "./pictures.mjs";
+
+let studio;
+before(async () => {
+  studio = await open();
+});
+after(() => studio?.close());
+
+async function fit(hash = "#fit?goal=palm") {
+  const opened = await newPage(studio, {}, hash);
+  await opened.page.getByTestId("goal").waitFor();
+  await opened.page.waitForFunction(() => document.querySelector('[data-testid="goal"]').width > 2);
+  return opened;
+}
+
+const start = async (page) => {
+  await page.getByRole("radio", { name: "10 s" }).check();
+  await page.getByTestId("start").click();
+};
+
+test("a fit finds the palm, and the page never stalls", async () => {
+  const { page, problems, context } = await fit();
+  await page.evaluate(() => {
+    window.stalls = [];
+    const watch = (list) =>
+      window.stalls.push(...list.getEntries().map((entry) => Math.round(entry.duration)));
+    new PerformanceObserver(watch).observe({ type: "longtask" });
+  });
+  await start(page);
+  await page.getByTestId("score").waitFor({ timeout: 60_000 });
+  const likeness = Number(await page.locator(".score .big").textContent());
+  console.log(`likeness ${likeness}`);
+  assert.ok(likeness >= 0.8);
+  assert.deepEqual(await page.evaluate(() => window.stalls), []);
+  const toml = await saved(page, "TOML");
+  const file = process.env.FIT_TOML ?? join(mkdtempSync(join(tmpdir(), "studio-")), "best.toml");
+  writeFileSync(file, toml);
+  if (process.env.PLEACH) {
+    const picture = file.replace(/\.toml$/, ".png");
+    execFileSync(process.env.PLEACH, ["silhouette", file, "-o", picture, "--size", "256", "--quiet"]);
+  }
+  // A reload keeps the goal and the result.
+  await page.waitForTimeout(1500);
+  await page.reload();
+  await page.getByTestId("score").waitFor();
+  assert.equal(Number(await page.locator(".score .big").textContent()), likeness);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("a search can be paused, continued and stopped", async () => {
+  const { page, context } = await fit();
+  await start(page);
+  await page.getByTestId("pause").click();
+  await page.getByText("Paused").waitFor();
+  const trees = () => page.locator(".livenumbers dd").nth(1).textContent();
+  await page.waitForTimeout(1000);
+  const held = await trees();
+  await page.waitForTimeout(1500);
+  assert.equal(await trees(), held);
+  await page.getByTestId("resume").click();
+  await page.waitForFunction(
+    (before) => document.querySelectorAll(".livenumbers dd")[1]?.textContent !== before,
+    held,
+  );
+  await page.getByTestId("stop").click();
+  await page.getByTestId("score").waitFor();
+  await context.close();
+});
+
+const ink = (page) =>
+  page.getByTestId("goal").evaluate((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return data.reduce((sum, value, at) => sum + (at % 4 === 3 && value > 0 ? 1 : 0), 0);
+  });
+
+test("the brush changes the mask, and undo brings it back", async () => {
+  const { page, problems, context } = await fit();
+  const before = await ink(page);
+  const box = await page.getByTestId("goal").boundingBox();
+  await page.mouse.move(box.x + 40, box.y + box.height * 0.7);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 120, box.y + box.height * 0.75, { steps: 5 });
+  await page.mouse.up();
+  const painted = await ink(page);
+  assert.ok(painted > before + 50);
+  await page.getByTestId("undo-mask").click();
+  assert.equal(await ink(page), before);
+  await page.getByRole("slider", { name: "Ground" }).focus();
+  await page.keyboard.press("ArrowUp");
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("pictures that are none are refused in words, and the goal stays", async () => {
+  const { page, problems, context } = await fit();
+  const bad = [
+    ["text.png", Buffer.from("This is no picture.")],
+    ["huge.png", plainPng(10_000, 6_000, 0xff)],
+    ["white.png", plainPng(256, 256, 0xff)],
+    ["black.png", plainPng(256, 256, 0x00)],
+  ];
+  const before = await ink(page);
+  let last = "";
+  for (const [name, bytes] of bad) {
+    await page.evaluate(
+      ([name, base64]) => {
+        const files = new DataTransfer();
+        files.items.add(
+          new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name, { type: "image/png" }),
+        );
+        window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
+      },
+      [name, bytes.toString("base64")],
+    );
+    await page.waitForFunction((before) => {
+      const text = document.querySelector(".panelbody > .alert")?.textContent ?? "";
+      return text !== "" && text !== before && !document.querySelector(".reading");
+    }, last);
+    last = await page.locator(".panelbody > .alert").textContent();
+    console.log(`${name}: ${last}`);
+    assert.ok(last.length > 20);
+    assert.equal(await ink(page), before);
+    assert.ok(await page.getByTestId("start").isEnabled());
+  }
+  assert.deepEqual(problems, []);
+  await context.close();
+});

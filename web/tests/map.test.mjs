@@ -1,0 +1,86 @@
+// The map room: its trees are those of the command line, and they come quickly.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { after, before, test } from "node:test";
+import { newPage, open, saved } from "./browser.mjs";
+
+let studio;
+before(async () => {
+  studio = await open();
+});
+after(() => studio?.close());
+
+async function map(hash = "#map") {
+  const opened = await newPage(studio, {}, hash);
+  await opened.page.getByTestId("plane").waitFor();
+  await opened.page.waitForFunction(() => !document.querySelector(".plane .empty"));
+  return { ...opened, box: await opened.page.getByTestId("plane").boundingBox() };
+}
+
+test("a dragged point gives the species that `pleach blend --point` writes", async () => {
+  const { page, problems, box, context } = await map();
+  await page.mouse.move(box.x + box.width * 0.5, box.y + box.height * 0.5);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.6, { steps: 8 });
+  await page.mouse.up();
+  const toml = await saved(page, "TOML");
+  await page.waitForFunction(() => /[?&]at=/.test(location.hash));
+  const at = new URLSearchParams(new URL(page.url()).hash.split("?")[1]).get("at");
+  assert.match(toml, /^# A blend/);
+  assert.match(toml, /generator = "weber-penn"/);
+  if (process.env.PLEACH) {
+    const written = execFileSync(process.env.PLEACH, ["blend", `--point=${at}`], { encoding: "utf8" });
+    assert.equal(toml, written);
+  }
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("the tree follows the pointer", async () => {
+  const { page, box, context } = await map();
+  // The thumbnails first: they share the cores.
+  await page.waitForTimeout(3000);
+  for (let step = 0; step < 40; step++) {
+    await page.mouse.move(box.x + box.width * (0.3 + 0.01 * step), box.y + box.height * 0.6);
+    await page.waitForTimeout(60);
+  }
+  await page.waitForTimeout(500);
+  const middle = (list) => list.toSorted((a, b) => a - b)[list.length >> 1];
+  const { coarse, full } = await page.evaluate(() => window.studio.mapTimes);
+  console.log(`coarse ${middle(coarse).toFixed(1)} ms, full ${middle(full).toFixed(1)} ms, by the median`);
+  assert.ok(middle(full) < 400);
+  await context.close();
+});
+
+test("keys move the point, Enter opens its species", async () => {
+  const { page, context } = await map("#map?at=0,0.5");
+  await page.locator(".plane").focus();
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("p");
+  await page.locator(".pins li").waitFor();
+  await page.keyboard.press("Enter");
+  await page.locator(".panelhead h2", { hasText: "blend" }).waitFor();
+  await context.close();
+});
+
+test("a drawn path gives a row of trees", async () => {
+  const { page, box, context } = await map();
+  await page.getByRole("radio", { name: "Draw a path" }).check();
+  await page.mouse.move(box.x + box.width * 0.3, box.y + box.height * 0.7);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.7, box.y + box.height * 0.7, { steps: 12 });
+  await page.mouse.up();
+  await page.locator(".rowoftrees li").nth(7).waitFor();
+  await context.close();
+});
+
+test("the layout by looks is another plane", async () => {
+  const { page, problems, context } = await map();
+  await page.getByRole("radio", { name: "By looks" }).check();
+  await page.waitForFunction(() => !document.querySelector(".plane .empty"));
+  await page.getByText("What the axes mean").click();
+  await page.getByText("The axes mean nothing here").waitFor();
+  assert.deepEqual(problems, []);
+  await context.close();
+});

@@ -1,0 +1,87 @@
+// The page as a whole: it loads alone, every room is drawn, readable for all, on a telephone too.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { after, before, describe, test } from "node:test";
+import { colors, newPage, open } from "./browser.mjs";
+
+const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"];
+
+/** Each room, what is drawn in it, and when it is. */
+const ROOMS = {
+  fit: { hash: "#fit?goal=palm", canvas: '[data-testid="goal"]' },
+  map: { hash: "#map?at=0,0.5", canvas: '[data-testid="plane"]', ready: '[data-testid="under"]' },
+  species: { hash: "#species?s=acer", canvas: '[data-testid="tree"]', ready: '[data-testid="counts"] dd' },
+  gallery: { hash: "#gallery", canvas: ".thumb.drawn >> nth=0" },
+};
+
+let studio;
+before(async () => {
+  studio = await open();
+});
+after(() => studio?.close());
+
+async function room({ hash, canvas, ready }, options = {}) {
+  const opened = await newPage(studio, options, hash);
+  await opened.page.locator(canvas).waitFor();
+  if (ready) await opened.page.locator(ready).first().waitFor({ state: "attached" });
+  // The last thumbnails and shadows.
+  await opened.page.waitForTimeout(1500);
+  return opened;
+}
+
+describe("every room", () => {
+  for (const [name, how] of Object.entries(ROOMS)) {
+    for (const colorScheme of ["light", "dark"]) {
+      test(`${name}, ${colorScheme}: drawn, readable, silent`, async () => {
+        const { page, problems, context } = await room(how, { colorScheme });
+        assert.ok((await colors(page, how.canvas)) > 3, "the canvas is uniform");
+        await page.evaluate(axe);
+        const found = await page.evaluate(async (tags) => {
+          const { violations } = await window.axe.run(document, { runOnly: tags });
+          return violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).slice(0, 3)}`);
+        }, TAGS);
+        assert.deepEqual(found, []);
+        assert.deepEqual(problems, []);
+        await context.close();
+      });
+    }
+    test(`${name} does not scroll sideways at 360 pixels`, async () => {
+      const { page, context } = await room(how, { viewport: { width: 360, height: 740 } });
+      const wide = await page.evaluate(() =>
+        [document.documentElement, document.querySelector("main")].map((each) => each.scrollWidth),
+      );
+      assert.deepEqual(
+        wide.map((width) => width <= 360),
+        [true, true],
+        `${wide}`,
+      );
+      await context.close();
+    });
+  }
+});
+
+test("the first page asks for nothing but its own files, and a worker for nothing at all", async () => {
+  const { page, problems, context } = await newPage(studio, {}, "");
+  await page.locator(".targets img").first().waitFor();
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("the first tree comes soon", async () => {
+  const { page, context } = await newPage(studio, {}, "#species?s=acer");
+  const begun = Date.now();
+  await page.locator('[data-testid="counts"] dd').first().waitFor();
+  console.log(`first tree after ${Date.now() - begun} ms`);
+  assert.ok(Date.now() - begun < 6000);
+  await context.close();
+});
+
+test("the theme can be chosen and stays", async () => {
+  const { page, context } = await newPage(studio, { colorScheme: "light" }, "#fit");
+  await page.getByRole("button", { name: "Dark page" }).click();
+  await page.reload();
+  assert.equal(await page.locator("html").getAttribute("data-theme"), "dark");
+  await context.close();
+});

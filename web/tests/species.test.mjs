@@ -1,0 +1,140 @@
+// The species room: changes, links, files, and the memory of the graphics card.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { after, before, test } from "node:test";
+import validator from "gltf-validator";
+import { newPage, open, saved } from "./browser.mjs";
+
+let studio;
+before(async () => {
+  studio = await open();
+});
+after(() => studio?.close());
+
+const field = (page, slot) => page.locator(`[data-slot="${slot}"] input[type="number"]`);
+
+async function species(hash = "#species?s=acer") {
+  const opened = await newPage(studio, {}, hash);
+  await field(opened.page, "g_scale").waitFor();
+  await opened.page.locator('[data-testid="counts"] dd').first().waitFor();
+  return opened;
+}
+
+async function set(page, slot, value) {
+  await field(page, slot).fill(String(value));
+  await field(page, slot).press("Enter");
+}
+
+test("a change can be undone and redone, by buttons and by keys", async () => {
+  const { page, problems, context } = await species();
+  const before = await field(page, "g_scale").inputValue();
+  await set(page, "g_scale", 20);
+  await page.getByTestId("undo").click();
+  assert.equal(await field(page, "g_scale").inputValue(), before);
+  await page.getByTestId("redo").click();
+  assert.equal(await field(page, "g_scale").inputValue(), "20");
+  await page.locator(".view").focus();
+  await page.keyboard.press("Control+z");
+  assert.equal(await field(page, "g_scale").inputValue(), before);
+  await page.keyboard.press("Control+Shift+z");
+  assert.equal(await field(page, "g_scale").inputValue(), "20");
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("the dice leave locked parameters alone, and are one step back", async () => {
+  const { page, context } = await species();
+  await page.getByRole("button", { name: "Lock g_scale", exact: true }).click();
+  const before = await field(page, "g_scale").inputValue();
+  const toml = await saved(page, "TOML, the species file", "Download");
+  await page.getByTestId("dice").click();
+  await page.waitForFunction(() => !document.querySelector('[data-testid="undo"]').disabled);
+  const thrown = await saved(page, "TOML, the species file", "Download");
+  assert.notEqual(thrown, toml);
+  await page.getByLabel("Parameters", { exact: true }).first().check();
+  assert.equal(await field(page, "g_scale").inputValue(), before);
+  await page.getByTestId("undo").click();
+  assert.equal(await saved(page, "TOML, the species file", "Download"), toml);
+  await context.close();
+});
+
+test("a copied link opens the same species, seed and season", async () => {
+  const { page, context } = await species();
+  await set(page, "g_scale", 17.25);
+  await page.getByLabel("Season").selectOption("winter");
+  await page.getByLabel("Seeds", { exact: true }).check();
+  await page.locator(".seedbar input").fill("12");
+  await page.locator(".seedbar input").press("Enter");
+  const toml = await saved(page, "TOML, the species file", "Download");
+  await page.getByTestId("copy-link").click();
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  const other = await species(link.slice(link.indexOf("#")));
+  assert.equal(await field(other.page, "g_scale").inputValue(), "17.25");
+  assert.equal(await other.page.getByLabel("Season").inputValue(), "winter");
+  assert.equal(await saved(other.page, "TOML, the species file", "Download"), toml);
+  await other.context.close();
+  await context.close();
+});
+
+test("a reload and a dropped file keep everything", async () => {
+  const { page, context } = await species();
+  await set(page, "g_scale", 15.5);
+  await page.waitForFunction(() => location.hash.includes("15.5"));
+  const toml = await saved(page, "TOML, the species file", "Download");
+  await page.goto("about:blank");
+  await page.goto(studio.address);
+  await field(page, "g_scale").waitFor();
+  assert.equal(await field(page, "g_scale").inputValue(), "15.5");
+  await page.goto(`${studio.address}#gallery`);
+  await page.evaluate((text) => {
+    const files = new DataTransfer();
+    files.items.add(new File([text], "mine.toml"));
+    window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
+  }, toml);
+  await field(page, "g_scale").waitFor();
+  assert.equal(await field(page, "g_scale").inputValue(), "15.5");
+  await context.close();
+});
+
+test("a broken species file is refused in words, and the species stays", async () => {
+  const { page, context } = await species();
+  await page.evaluate(() => {
+    const files = new DataTransfer();
+    files.items.add(new File(["generator = 'weber-penn'\nlenght = 3\n"], "bad.toml"));
+    window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
+  });
+  await page.getByText("did you mean `length`?").waitFor();
+  assert.equal(await page.locator(".panelhead h2").textContent(), "acer");
+  await context.close();
+});
+
+test("the GLB is valid", async () => {
+  const { page, context } = await species();
+  await page.getByLabel("Download", { exact: true }).first().check();
+  const waiting = page.waitForEvent("download");
+  await page.getByTestId("export-glb").click();
+  const file = await (await waiting).path();
+  const report = await validator.validateBytes(new Uint8Array(await readFile(file)));
+  assert.equal(report.issues.numErrors, 0, JSON.stringify(report.issues.messages.slice(0, 5)));
+  assert.ok(report.info.totalTriangleCount > 1000);
+  await context.close();
+});
+
+test("fifty trees leave nothing on the graphics card", async () => {
+  const { page, problems, context } = await species();
+  await page.getByRole("radio", { name: "LOD 3" }).check();
+  await page.getByLabel("Seeds", { exact: true }).check();
+  const grow = async (seed) => {
+    await page.locator(".seedbar input").fill(String(seed));
+    await page.locator(".seedbar input").press("Enter");
+    await page.locator(`[data-testid="tree"][aria-label*="seed ${seed}:"]`).waitFor();
+  };
+  await grow(100);
+  await page.waitForTimeout(500);
+  const before = await page.evaluate(() => window.studio.memory());
+  for (let seed = 101; seed <= 150; seed++) await grow(seed);
+  await page.waitForTimeout(500);
+  assert.deepEqual(await page.evaluate(() => window.studio.memory()), before);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
