@@ -72,7 +72,7 @@ test("in Chromium", async () => {
     const found = await page.evaluate(
       async ([source, names, goal]) => {
         const pleach = await import("/pleach_web.js");
-        await pleach.default();
+        await pleach.default({ module_or_path: fetch("/pleach_web_bg.wasm") });
         const of = new Function(`return ${source}`)();
         return of(pleach, names, Uint8Array.from(goal));
       },

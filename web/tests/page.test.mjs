@@ -8,11 +8,37 @@ import { colors, newPage, open } from "./browser.mjs";
 const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"];
 
+const SPECIES_STEPS = [
+  async (page) => {
+    await page.getByRole("searchbox").fill("a");
+    await page.locator(".doc summary").first().click();
+  },
+  (page) => tab("Seeds")(page),
+  (page) => tab("Download")(page),
+];
+
+/** A short fit, for its outcome. */
+const FIT_STEPS = [
+  async (page) => {
+    await page.getByRole("radio", { name: "10 s" }).check();
+    await page.getByTestId("start").click();
+    await page.waitForTimeout(3500);
+    await page.getByTestId("stop").click();
+    await page.getByTestId("score").waitFor();
+  },
+];
+
 /** Each room, what is drawn in it, and when it is. */
 const ROOMS = {
-  fit: { hash: "#fit?goal=palm", canvas: '[data-testid="goal"]' },
+  fit: { hash: "#fit?goal=palm", canvas: '[data-testid="goal"]', steps: FIT_STEPS },
   map: { hash: "#map?at=0,0.5", canvas: '[data-testid="plane"]', ready: '[data-testid="under"]' },
-  species: { hash: "#species?s=acer", canvas: '[data-testid="tree"]', ready: '[data-testid="counts"] dd' },
+  species: {
+    hash: "#species?s=acer",
+    canvas: '[data-testid="tree"]',
+    ready: '[data-testid="counts"] dd',
+    steps: SPECIES_STEPS,
+  },
+  welcome: { hash: "#fit", canvas: ".targets" },
   gallery: { hash: "#gallery", canvas: ".thumb.drawn >> nth=0" },
 };
 
@@ -31,17 +57,34 @@ async function room({ hash, canvas, ready }, options = {}) {
   return opened;
 }
 
+async function violations(page) {
+  await page.evaluate(axe);
+  const { found, passed } = await page.evaluate(async (tags) => {
+    const { violations, passes } = await window.axe.run(document, { runOnly: tags });
+    const found = violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).slice(0, 3)}`);
+    return { found, passed: passes.length };
+  }, TAGS);
+  assert.ok(passed > 10, "axe has looked at nothing");
+  return found;
+}
+
+/** Opens a tab of the species room. */
+const tab = (name) => async (page) => {
+  await page.getByRole("radio", { name, exact: true }).check();
+  await page.waitForTimeout(500);
+};
+
 describe("every room", () => {
   for (const [name, how] of Object.entries(ROOMS)) {
     for (const colorScheme of ["light", "dark"]) {
       test(`${name}, ${colorScheme}: drawn, readable, silent`, async () => {
         const { page, problems, context } = await room(how, { colorScheme });
         assert.ok((await colors(page, how.canvas)) > 3, "the canvas is uniform");
-        await page.evaluate(axe);
-        const found = await page.evaluate(async (tags) => {
-          const { violations } = await window.axe.run(document, { runOnly: tags });
-          return violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).slice(0, 3)}`);
-        }, TAGS);
+        const found = [];
+        for (const step of [() => {}, ...(how.steps ?? [])]) {
+          await step(page);
+          found.push(...(await violations(page)));
+        }
         assert.deepEqual(found, []);
         assert.deepEqual(problems, []);
         await context.close();

@@ -78,6 +78,9 @@ export interface MeshData {
   wind: Float32Array<ArrayBuffer>;
   colors: Float32Array<ArrayBuffer>;
   indices: Uint32Array<ArrayBuffer>;
+  /** Lowest and highest x, y, z. */
+  low: [number, number, number];
+  high: [number, number, number];
   stats: TreeStats;
 }
 export interface Picture {
@@ -217,7 +220,8 @@ export interface Ops {
   goalRead: { in: { name: string; bytes: Uint8Array; mask: "auto" | "off" }; out: GoalData };
   goalCheck: { in: GoalPixels; out: GoalInfo };
   mapPlane: { in: Layout; out: Plane };
-  mapTree: { in: At & { size: number; coarse: boolean }; out: Ink };
+  /** "bare" grows no leaves, "coarse" draws few of them. */
+  mapTree: { in: At & { size: number; detail: "bare" | "coarse" | "full" }; out: Ink };
   mapAbout: { in: At; out: PointAbout };
   mapToml: { in: At & { name: string }; out: string };
   fitGuess: { in: { goal: GoalPixels; options: FitOptions; drawings: Uint8Array | null }; out: Guess };

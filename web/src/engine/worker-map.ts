@@ -13,9 +13,9 @@ const trees = new Cache<ReturnType<typeof growAt>>(4, (tree) => tree.free());
 /** The seed of every tree on the map, and of `pleach blend` followed by `pleach grow`. */
 const SEED = 1;
 
-function growAt(layout: Layout, x: number, y: number) {
+function growAt(layout: Layout, x: number, y: number, leafy: boolean) {
   const species = plane(layout).at(x, y, "blend");
-  const tree = species.grow(SEED, true);
+  const tree = species.grow(SEED, leafy);
   species.free();
   return tree;
 }
@@ -23,9 +23,10 @@ function growAt(layout: Layout, x: number, y: number) {
 export const mapHandlers: Handlers<"mapPlane" | "mapTree" | "mapAbout" | "mapToml"> = {
   mapPlane: (layout) => JSON.parse(plane(layout).plane()) as Plane,
 
-  mapTree({ layout, x, y, size, coarse }) {
-    const tree = trees.get(`${layout} ${x} ${y}`, () => growAt(layout, x, y));
-    const ink = coarse ? tree.coarse_silhouette(size) : tree.silhouette(size, 0, 0);
+  mapTree({ layout, x, y, size, detail }) {
+    const leafy = detail !== "bare";
+    const tree = trees.get(`${layout} ${x} ${y} ${leafy}`, () => growAt(layout, x, y, leafy));
+    const ink = detail === "full" ? tree.silhouette(size, 0, 0) : tree.coarse_silhouette(size);
     return { width: size, height: size, ink: ink.slice() };
   },
 

@@ -3,6 +3,7 @@ import { catalogue, Species, type Tree, version } from "../wasm/pleach_web.js";
 import { Cache } from "./cache";
 import type {
   Family,
+  MeshData,
   MeshPart,
   OpenedSpecies,
   Parameter,
@@ -47,6 +48,20 @@ function grow(spec: Spec, seed: number): Tree {
 const stats = (tree: Tree) => JSON.parse(tree.stats()) as TreeStats;
 
 const flags = (list: Uint8Array) => Array.from(list, (flag) => flag !== 0);
+
+/** Millions of vertices: measured here, so that the page does not stall. */
+function bounds(positions: Float32Array): Pick<MeshData, "low" | "high"> {
+  const low: MeshData["low"] = [0, 0, 0];
+  const high: MeshData["high"] = [0, 0, 0];
+  for (let at = 0; at < positions.length; at += 3) {
+    for (let axis = 0; axis < 3; axis++) {
+      const value = positions[at + axis] ?? 0;
+      if (value < (low[axis] ?? 0)) low[axis] = value;
+      if (value > (high[axis] ?? 0)) high[axis] = value;
+    }
+  }
+  return { low, high };
+}
 
 export const speciesHandlers: Handlers<
   "catalogue" | "open" | "active" | "dice" | "toml" | "silhouette" | "mesh" | "picture" | "export"
@@ -97,9 +112,11 @@ export const speciesHandlers: Handlers<
   mesh({ spec, seed, season, leaves, level }) {
     const tree = grow(spec, seed);
     const mesh = tree.mesh(season, leaves, level);
+    const positions = mesh.positions().slice();
     const out = {
       parts: JSON.parse(mesh.parts()) as MeshPart[],
-      positions: mesh.positions().slice(),
+      positions,
+      ...bounds(positions),
       normals: mesh.normals().slice(),
       wind: mesh.wind().slice(),
       colors: mesh.colors().slice(),

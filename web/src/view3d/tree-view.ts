@@ -17,6 +17,7 @@ import {
   PerspectiveCamera,
   RGBADepthPacking,
   Scene,
+  Sphere,
   SRGBColorSpace,
   Vector3,
   WebGLRenderer,
@@ -94,6 +95,8 @@ export class TreeView {
     const colored = data.colors.length > 0;
     if (colored) geometry.setAttribute("color", new BufferAttribute(data.colors, 3));
     geometry.setIndex(new BufferAttribute(data.indices, 1));
+    geometry.boundingBox = new Box3(new Vector3(...data.low), new Vector3(...data.high));
+    geometry.boundingSphere = geometry.boundingBox.getBoundingSphere(new Sphere());
     const materials = data.parts.map((part, at) => {
       geometry.addGroup(part.first, part.count, at);
       const material = new MeshLambertMaterial({
@@ -118,8 +121,6 @@ export class TreeView {
 
   /** Keeps the direction of view; the distance follows the tree's size. */
   private frameTree(geometry: BufferGeometry): void {
-    geometry.computeBoundingBox();
-    geometry.computeBoundingSphere();
     const box = geometry.boundingBox ?? new Box3();
     const extent = box.getSize(new Vector3());
     const center = box.getCenter(new Vector3());

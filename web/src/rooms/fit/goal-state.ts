@@ -51,7 +51,9 @@ async function read(
   try {
     const goal = await goalClient.call("goalRead", { name, bytes, mask });
     const { width, height } = goal.info;
-    const photo = goal.photo.length === width * height * 4 ? goal.photo : null;
+    // A silhouette is its own mask: there is nothing to see beneath it.
+    const shows = goal.info.masked || mask === "off";
+    const photo = shows && goal.photo.length === width * height * 4 ? goal.photo : null;
     lastBytes = { name, bytes, target };
     masks.reset({ ink: goal.ink, ground: null, axis: null });
     info.value = goal.info;

@@ -40,6 +40,11 @@ export async function loadPlane(): Promise<void> {
   planes.value = { ...planes.peek(), [wanted]: plane };
 }
 
+/** A picture of a screen, in milliseconds. */
+const FRAME = 16;
+/** How long leafy trees take here, a running mean. Where that is too long, the first answer has no leaves. */
+let leafyTime = FRAME + 1;
+
 interface Wish {
   layout: Layout;
   x: number;
@@ -49,12 +54,15 @@ interface Wish {
 
 const grower = new Latest<Wish>(async ({ layout: of, x, y, since }, isStale) => {
   const at = { layout: of, x, y };
-  tree.value = await mapClient.call("mapTree", { ...at, size: COARSE_SIZE, coarse: true });
+  const detail = leafyTime > FRAME ? "bare" : "coarse";
+  tree.value = await mapClient.call("mapTree", { ...at, size: COARSE_SIZE, detail });
   times.coarse.push(performance.now() - since);
   about.value = await mapClient.call("mapAbout", at);
   if (isStale()) return;
-  tree.value = await mapClient.call("mapTree", { ...at, size: FULL_SIZE, coarse: false });
+  const begun = performance.now();
+  tree.value = await mapClient.call("mapTree", { ...at, size: FULL_SIZE, detail: "full" });
   times.full.push(performance.now() - since);
+  leafyTime += (performance.now() - begun - leafyTime) * 0.3;
 }, sayError);
 
 effect(() => {

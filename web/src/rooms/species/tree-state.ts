@@ -9,7 +9,8 @@ import { recipes, spec, wanted } from "../../state/species";
 export const LEAVES = ["outline", "simple", "cards", "none"] as const;
 export type Leaves = (typeof LEAVES)[number];
 
-export const level = signal(0);
+/** Telephones begin with fewer triangles. */
+export const level = signal(matchMedia("(max-width: 820px)").matches ? 1 : 0);
 export const leaves = signal<Leaves>("outline");
 export const mesh = signal<{ data: MeshData; level: number } | null>(null);
 export const growing = signal(false);
