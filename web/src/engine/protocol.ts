@@ -150,7 +150,7 @@ export interface FitStep {
   pieces: Uint8Array<ArrayBuffer>[];
   progress: FitProgress;
   /** The best so far, when it was asked for. */
-  best: Uint8Array<ArrayBuffer> | null;
+  best: { ink: Uint8Array<ArrayBuffer>; toml: string } | null;
 }
 export type Seen = "determined" | "loosely" | "not-seen" | "not-tried";
 export interface FitResult {
@@ -230,7 +230,6 @@ export interface Ops {
     in: { scores: Uint8Array[] | null; parts: number; elapsed: number; best: boolean };
     out: FitStep;
   };
-  fitBest: { in: null; out: { toml: string; ink: Uint8Array<ArrayBuffer> } };
   fitFinish: { in: null; out: FitResult & { ink: Uint8Array<ArrayBuffer> } };
   evaluator: { in: Uint8Array; out: null };
   evaluate: { in: Uint8Array; out: Uint8Array<ArrayBuffer> };

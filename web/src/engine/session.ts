@@ -1,13 +1,13 @@
 // A fit as the page sees it: one coordinator, several evaluators, and the clock of the search.
 import { Cancelled, Client } from "./client";
 import { cores } from "./pool";
-import type { FitOptions, FitProgress, FitResult, GoalPixels, Guess, Progress } from "./protocol";
+import type { FitOptions, FitProgress, FitResult, FitStep, GoalPixels, Guess, Progress } from "./protocol";
 
 export interface FitEvents {
   stage(progress: Progress): void;
   guessed(guess: Guess): void;
   /** Seconds of search so far, without pauses. `best` comes a few times a second. */
-  step(progress: FitProgress, elapsed: number, best: Uint8Array<ArrayBuffer> | null): void;
+  step(progress: FitProgress, elapsed: number, best: FitStep["best"]): void;
 }
 
 /** How often the best tree is drawn, in milliseconds: a picture is 64 KiB or more. */
@@ -26,6 +26,7 @@ function knownDrawings(): Promise<Uint8Array | null> {
 export class FitSession {
   private readonly coordinator = new Client("the search");
   private readonly evaluators = Array.from({ length: cores }, () => new Client("the search"));
+  private recipe: Uint8Array | null = null;
   private elapsed = 0;
   private since: number | null = null;
   private stopping = false;
@@ -50,6 +51,7 @@ export class FitSession {
       );
       this.events.guessed(guess);
       const recipe = await this.coordinator.call("fitRecipe", null);
+      this.recipe = recipe;
       await Promise.all(this.evaluators.map((each) => each.call("evaluator", recipe)));
       await this.search();
       for (const each of this.evaluators) each.cancel();
@@ -113,11 +115,12 @@ export class FitSession {
       if (this.stopping && scores === null) break;
       const best = performance.now() - drawn > BEST_EVERY;
       if (best) drawn = performance.now();
-      const step: {
-        pieces: Uint8Array<ArrayBuffer>[];
-        progress: FitProgress;
-        best: Uint8Array<ArrayBuffer> | null;
-      } = await this.coordinator.call("fitStep", { scores, parts, elapsed: this.clock(), best });
+      const step: FitStep = await this.coordinator.call("fitStep", {
+        scores,
+        parts,
+        elapsed: this.clock(),
+        best,
+      });
       this.events.step(step.progress, this.clock(), step.best);
       if (step.pieces.length === 0 || this.stopping) break;
       scores = await Promise.all(step.pieces.map((piece, at) => this.evaluate(at, piece)));
@@ -125,9 +128,16 @@ export class FitSession {
     this.holdClock();
   }
 
-  private evaluate(at: number, piece: Uint8Array): Promise<Uint8Array<ArrayBuffer>> {
+  /** A worker that fails once is replaced, and its piece is done again: scores do not depend on who gives them. */
+  private async evaluate(at: number, piece: Uint8Array): Promise<Uint8Array<ArrayBuffer>> {
     const client = this.evaluators[at % this.evaluators.length];
-    if (!client) throw new Cancelled();
-    return client.call("evaluate", piece);
+    if (!client || !this.recipe) throw new Cancelled();
+    try {
+      return await client.call("evaluate", piece);
+    } catch (error) {
+      if (error instanceof Cancelled) throw error;
+      await client.call("evaluator", this.recipe);
+      return client.call("evaluate", piece);
+    }
   }
 }

@@ -13,7 +13,7 @@ function running(): Fit {
 }
 
 export const fitHandlers: Handlers<
-  "fitGuess" | "fitRecipe" | "fitStep" | "fitBest" | "fitFinish" | "evaluator" | "evaluate"
+  "fitGuess" | "fitRecipe" | "fitStep" | "fitFinish" | "evaluator" | "evaluate"
 > = {
   fitGuess({ goal, options, drawings }, report) {
     const made = makeGoal(goal);
@@ -32,14 +32,15 @@ export const fitHandlers: Handlers<
     const search = running();
     if (scores) search.tell(scores, elapsed);
     const pieces = search.ask(parts, elapsed).map((piece) => piece.slice());
+    const progress = JSON.parse(search.progress()) as FitProgress;
+    // There is a best tree from the first scores on.
+    const shows = best && progress.likeness !== null;
     return {
       pieces,
-      progress: JSON.parse(search.progress()) as FitProgress,
-      best: best ? search.best_silhouette().slice() : null,
+      progress,
+      best: shows ? { ink: search.best_silhouette().slice(), toml: search.best_toml() } : null,
     };
   },
-
-  fitBest: () => ({ toml: running().best_toml(), ink: running().best_silhouette().slice() }),
 
   fitFinish(_, report) {
     const search = running();

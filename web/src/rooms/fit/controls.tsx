@@ -1,17 +1,13 @@
-// The panel of the fit room: goal, brush, search.
-import { useSignal } from "@preact/signals";
+// The panel of the fit room: goal, brush, and what the search does.
 import type { JSX } from "preact";
-import { useEffect } from "preact/hooks";
-import { loadCatalogue } from "../../engine/clients";
-import { sayError } from "../../state/notes";
-import { Alert, Bar, Button, Field, NumberInput, Segmented } from "../../ui/controls";
+import { keepSpecies } from "../../state/library";
+import { Alert, Bar, Button, Field, Segmented } from "../../ui/controls";
 import { ChooseButton, TargetSelect } from "./chooser";
 import {
+  bestToml,
   elapsed,
   failure,
-  generator,
   guess,
-  leafiness,
   pauseFit,
   phase,
   progress,
@@ -34,11 +30,9 @@ import {
   reading,
   redoMask,
   setMask,
-  treeHeight,
   undoMask,
 } from "./goal-state";
-
-const BUDGETS = [10, 30, 60, 180] as const;
+import { SearchPart } from "./search-part";
 
 function GoalPart(): JSX.Element {
   const found = info.value;
@@ -127,89 +121,6 @@ function GoalPart(): JSX.Element {
   );
 }
 
-function SearchPart(): JSX.Element {
-  const families = useSignal<readonly string[]>(["weber-penn"]);
-  useEffect(() => {
-    loadCatalogue()
-      .then((all) => {
-        families.value = all.families.map(({ family }) => family);
-      })
-      .catch(sayError);
-  }, [families]);
-  return (
-    <section class="part" aria-label="Search">
-      <h3>Search</h3>
-      <div class="pair">
-        <Field label="Height, m">
-          {(id) => (
-            <NumberInput
-              id={id}
-              value={treeHeight.value}
-              min={0.1}
-              max={200}
-              disabled={running.value}
-              onChange={(next) => {
-                treeHeight.value = next;
-              }}
-            />
-          )}
-        </Field>
-        <Field label="Leaves">
-          {(id) => (
-            <select
-              id={id}
-              value={leafiness.value}
-              disabled={running.value}
-              onChange={(event) => {
-                leafiness.value = event.currentTarget.value as typeof leafiness.value;
-              }}
-            >
-              <option value="auto">as it looks</option>
-              <option value="leafy">leafy</option>
-              <option value="bare">bare</option>
-            </select>
-          )}
-        </Field>
-      </div>
-      <Field label="Family">
-        {(id) => (
-          <select
-            id={id}
-            value={generator.value}
-            disabled={running.value}
-            onChange={(event) => {
-              generator.value = event.currentTarget.value;
-            }}
-          >
-            {families.value.map((family) => (
-              <option key={family} value={family}>
-                {family}
-              </option>
-            ))}
-            <option value="auto">the family that it looks like</option>
-          </select>
-        )}
-      </Field>
-      <Field label="Time to search">
-        {() => (
-          <Segmented
-            label="Time to search"
-            value={String(seconds.value)}
-            disabled={running.value}
-            options={BUDGETS.map((value) => ({
-              value: String(value),
-              label: value < 100 ? `${value} s` : `${value / 60} min`,
-            }))}
-            onPick={(picked) => {
-              seconds.value = Number(picked);
-            }}
-          />
-        )}
-      </Field>
-    </section>
-  );
-}
-
 function Running(): JSX.Element | null {
   const now = progress.value;
   if (!running.value) return null;
@@ -267,6 +178,11 @@ function Kin(): JSX.Element | null {
   );
 }
 
+function keepBest(): void {
+  const toml = bestToml.peek();
+  if (toml !== null) keepSpecies(`${picture.peek()?.name ?? "fit"} so far`, toml);
+}
+
 export function Controls(): JSX.Element {
   const state = phase.value;
   return (
@@ -306,6 +222,15 @@ export function Controls(): JSX.Element {
               label={state === "searching" || state === "paused" ? "Stop" : "Cancel"}
               onPress={stopFit}
               testid="stop"
+            />
+          )}
+          {bestToml.value !== null && state !== "judging" && (
+            <Button
+              icon="keep"
+              iconOnly
+              kind="quiet"
+              label="Keep the best so far as a species"
+              onPress={keepBest}
             />
           )}
         </div>

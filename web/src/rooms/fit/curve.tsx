@@ -4,7 +4,7 @@ import { type CurvePoint, curve, seconds } from "./fit-state";
 
 const WIDTH = 640;
 const HEIGHT = 160;
-const LEFT = 34;
+const LEFT = 48;
 const BOTTOM = 22;
 const TICKS = [0, 0.25, 0.5, 0.75, 1];
 

@@ -24,6 +24,8 @@ export interface Best {
   goal: Uint8Array<ArrayBuffer>;
 }
 export const best = signal<Best | null>(null);
+/** Its species, while the search runs and if it fails. */
+export const bestToml = signal<string | null>(null);
 
 export interface CurvePoint {
   seconds: number;
@@ -75,6 +77,7 @@ export async function startFit(): Promise<void> {
   phase.value = "guessing";
   failure.value = null;
   guess.value = null;
+  bestToml.value = null;
   progress.value = null;
   elapsed.value = 0;
   curve.value = [];
@@ -94,12 +97,15 @@ export async function startFit(): Promise<void> {
       phase.value = "searching";
       announce("The search begins");
     },
-    step(now, time, ink) {
+    step(now, time, found) {
       progress.value = now;
       elapsed.value = time;
       const { likeness, iou } = now;
       if (likeness !== null && iou !== null) addPoint({ seconds: time, likeness, iou });
-      if (ink) best.value = { ink, width, height, goal: goal.ink };
+      if (found) {
+        best.value = { ink: found.ink, width, height, goal: goal.ink };
+        bestToml.value = found.toml;
+      }
       // Screen readers hear of it now and then, not forty times a second.
       if (likeness !== null && time - said > 10) {
         said = time;
@@ -111,6 +117,7 @@ export async function startFit(): Promise<void> {
     const { ink, ...finished } = await session.run();
     best.value = { ink, width, height, goal: goal.ink };
     result.value = finished;
+    bestToml.value = null;
     phase.value = "done";
     announce(`The fit has ended with likeness ${finished.card.likeness.toFixed(2)}`);
   } catch (error) {

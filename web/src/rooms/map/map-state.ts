@@ -138,7 +138,7 @@ effect(() => {
         x: at[0],
         y: at[1],
         size: COARSE_SIZE,
-        coarse: false,
+        detail: "full",
       });
       if (mine !== rows) return;
       row.value = [...row.peek(), { at, ink }];

@@ -1,0 +1,94 @@
+// What to search: height, leaves, family, and for how long.
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+import { loadCatalogue } from "../../engine/clients";
+import { sayError } from "../../state/notes";
+import { Field, NumberInput, Segmented } from "../../ui/controls";
+import { generator, leafiness, running, seconds } from "./fit-state";
+import { treeHeight } from "./goal-state";
+
+const BUDGETS = [10, 30, 60, 180] as const;
+
+export function SearchPart(): JSX.Element {
+  const families = useSignal<readonly string[]>(["weber-penn"]);
+  useEffect(() => {
+    loadCatalogue()
+      .then((all) => {
+        families.value = all.families.map(({ family }) => family);
+      })
+      .catch(sayError);
+  }, [families]);
+  return (
+    <section class="part" aria-label="Search">
+      <h3>Search</h3>
+      <div class="pair">
+        <Field label="Height, m">
+          {(id) => (
+            <NumberInput
+              id={id}
+              value={treeHeight.value}
+              min={0.1}
+              max={200}
+              disabled={running.value}
+              onChange={(next) => {
+                treeHeight.value = next;
+              }}
+            />
+          )}
+        </Field>
+        <Field label="Leaves">
+          {(id) => (
+            <select
+              id={id}
+              value={leafiness.value}
+              disabled={running.value}
+              onChange={(event) => {
+                leafiness.value = event.currentTarget.value as typeof leafiness.value;
+              }}
+            >
+              <option value="auto">as it looks</option>
+              <option value="leafy">leafy</option>
+              <option value="bare">bare</option>
+            </select>
+          )}
+        </Field>
+      </div>
+      <Field label="Family">
+        {(id) => (
+          <select
+            id={id}
+            value={generator.value}
+            disabled={running.value}
+            onChange={(event) => {
+              generator.value = event.currentTarget.value;
+            }}
+          >
+            {families.value.map((family) => (
+              <option key={family} value={family}>
+                {family}
+              </option>
+            ))}
+            <option value="auto">the family that it looks like</option>
+          </select>
+        )}
+      </Field>
+      <Field label="Time to search">
+        {() => (
+          <Segmented
+            label="Time to search"
+            value={String(seconds.value)}
+            disabled={running.value}
+            options={BUDGETS.map((value) => ({
+              value: String(value),
+              label: value < 100 ? `${value} s` : `${value / 60} min`,
+            }))}
+            onPick={(picked) => {
+              seconds.value = Number(picked);
+            }}
+          />
+        )}
+      </Field>
+    </section>
+  );
+}
