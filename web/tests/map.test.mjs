@@ -24,8 +24,10 @@ test("a dragged point gives the species that `pleach blend --point` writes", asy
   await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.6, { steps: 8 });
   await page.mouse.up();
   const toml = await saved(page, "TOML");
-  await page.waitForFunction(() => /[?&]at=/.test(location.hash));
-  const at = new URLSearchParams(new URL(page.url()).hash.split("?")[1]).get("at");
+  const at = /^# At (\S+) of a map/m.exec(toml)?.[1];
+  assert.ok(at, "the file does not say where it is from");
+  // The link follows shortly.
+  await page.waitForFunction((at) => new URLSearchParams(location.hash.split("?")[1]).get("at") === at, at);
   assert.match(toml, /^# A blend/);
   assert.match(toml, /generator = "weber-penn"/);
   if (process.env.PLEACH) {
@@ -81,6 +83,19 @@ test("the layout by looks is another plane", async () => {
   await page.waitForFunction(() => !document.querySelector(".plane .empty"));
   await page.getByText("What the axes mean").click();
   await page.getByText("The axes mean nothing here").waitFor();
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("a link to another layout opens it while the map is open", async () => {
+  const { page, problems, context } = await map("#map?at=0,0.4&pins=0.1,0.2");
+  await page.locator(".pins li").waitFor();
+  await page.evaluate(() => {
+    location.hash = "#map?layout=looks";
+  });
+  await page.getByText("Move over the map").waitFor();
+  await page.waitForFunction(() => !document.querySelector(".plane .empty"));
+  assert.equal(await page.getByRole("radio", { name: "By looks" }).isChecked(), true);
   assert.deepEqual(problems, []);
   await context.close();
 });

@@ -35,7 +35,7 @@ export class TreeView {
   private readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 2000);
   private readonly controls: OrbitControls;
   private readonly sun = new DirectionalLight(0xfff4e0, 2.6);
-  private readonly sky = new HemisphereLight(0xe6eef5, 0x77745e, 2.4);
+  private readonly sky = new HemisphereLight(0xe6eef5, 0x8a8770, 2.9);
   private readonly ground = new Ground();
   private readonly wind: WindUniforms = { time: { value: 0 }, strength: { value: 0 }, height: { value: 10 } };
   private mesh: Mesh<BufferGeometry, Material[]> | null = null;
@@ -53,7 +53,7 @@ export class TreeView {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: false });
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.toneMapping = NeutralToneMapping;
-    this.renderer.toneMappingExposure = 1.15;
+    this.renderer.toneMappingExposure = 1.2;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
@@ -83,7 +83,7 @@ export class TreeView {
 
   setTheme(dark: boolean): void {
     this.ground.paint(new Color(dark ? 0x262c27 : 0xdcdfcf), dark ? 0.5 : 0.3);
-    this.sky.intensity = dark ? 1.9 : 2.4;
+    this.sky.intensity = dark ? 2.3 : 2.9;
     this.draw();
   }
 

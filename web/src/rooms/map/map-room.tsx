@@ -216,7 +216,7 @@ function Axes(): JSX.Element | null {
 export function MapRoom(): JSX.Element {
   useEffect(() => {
     loadPlane().catch(sayError);
-  }, []);
+  }, [layout.value]);
   return (
     <>
       <div class="canvas map">

@@ -76,17 +76,20 @@ export function moveTo(x: number, y: number): void {
   if (!now || now[0] !== next[0] || now[1] !== next[1]) point.value = next;
 }
 
+function forgetPoint(): void {
+  point.value = null;
+  held.value = false;
+  tree.value = null;
+  about.value = null;
+}
+
 /** Another layout is another plane: points of one mean nothing on the other. */
 export function setLayout(next: Layout): void {
   if (next === layout.peek()) return;
   layout.value = next;
-  point.value = null;
-  held.value = false;
   pins.value = [];
   path.value = [];
-  tree.value = null;
-  about.value = null;
-  loadPlane().catch(sayError);
+  forgetPoint();
 }
 
 export const tomlAt = ([x, y]: Place): Promise<string> =>
@@ -170,7 +173,7 @@ export const mapLink: Linked = {
     if (at) {
       point.value = at;
       held.value = true;
-    }
+    } else forgetPoint();
     pins.value = read(fields.get("pins"));
     path.value = read(fields.get("path"));
   },

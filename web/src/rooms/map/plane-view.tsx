@@ -93,7 +93,11 @@ export function PlaneView({ onOpen }: { onOpen: () => void }): JSX.Element {
   }, [resized]);
 
   const redraw = () => {
-    if (!canvas.current || !plane) return;
+    if (!canvas.current) return;
+    if (!plane) {
+      canvas.current.width = 0;
+      return;
+    }
     const scene = {
       plane,
       thumbs,

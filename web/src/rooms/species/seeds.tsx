@@ -27,7 +27,7 @@ export function Seeds(): JSX.Element {
           )}
         </Field>
         <Button
-          label="Earlier seeds"
+          label="Previous"
           kind="quiet"
           disabled={first.value <= 1}
           onPress={() => {
@@ -35,7 +35,7 @@ export function Seeds(): JSX.Element {
           }}
         />
         <Button
-          label="Next eight"
+          label="Next"
           kind="quiet"
           onPress={() => {
             first.value += MANY;
