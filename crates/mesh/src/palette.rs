@@ -5,6 +5,7 @@ use pleach_tree::math;
 pub use pleach_tree::species::BarkPattern;
 use pleach_tree::species::{Color, Look, Season};
 use pleach_tree::{Species, Tree};
+use std::borrow::Cow;
 
 /// The colours that a tree is drawn in, and what it wears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,6 +64,17 @@ impl Palette {
         if !self.blossoms {
             tree.blossoms.clear();
         }
+    }
+
+    /// `tree` as it is in this season; itself where it wears all that it has grown.
+    #[must_use]
+    pub fn dressed<'a>(&self, tree: &'a Tree) -> Cow<'a, Tree> {
+        if self.leaves && self.blossoms {
+            return Cow::Borrowed(tree);
+        }
+        let mut dressed = tree.clone();
+        self.apply_season(&mut dressed);
+        Cow::Owned(dressed)
     }
 
     /// The colour of a material.

@@ -198,8 +198,7 @@ impl Tree {
         let species = &self.species.inner;
         let glb = pool::on(py, None, || {
             let palette = Palette::new(species, None);
-            let mut tree = self.inner.clone();
-            palette.apply_season(&mut tree);
+            let tree = palette.dressed(&self.inner);
             let mut glb = Cursor::new(Vec::new());
             pleach::write_glb(&mut glb, &species.name, &tree, &palette).map(|_| glb.into_inner())
         })?;
@@ -252,8 +251,7 @@ impl Tree {
         };
         pool::on(py, threads, || {
             let palette = Palette::new(&self.species.inner, None);
-            let mut tree = self.inner.clone();
-            palette.apply_season(&mut tree);
+            let tree = palette.dressed(&self.inner);
             Preview::new(&tree, &palette, size).picture(&settings)
         })
     }

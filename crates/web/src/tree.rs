@@ -4,6 +4,7 @@ use crate::error::thrown;
 use crate::mesh::{self, MeshBuffers, leaf_style, season_named};
 use pleach::{Bounds, Detail, Palette, Parts, Preview, PreviewSettings, Rasterizer, TreeStats, View};
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::sync::Arc;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -34,11 +35,9 @@ pub(crate) fn ink(picture: &pleach::Bitmap) -> Vec<u8> {
 
 impl Tree {
     /// The tree as it is in a season.
-    pub(crate) fn dressed(&self, season: &str) -> Result<(Palette, pleach::Tree), JsError> {
+    pub(crate) fn dressed(&self, season: &str) -> Result<(Palette, Cow<'_, pleach::Tree>), JsError> {
         let palette = Palette::new(&self.species, season_named(season)?);
-        let mut tree = self.inner.clone();
-        palette.apply_season(&mut tree);
-        Ok((palette, tree))
+        Ok((palette, palette.dressed(&self.inner)))
     }
 
     fn drawn(&self, size: u32, view: View, detail: Detail) -> Result<Vec<u8>, JsError> {

@@ -2,7 +2,9 @@
 
 use super::crown::Crown;
 use glam::Vec3;
-use pleach_mesh::{LeafStyle, Material, Mesh, MeshSettings, Mesher, Palette, Vertex, send};
+use pleach_mesh::{
+    Block, LeafStyle, Material, MeshError, MeshSettings, Mesher, Palette, Part, Sink, Vertex, send,
+};
 use pleach_tree::stats::Bounds;
 use pleach_tree::{Parts, Tree};
 use std::ops::Range;
@@ -38,19 +40,19 @@ impl Scene {
         let settings = MeshSettings {
             tolerance: (0.2 * pixel).clamp(2e-4, 0.02),
             min_sides: 5,
-            leaves: LeafStyle::Outline,
+            leaves: leaf_style(tree, pixel),
             parts,
             ..MeshSettings::default()
         };
         let mesher = Mesher::new(tree, settings);
-        let mut mesh = Mesh::default();
+        let mut run = Run::default();
         // This sink never fails, and a tree without triangles is an empty picture.
-        let _ = send(std::slice::from_ref(&mesher), &mut mesh);
+        let _ = send(std::slice::from_ref(&mesher), &mut run);
         let mut scene = Self {
             palette: *palette,
-            vertices: Vec::new(),
+            vertices: run.vertices,
             points: Vec::new(),
-            triangles: Vec::new(),
+            triangles: run.triangles,
             parts: Vec::new(),
             blobs: 0..0,
             stems: stems(tree, &mesher),
@@ -61,20 +63,17 @@ impl Scene {
             heart: (low + high) / 2.0,
             reach: 1.0,
         };
-        for (part, mut block) in mesh.parts {
-            let first = scene.vertices.len() as u32;
+        for (part, first) in run.parts {
             let placed = if part.material == Material::Blossom { &tree.blossoms } else { &tree.leaves };
             // Blobs follow the leaves.
             let of_blobs = if part.material == Material::Leaf { tree.blob_triangles.len() } else { 0 };
-            let of_leaves = block.triangles.len() - of_blobs;
+            let of_leaves = part.count.triangles as usize - of_blobs;
             let each = of_leaves / placed.len().max(1);
             if of_blobs > 0 {
-                let first = (scene.triangles.len() + of_leaves) as u32;
+                let first = first + of_leaves as u32;
                 scene.blobs = first..first + of_blobs as u32;
             }
-            scene.parts.push((scene.triangles.len() as u32, part.material, each.max(1) as u32));
-            scene.triangles.extend(block.triangles.iter().map(|t| t.map(|i| i + first)));
-            scene.vertices.append(&mut block.vertices);
+            scene.parts.push((first, part.material, each.max(1) as u32));
         }
         scene.points = scene.vertices.iter().map(|v| v.position).collect();
         if !tree.leaves.is_empty() {
@@ -97,6 +96,53 @@ impl Scene {
     pub(super) fn stem_of(&self, vertex: u32) -> (f32, u16) {
         let stem = self.stems.partition_point(|s| s.0 <= vertex).max(1) - 1;
         (self.stems[stem].1, self.stems[stem].2)
+    }
+}
+
+/// Leaves shorter than this, in pixels, are drawn as two triangles of their area: nobody sees their shape, and a
+/// crown of them takes a third of the memory.
+const SMALL: f64 = 6.0;
+
+fn leaf_style(tree: &Tree, pixel: f64) -> LeafStyle {
+    let lengths = tree.leaves.iter().map(|leaf| f64::from(leaf.along.length()));
+    let mean = lengths.sum::<f64>() / tree.leaves.len().max(1) as f64;
+    if mean < SMALL * pixel { LeafStyle::Simple } else { LeafStyle::Outline }
+}
+
+/// The sink that puts all parts into one run.
+#[derive(Debug, Default)]
+struct Run {
+    vertices: Vec<Vertex>,
+    triangles: Vec<[u32; 3]>,
+    /// Each with the number of its first triangle.
+    parts: Vec<(Part, u32)>,
+    /// The number of each part's first corner.
+    first: Vec<u32>,
+}
+
+impl Sink for Run {
+    fn begin(&mut self, parts: &[Part]) -> Result<(), MeshError> {
+        let (mut vertices, mut triangles) = (0, 0);
+        for part in parts {
+            self.parts.push((*part, triangles as u32));
+            self.first.push(vertices as u32);
+            vertices += part.count.vertices;
+            triangles += part.count.triangles;
+        }
+        self.vertices.reserve_exact(vertices as usize);
+        self.triangles.reserve_exact(triangles as usize);
+        Ok(())
+    }
+
+    fn block(&mut self, part: usize, block: &mut Block) -> Result<(), MeshError> {
+        let first = self.first[part];
+        self.vertices.append(&mut block.vertices);
+        self.triangles.extend(block.triangles.drain(..).map(|corners| corners.map(|corner| corner + first)));
+        Ok(())
+    }
+
+    fn end(&mut self) -> Result<(), MeshError> {
+        Ok(())
     }
 }
 

@@ -78,9 +78,8 @@ impl Drawn {
 
     /// Writes a shaded picture of `size` × `size` pixels: a silhouette hides absurd stems and leaves.
     pub(super) fn write_render(&self, path: &Path, size: u32) -> anyhow::Result<()> {
-        let mut tree = self.tree.clone();
         let palette = Palette::new(&self.species, None);
-        palette.apply_season(&mut tree);
+        let tree = palette.dressed(&self.tree);
         let settings = PreviewSettings { width: size, height: size, ..PreviewSettings::default() };
         let picture = Preview::new(&tree, &palette, size).picture(&settings);
         files::write_whole(path, |file| Ok(png_file::write(file, &[picture], 0)?))

@@ -179,18 +179,15 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
     write_species(&claim.file("best.toml"), species, &comments)?;
     drawn.write_silhouettes(&goal.bitmap, &claim.file("best.png"), &claim.file("overlay.png"))?;
     write_history(&claim.file("history.csv"), &outcome.history)?;
-    // Shaded pictures take most of the time of all of this.
-    let (rendered, individuals) = rayon::join(
-        || drawn.write_render(&claim.file("render.png"), RENDER_SIZE),
-        || match (fitted.individuals.first(), results.individual) {
-            (Some(found), Some(one)) => anyhow::Ok((
-                Some(individual::write(claim, &goal.bitmap, found, one)?),
-                several::write(claim, drawing, &fitted.individuals, one, species)?,
-            )),
-            _ => Ok((None, None)),
-        },
-    );
-    let ((), (individual, individuals)) = (rendered?, individuals?);
+    // Shaded pictures take most of the time and the memory of all of this, so that there is one at a time.
+    drawn.write_render(&claim.file("render.png"), RENDER_SIZE)?;
+    let (individual, individuals) = match (fitted.individuals.first(), results.individual) {
+        (Some(found), Some(one)) => (
+            Some(individual::write(claim, &goal.bitmap, found, one)?),
+            several::write(claim, drawing, &fitted.individuals, one, species)?,
+        ),
+        _ => (None, None),
+    };
     let views = write_overlays(claim, "overlay-view", results.views)?;
     let holdout_views = write_overlays(claim, "overlay-holdout", results.holdout_views)?;
 
