@@ -128,3 +128,18 @@ test("the theme can be chosen and stays", async () => {
   assert.equal(await page.locator("html").getAttribute("data-theme"), "dark");
   await context.close();
 });
+
+test("every species of the gallery that is in view gets its picture", async () => {
+  const { page, problems, context } = await newPage(studio, {}, "#gallery");
+  await page.locator(".card").first().waitFor();
+  await page.waitForFunction(
+    () =>
+      [...document.querySelectorAll(".card .thumb")]
+        .filter((thumb) => thumb.getBoundingClientRect().top < innerHeight)
+        .every((thumb) => thumb.classList.contains("drawn")),
+    null,
+    { timeout: 60_000 },
+  );
+  assert.deepEqual(problems, []);
+  await context.close();
+});

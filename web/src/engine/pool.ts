@@ -5,6 +5,7 @@ import type { Op, Ops } from "./protocol";
 interface Job {
   run: (client: Client) => Promise<void>;
   signal: AbortSignal | undefined;
+  rank: number;
 }
 
 export class Pool {
@@ -15,12 +16,13 @@ export class Pool {
     this.free = Array.from({ length: workers }, () => new Client(what));
   }
 
-  /** A job whose signal is aborted before it starts is dropped; its promise then rejects. */
-  call<K extends Op>(op: K, input: Ops[K]["in"], signal?: AbortSignal): Promise<Ops[K]["out"]> {
+  /** The job of the lowest rank runs first. A job whose signal is aborted before it starts is dropped; its promise then rejects. */
+  call<K extends Op>(op: K, input: Ops[K]["in"], signal?: AbortSignal, rank = 0): Promise<Ops[K]["out"]> {
     return new Promise((resolve, reject) => {
       const run = (client: Client) => client.call(op, input).then(resolve, reject);
       signal?.addEventListener("abort", () => reject(signal.reason), { once: true });
-      this.jobs.push({ run, signal });
+      this.jobs.push({ run, signal, rank });
+      this.jobs.sort((a, b) => a.rank - b.rank);
       this.pump();
     });
   }

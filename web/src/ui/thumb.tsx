@@ -26,6 +26,12 @@ function keep(key: string, image: ImageData, stats: TreeStats): void {
   if (kept.size > KEPT && oldest !== undefined) kept.delete(oldest);
 }
 
+/** From the top down, as one reads. */
+function rank(element: Element): number {
+  const { top, left } = element.getBoundingClientRect();
+  return Math.round(top) * 10_000 + left;
+}
+
 export function Thumb({ spec, seed, season, size, name, wait = 0 }: ThumbProps): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
   const state = useSignal<"waiting" | "drawn" | "failed">("waiting");
@@ -48,7 +54,7 @@ export function Thumb({ spec, seed, season, size, name, wait = 0 }: ThumbProps):
     const stop = new AbortController();
     const draw = () =>
       thumbnails
-        .call("picture", { spec, seed, season, size, azimuth: 20, elevation: 4 }, stop.signal)
+        .call("picture", { spec, seed, season, size, azimuth: 20, elevation: 4 }, stop.signal, rank(element))
         .then((picture) => {
           const image = new ImageData(new Uint8ClampedArray(picture.rgba.buffer), size, size);
           keep(key, image, picture.stats);
