@@ -11,6 +11,7 @@ import { App } from "./app";
 import { reportDeaths } from "./engine/client";
 import { wasmModule } from "./engine/module";
 import { fitLink, restoreFit } from "./rooms/fit/autosave";
+import { elapsed, progress } from "./rooms/fit/fit-state";
 import { mapLink, times } from "./rooms/map/map-state";
 import { view } from "./rooms/species/view-handle";
 import { say, sayError } from "./state/notes";
@@ -26,8 +27,14 @@ register(speciesLink);
 register(mapLink);
 register(fitLink);
 
-// For the console and the tests: what the graphics card holds, how fast the map answers.
-Object.assign(window, { studio: { memory: () => view()?.memory() ?? null, mapTimes: times } });
+// For the console and the tests: what the graphics card holds, how fast the map answers, how far a search is.
+Object.assign(window, {
+  studio: {
+    memory: () => view()?.memory() ?? null,
+    mapTimes: times,
+    search: () => ({ seconds: elapsed.peek(), trees: progress.peek()?.evaluations ?? 0 }),
+  },
+});
 
 const root = document.getElementById("app");
 if (root) {

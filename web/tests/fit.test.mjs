@@ -1,7 +1,7 @@
 // The fit room: a search that finds the tree, a page that never stalls, a brush, and pictures that are none.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
@@ -19,6 +19,21 @@ async function fit(hash = "#fit?goal=palm") {
   await opened.page.getByTestId("goal").waitFor();
   await opened.page.waitForFunction(() => document.querySelector('[data-testid="goal"]').width === 256);
   return opened;
+}
+
+/** The library in this process: what the page's workers have. */
+async function library() {
+  const pleach = await import("../src/wasm/pleach_web.js");
+  const module = new URL("../src/wasm/pleach_web_bg.wasm", import.meta.url);
+  await pleach.default({ module_or_path: readFileSync(module) });
+  return pleach;
+}
+
+const inkOf = async (png) => (await library()).Goal.read("silhouette.png", png, "off").pixels();
+
+async function silhouetteOf(toml) {
+  const species = (await library()).Species.read(toml, "best.toml");
+  return species.grow(JSON.parse(species.info()).tree_seed ?? 1, true).silhouette(256, 0, 0);
 }
 
 const start = async (page) => {
@@ -50,6 +65,7 @@ test("a fit finds the palm, and the page never stalls", async () => {
   if (process.env.PLEACH) {
     const picture = file.replace(/\.toml$/, ".png");
     execFileSync(process.env.PLEACH, ["silhouette", file, "-o", picture, "--size", "256", "--quiet"]);
+    assert.deepEqual(await inkOf(readFileSync(picture)), await silhouetteOf(toml));
   }
   // A reload keeps the goal and the result.
   await page.waitForTimeout(1500);

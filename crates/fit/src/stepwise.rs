@@ -47,7 +47,7 @@ use std::time::Duration;
 /// let begun = fit.begun();
 /// let evaluator = evaluator(&begun.problem, &begun.settings)?;
 /// while fit.ended(Duration::ZERO).is_none() {
-///     let batch = fit.ask();
+///     let batch = fit.ask(1);
 ///     let scores = evaluator.scores(batch.genomes, batch.most);
 ///     fit.tell(&scores, Duration::ZERO);
 /// }
@@ -100,9 +100,10 @@ impl Stepwise {
         self.course.verdict(&self.course.spent(now, false))
     }
 
-    /// The next individuals: about a third of a second's.
-    pub fn ask(&mut self) -> Batch<'_> {
-        self.course.search.ask()
+    /// The next individuals: about a third of a second's for so many workers, and one for each at least where the
+    /// generation has as many left.
+    pub fn ask(&mut self, workers: usize) -> Batch<'_> {
+        self.course.ask_for(workers)
     }
 
     /// Takes the scores of the individuals last asked for, in their order; the row of the generation that they

@@ -160,7 +160,7 @@ impl Fit {
         if search.ended(now).is_some() {
             return Ok(Vec::new());
         }
-        let batch = search.ask();
+        let batch = search.ask(parts);
         let size = batch.genomes.len().div_ceil(parts.max(1)).max(1);
         let pieces = batch.genomes.chunks(size);
         self.pieces = pieces.clone().map(<[_]>::len).collect();

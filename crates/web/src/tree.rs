@@ -2,7 +2,9 @@
 
 use crate::error::thrown;
 use crate::mesh::{self, MeshBuffers, leaf_style, season_named};
-use pleach::{Bounds, Detail, Palette, Parts, Preview, PreviewSettings, Rasterizer, TreeStats, View};
+use pleach::{
+    Bounds, Detail, Frame, Leaf, Palette, Parts, Preview, PreviewSettings, Rasterizer, TreeStats, View,
+};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -17,6 +19,8 @@ pub struct Tree {
     pub(crate) inner: pleach::Tree,
 }
 
+/// Leaves of a coarse picture.
+const COARSE_LEAVES: usize = 6_000;
 /// Largest side of a picture, in pixels.
 const MAX_SIDE: u32 = 4096;
 
@@ -40,12 +44,15 @@ impl Tree {
         Ok((palette, palette.dressed(&self.inner)))
     }
 
-    fn drawn(&self, size: u32, view: View, detail: Detail) -> Result<Vec<u8>, JsError> {
-        check_side(size)?;
-        let frame = pleach::Frame::automatic(&self.inner, &view, Parts::LEAFY, size, size);
+    /// The square that shows all of it.
+    fn frame(&self, size: u32, view: &View) -> Frame {
+        Frame::automatic(&self.inner, view, Parts::LEAFY, size, size)
+    }
+
+    fn drawn(&self, view: &View, frame: &Frame, detail: Detail) -> Vec<u8> {
         let mut picture = pleach::Bitmap::default();
-        Rasterizer::with_detail(detail).draw(&self.inner, &view, &frame, Parts::LEAFY, &mut picture);
-        Ok(ink(&picture))
+        Rasterizer::with_detail(detail).draw(&self.inner, view, frame, Parts::LEAFY, &mut picture);
+        ink(&picture)
     }
 }
 
@@ -75,12 +82,25 @@ impl Tree {
 
     /// The binary picture from a direction in degrees: one byte a pixel, row by row, 1 for tree.
     pub fn silhouette(&self, size: u32, azimuth: f64, elevation: f64) -> Result<Vec<u8>, JsError> {
-        self.drawn(size, View::degrees(azimuth, elevation), Detail::Full)
+        check_side(size)?;
+        let view = View::degrees(azimuth, elevation);
+        Ok(self.drawn(&view, &self.frame(size, &view), Detail::Full))
     }
 
-    /// The picture from the front, sampled coarsely: for what follows the pointer.
-    pub fn coarse_silhouette(&self, size: u32) -> Result<Vec<u8>, JsError> {
-        self.drawn(size, View::FRONT, Detail::Draft)
+    /// The picture from the front, sampled coarsely and with few leaves, as much larger: for what follows the
+    /// pointer.
+    pub fn coarse_silhouette(&mut self, size: u32) -> Result<Vec<u8>, JsError> {
+        check_side(size)?;
+        let step = self.inner.leaves.len().div_ceil(COARSE_LEAVES).max(1);
+        let larger = (step as f32).sqrt();
+        let few = self.inner.leaves.iter().step_by(step);
+        let few = few.map(|leaf| Leaf { along: leaf.along * larger, across: leaf.across * larger, ..*leaf });
+        let few: Vec<Leaf> = few.collect();
+        let all = std::mem::replace(&mut self.inner.leaves, few);
+        let frame = self.frame(size, &View::FRONT);
+        let picture = self.drawn(&View::FRONT, &frame, Detail::Draft);
+        self.inner.leaves = all;
+        Ok(picture)
     }
 
     /// Triangles, in a season (empty for the species' own), with leaves drawn as `outline`, `simple`, `cards` or

@@ -6,6 +6,7 @@ use crate::evaluate::Evaluate;
 use crate::history::Row;
 use crate::method::Method;
 use crate::search::Search;
+use crate::solver::{AskTell as _, Batch};
 use std::time::Duration;
 
 /// A search within a budget. It knows no clock: whoever drives it says what has passed.
@@ -23,9 +24,15 @@ impl<M: Method> Course<M> {
     /// `search` from where it stands, with the rows of its earlier parts, driven from `now` on.
     pub(crate) fn new(mut search: Search<M>, budget: Budget, history: Vec<Row>, now: Duration) -> Self {
         search.evaluation_limit = budget.evaluations.unwrap_or(u64::MAX).max(search.state.evaluations);
-        let pace = Pace::new(now);
-        search.batch = pace.batch();
+        let mut pace = Pace::new(now);
+        search.batch = pace.batch(rayon::current_num_threads());
         Self { search, budget, history, likeness: None, pace }
+    }
+
+    /// The next individuals, for so many threads wherever they are.
+    pub(crate) fn ask_for(&mut self, threads: usize) -> Batch<'_> {
+        self.search.batch = self.pace.batch(threads);
+        self.search.ask()
     }
 
     pub(crate) fn spent(&self, elapsed: Duration, interrupted: bool) -> Spent {

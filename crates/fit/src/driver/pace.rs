@@ -11,6 +11,7 @@ use std::time::Duration;
 pub(super) struct Pace {
     batch: usize,
     last: Duration,
+    threads: usize,
 }
 
 impl Pace {
@@ -18,10 +19,14 @@ impl Pace {
     const TARGET: f64 = 0.3;
 
     pub(super) fn new(now: Duration) -> Self {
-        Self { batch: 2 * rayon::current_num_threads(), last: now }
+        let threads = rayon::current_num_threads();
+        Self { batch: 2 * threads, last: now, threads }
     }
 
-    pub(super) const fn batch(&self) -> usize {
+    /// The size of the next batch for so many threads, which may be others than this process has.
+    pub(super) fn batch(&mut self, threads: usize) -> usize {
+        self.threads = threads.max(1);
+        self.batch = self.batch.next_multiple_of(self.threads);
         self.batch
     }
 
@@ -29,10 +34,9 @@ impl Pace {
     pub(super) fn next(&mut self, now: Duration) -> usize {
         let took = now.saturating_sub(self.last).as_secs_f64();
         self.last = now;
-        let threads = rayon::current_num_threads();
         let wanted = self.batch as f64 * (Self::TARGET / took.max(1e-6)).clamp(0.25, 4.0);
-        let rounds = (wanted / threads as f64).round().clamp(1.0, 1e4) as usize;
-        self.batch = rounds * threads;
+        let rounds = (wanted / self.threads as f64).round().clamp(1.0, 1e4) as usize;
+        self.batch = rounds * self.threads;
         self.batch
     }
 }

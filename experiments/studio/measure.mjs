@@ -1,0 +1,126 @@
+// What the page weighs and how fast it is, beside the program: node experiments/studio/measure.mjs PLEACH
+// PLEACH is the program, built for release; web/dist has to be built. Writes results.csv beside this file.
+
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = dirname(dirname(here));
+const { newPage, open } = await import(join(root, "web/tests/browser.mjs"));
+const [pleach] = process.argv.slice(2);
+if (!pleach) throw new Error("usage: node experiments/studio/measure.mjs PLEACH");
+
+/** Goals whose trees take little, middling and much time to grow. */
+const GOALS = ["palm", "quaking_aspen", "silver_birch", "weeping_willow"];
+const SECONDS = 30;
+const rows = [["what", "value", "unit"]];
+const note = (what, value, unit) => {
+  rows.push([what, typeof value === "number" ? Number(value.toPrecision(4)) : value, unit]);
+  console.log(what, value, unit);
+};
+const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
+
+// Size: what every visitor loads, and what only some do.
+const dist = join(root, "web/dist");
+const weight = (name) => gzipSync(readFileSync(join(dist, name)), { level: 9 }).length / 1e6;
+const assets = readdirSync(join(dist, "assets")).map((name) => `assets/${name}`);
+note(
+  "size of the page, compressed",
+  ["index.html", "icon.svg", ...assets].map(weight).reduce((a, b) => a + b),
+  "MB",
+);
+note(
+  "drawings for the first guess, loaded with the first fit",
+  statSync(join(dist, "known.bin")).size / 1e6,
+  "MB",
+);
+
+const studio = await open();
+
+/** Seconds from the address to the first silhouette on the map, in a browser that has nothing cached. */
+async function firstTree() {
+  const { page, context } = await newPage(studio, {}, "#gallery");
+  await page.locator(".thumb.drawn").first().waitFor({ state: "attached" });
+  const seconds = await page.evaluate(() => performance.now() / 1000);
+  await context.close();
+  return seconds;
+}
+const firsts = [];
+for (let time = 0; time < 5; time += 1) firsts.push(await firstTree());
+note("first tree of the gallery, after the address", median(firsts), "s");
+
+// The map: from the pointer to the coarse and to the full silhouette, as the page itself takes the times.
+{
+  const { page, context } = await newPage(studio, {}, "#map");
+  await page.getByTestId("plane").waitFor();
+  await page.waitForTimeout(6000);
+  const box = await page.getByTestId("plane").boundingBox();
+  const POINTS = 60;
+  for (let step = 0; step < POINTS; step += 1) {
+    // A spiral inside the hull.
+    const [angle, reach] = [step * 2.4, 0.03 + 0.2 * ((step * 0.37) % 1)];
+    await page.mouse.move(
+      box.x + box.width * (0.5 + reach * Math.cos(angle)),
+      box.y + box.height * (0.66 + reach * 0.8 * Math.sin(angle)),
+    );
+    await page.waitForTimeout(600);
+  }
+  const { coarse, full } = await page.evaluate(() => window.studio.mapTimes);
+  note("map: points walked over", POINTS, "points");
+  note("map: pointer to coarse silhouette, median", median(coarse), "ms");
+  note("map: pointer to full silhouette, median", median(full), "ms");
+  await context.close();
+}
+
+// Fits: trees a second, and tasks of the page's own thread above 50 ms.
+const folder = mkdtempSync(join(tmpdir(), "studio-"));
+for (const goal of GOALS) {
+  const { page, context } = await newPage(studio, {}, `#fit?goal=${goal}`);
+  await page.getByTestId("goal").waitFor();
+  await page.waitForFunction(() => document.querySelector('[data-testid="goal"]').width > 2);
+  await page.evaluate(() => {
+    window.stalls = [];
+    const watch = (list) => window.stalls.push(...list.getEntries().map((entry) => entry.duration));
+    new PerformanceObserver(watch).observe({ type: "longtask" });
+  });
+  await page.getByRole("radio", { name: `${SECONDS} s` }).check();
+  const height = await page.getByRole("spinbutton", { name: /Height/ }).inputValue();
+  await page.getByTestId("start").click();
+  await page.getByTestId("score").waitFor({ timeout: 4 * SECONDS * 1000 });
+  const likeness = Number(await page.locator(".score .big").textContent());
+  const { trees, seconds } = await page.evaluate(() => window.studio.search());
+  const stalls = await page.evaluate(() => window.stalls);
+  await context.close();
+  const run = spawnSync(
+    pleach,
+    [
+      "fit",
+      join(root, "targets", `${goal}.png`),
+      "--height",
+      height,
+      "--timeout",
+      `${SECONDS}s`,
+      "--individual",
+      "off",
+      "--out",
+      join(folder, goal),
+      "--quiet",
+    ],
+    { encoding: "utf8" },
+  );
+  if (run.status !== 0) throw new Error(run.stderr);
+  const summary = JSON.parse(readFileSync(join(folder, goal, "summary.json"), "utf8"));
+  const native = summary.evaluations / summary.search_seconds;
+  note(`${goal}: likeness after ${SECONDS} s in the page`, likeness, "");
+  note(`${goal}: trees a second in the page`, trees / seconds, "1/s");
+  note(`${goal}: trees a second by the program`, native, "1/s");
+  note(`${goal}: page over program`, trees / seconds / native, "");
+  note(`${goal}: tasks above 50 ms on the page's own thread`, stalls.length, "tasks");
+  if (stalls.length > 0) note(`${goal}: the longest of them`, Math.max(...stalls), "ms");
+}
+await studio.close();
+writeFileSync(join(here, "results.csv"), `${rows.map((row) => row.join(",")).join("\n")}\n`);
