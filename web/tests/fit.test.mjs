@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { newPage, open, saved } from "./browser.mjs";
-import { plainPng } from "./pictures.mjs";
+import { colorPng, plainPng } from "./pictures.mjs";
 
 let studio;
 before(async () => {
@@ -128,6 +128,40 @@ test("the brush changes the mask, and undo brings it back", async () => {
   await context.close();
 });
 
+/** Drops a file on the page. */
+const drop = (page, name, bytes) =>
+  page.evaluate(
+    ([name, base64]) => {
+      const files = new DataTransfer();
+      files.items.add(
+        new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name, { type: "image/png" }),
+      );
+      window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
+    },
+    [name, bytes.toString("base64")],
+  );
+
+test("a tree is found in a photograph by its colour", async () => {
+  const { page, problems, context } = await fit();
+  const side = 400;
+  const tree = (await library()).Species.named("quaking_aspen").grow(1, true).silhouette(side, 0, 0);
+  // Leaves in sun and shade, some as bright as the sky, which is lighter towards the ground.
+  const at = (x, y) => {
+    const light = ((x * 7 + y * 13) % 31) * 3;
+    return tree[y * side + x] ? [70 + light, 110 + light, 30] : [150 + (y >> 3), 190 + (y >> 4), 235];
+  };
+  await drop(page, "garden.png", colorPng(side, side, at));
+  await page.locator(".facts", { hasText: "garden" }).waitFor();
+  if (await page.getByText("Look for a tree in a photograph").isVisible()) {
+    await page.getByText("Look for a tree in a photograph").click();
+  }
+  await page.locator(".facts", { hasText: "a tree found in a photograph" }).waitFor();
+  await page.getByText("Take the dark pixels instead").click();
+  await page.locator(".facts", { hasText: "a silhouette" }).waitFor();
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
 test("pictures that are none are refused in words, and the goal stays", async () => {
   const { page, problems, context } = await fit();
   const bad = [
@@ -139,16 +173,7 @@ test("pictures that are none are refused in words, and the goal stays", async ()
   const before = await ink(page);
   let last = "";
   for (const [name, bytes] of bad) {
-    await page.evaluate(
-      ([name, base64]) => {
-        const files = new DataTransfer();
-        files.items.add(
-          new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name, { type: "image/png" }),
-        );
-        window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
-      },
-      [name, bytes.toString("base64")],
-    );
+    await drop(page, name, bytes);
     await page.waitForFunction((before) => {
       const text = document.querySelector(".panelbody > .alert")?.textContent ?? "";
       return text !== "" && text !== before && !document.querySelector(".reading");

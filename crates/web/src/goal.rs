@@ -56,16 +56,18 @@ impl Goal {
 
 #[wasm_bindgen]
 impl Goal {
-    /// Reads a PNG, JPEG, WebP or TIFF file. With `mask` `auto` a photograph is masked, and with `off` split by
-    /// brightness.
+    /// Reads a PNG, JPEG, WebP or TIFF file. With `mask` `auto` what looks like a photograph is masked, with `photo`
+    /// whatever it is, and with `off` nothing is: then it is split by brightness.
     pub fn read(name: &str, bytes: Vec<u8>, mask: &str) -> Result<Self, JsError> {
         let source = Encoded::new(name, bytes);
         let by_tone = Read::from_encoded(&source, &GoalOptions::default());
-        let is_photo = match &by_tone {
-            Ok(goal) => goal.warnings.contains(&GoalWarning::Photograph),
-            Err(_) => false,
+        let is_photo = match (mask, &by_tone) {
+            ("photo", _) => true,
+            ("off", _) | ("auto", Err(_)) => false,
+            ("auto", Ok(goal)) => goal.warnings.contains(&GoalWarning::Photograph),
+            _ => return Err(thrown(format!("the mask is `{mask}`, expected auto, photo or off"))),
         };
-        if is_photo && mask != "off" {
+        if is_photo {
             let photo = Photo::from_encoded(&source).map_err(thrown)?;
             let found = Mask::from_photo(&photo, &MaskOptions::default()).map_err(thrown)?;
             let full = Read::from_ink(found.bitmap.clone(), &GoalOptions::default()).map_err(thrown)?;

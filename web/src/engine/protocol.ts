@@ -100,6 +100,9 @@ export interface GoalInfo {
   height_in_pixels: number;
   warnings: string[];
 }
+/** How a picture becomes a mask: as it looks, as a photograph, or by brightness. */
+export type MaskWay = "auto" | "photo" | "off";
+
 export interface GoalData {
   info: GoalInfo;
   ink: Uint8Array<ArrayBuffer>;
@@ -217,7 +220,7 @@ export interface Ops {
     };
     out: Uint8Array<ArrayBuffer>;
   };
-  goalRead: { in: { name: string; bytes: Uint8Array; mask: "auto" | "off" }; out: GoalData };
+  goalRead: { in: { name: string; bytes: Uint8Array; mask: MaskWay }; out: GoalData };
   goalCheck: { in: GoalPixels; out: GoalInfo };
   mapPlane: { in: Layout; out: Plane };
   /** "bare" grows no leaves, "coarse" draws few of them. */

@@ -62,7 +62,7 @@ function GoalPart(): JSX.Element {
           kind="quiet"
           label={found.masked ? "Take the dark pixels instead" : "Look for a tree in a photograph"}
           disabled={busy}
-          onPress={() => void readAgain(found.masked ? "off" : "auto")}
+          onPress={() => void readAgain(found.masked ? "off" : "photo")}
         />
       )}
       <div class="row wrap">

@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import { goalClient } from "../../engine/clients";
 import { thumbnails } from "../../engine/pool";
-import type { GoalInfo, GoalPixels } from "../../engine/protocol";
+import type { GoalInfo, GoalPixels, MaskWay } from "../../engine/protocol";
 import { History } from "../../state/history";
 import { announce, sayError, sentence } from "../../state/notes";
 import { baseName } from "../../ui/files";
@@ -39,12 +39,7 @@ const MAX_FILE = 150_000_000;
 /** The bytes of the picture, to read it once more in another way. */
 let lastBytes: { name: string; bytes: Uint8Array; target: string | null } | null = null;
 
-async function read(
-  name: string,
-  bytes: Uint8Array,
-  mask: "auto" | "off",
-  target: string | null,
-): Promise<void> {
+async function read(name: string, bytes: Uint8Array, mask: MaskWay, target: string | null): Promise<void> {
   reading.value = name;
   goalError.value = null;
   announce(`Reading ${name}`);
@@ -76,7 +71,7 @@ export async function takePicture(file: File): Promise<void> {
 }
 
 /** Reads the same picture again, as a photograph or as a drawing. */
-export async function readAgain(mask: "auto" | "off"): Promise<void> {
+export async function readAgain(mask: MaskWay): Promise<void> {
   if (lastBytes) await read(lastBytes.name, lastBytes.bytes, mask, lastBytes.target);
 }
 
