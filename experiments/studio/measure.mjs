@@ -22,6 +22,7 @@ const note = (what, value, unit) => {
   rows.push([what, typeof value === "number" ? Number(value.toPrecision(4)) : value, unit]);
   console.log(what, value, unit);
 };
+const cell = (value) => (String(value).includes(",") ? `"${value}"` : value);
 const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
 
 // Size: what every visitor loads, and what only some do.
@@ -33,6 +34,9 @@ note(
   ["index.html", "icon.svg", ...assets].map(weight).reduce((a, b) => a + b),
   "MB",
 );
+const named = (part) => weight(assets.find((name) => name.includes(part)));
+note("of it the library", named("pleach_web_bg"), "MB");
+note("of it three.js (the room Species)", named("tree-view"), "MB");
 note(
   "drawings for the first guess, loaded with the first fit",
   statSync(join(dist, "known.bin")).size / 1e6,
@@ -123,4 +127,4 @@ for (const goal of GOALS) {
   if (stalls.length > 0) note(`${goal}: the longest of them`, Math.max(...stalls), "ms");
 }
 await studio.close();
-writeFileSync(join(here, "results.csv"), `${rows.map((row) => row.join(",")).join("\n")}\n`);
+writeFileSync(join(here, "results.csv"), `${rows.map((row) => row.map(cell).join(",")).join("\n")}\n`);

@@ -185,7 +185,7 @@ pub(crate) fn conclude(
         best.genome.structure = None;
     }
     let mut judged = None;
-    if control.stop.load(Ordering::Relaxed) {
+    if settings.judging.is_some() && control.stop.load(Ordering::Relaxed) {
         outcome.stop = StopReason::Interrupted;
     } else if let Some(judging) = settings.judging {
         control.observers.iter_mut().for_each(|observer| observer.judging());
@@ -201,7 +201,9 @@ pub(crate) fn conclude(
     let mut found = Vec::new();
     let time_for_individuals = time_for_individuals(settings, outcome.elapsed, judged.as_ref());
     let individual = settings.individual.map(|how| IndividualSettings { time: time_for_individuals, ..how });
-    if let (Some(how), false) = (individual, control.stop.load(Ordering::Relaxed)) {
+    if individual.is_some() && control.stop.load(Ordering::Relaxed) {
+        outcome.stop = StopReason::Interrupted;
+    } else if let Some(how) = individual {
         let Control { clock, stop, observers, .. } = &mut control;
         let tell = |progress: &_| observers.iter_mut().for_each(|observer| observer.individual(progress));
         match individuals(&begun.problem, &best.genome, how, *clock, stop, tell) {

@@ -5,7 +5,7 @@
 //! compiled in. `clippy.toml` forbids the others; for sine, cosine and arc tangent in inner loops see [`crate::trig`].
 
 pub use libm::{
-    acos, asin, atan, cbrt, cbrtf, cos, exp, exp2, expf, expm1, hypot, hypotf, log as ln, log1p, log2, log2f,
+    acos, asin, atan, cbrt, cbrtf, cos, exp, expf, expm1, hypot, hypotf, log as ln, log1p, log2, log2f,
     log10, logf as lnf, pow, powf, sin, tan,
 };
 
