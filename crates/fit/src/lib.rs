@@ -37,6 +37,7 @@ mod evaluate;
 mod evaluator;
 mod fingerprint;
 mod fit_goal;
+mod flight;
 mod fresh;
 mod genome;
 mod guess;

@@ -102,6 +102,12 @@ macro_rules! optimizers {
                 }
             }
 
+            fn lag(&self) -> usize {
+                match self {
+                    $(Self::$variant(method) => method.lag(),)*
+                }
+            }
+
             fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>) {
                 match self {
                     $(Self::$variant(method) => method.ask(space, members),)*
@@ -114,7 +120,7 @@ macro_rules! optimizers {
                 }
             }
 
-            fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+            fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
                 match self {
                     $(Self::$variant(method) => method.suits(space, generations, pending),)*
                 }

@@ -6,12 +6,14 @@ use crate::solver::{AskTell, Batch};
 use crate::space::SearchSpace;
 use argmin::core::TerminationReason;
 use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// Everything that a search knows and that a checkpoint holds.
 ///
 /// A generation may be evaluated in several batches. How many does not matter to the result: the
-/// method is told only when the whole generation has its scores.
+/// method is told only when the whole generation has its scores. Nor does it matter when a batch is asked for:
+/// a generation is bred as soon as the method's [lag](Method::lag) allows it, and no later.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SearchState<M> {
     /// The optimiser.
@@ -25,7 +27,9 @@ pub struct SearchState<M> {
     pub best: Option<Scored>,
     /// Score of the best individual of the last finished generation, as the method was told it.
     pub generation_best: Option<Score>,
-    members: Vec<Genome>,
+    /// Generations that have been bred and not told, oldest first.
+    pending: VecDeque<Vec<Genome>>,
+    /// Scores of the first members of the oldest.
     scores: Vec<Score>,
     /// Largest trees that are tried.
     most: Size,
@@ -62,16 +66,16 @@ impl<M> SearchState<M> {
             evaluations: 0,
             best: None,
             generation_best: None,
-            members: Vec::new(),
+            pending: VecDeque::new(),
             scores: Vec::new(),
             most: if matches!(start, Start::Random) { ALWAYS } else { Size::ANY },
         }
     }
 
-    /// Whether the last batch finished a generation.
+    /// Whether the last score was the last of a generation.
     #[must_use]
     pub const fn is_between_generations(&self) -> bool {
-        self.members.is_empty()
+        self.scores.is_empty()
     }
 
     /// Whether this can be the state of a search in `space`: what was read from a file may be anything.
@@ -79,20 +83,20 @@ impl<M> SearchState<M> {
     where
         M: Method,
     {
-        self.members.len() >= self.scores.len()
-            && (self.members.is_empty() || self.scores.len() < self.members.len())
-            && self
-                .members
-                .iter()
+        let sizes: Vec<usize> = self.pending.iter().map(Vec::len).collect();
+        sizes.first().map_or(self.scores.is_empty(), |&first| self.scores.len() < first)
+            && sizes.iter().all(|&size| size > 0)
+            && (self.pending.iter().flatten())
                 .chain(self.best.iter().map(|best| &best.genome))
                 .all(|g| is_individual(g, space))
-            && self.method.suits(space, self.generation, self.members.len())
+            && self.method.suits(space, self.generation, &sizes)
     }
 }
 
 /// A method that searches a space.
 ///
-/// A batch is a whole generation, unless [`Search::batch`] is smaller. [`crate::ArgminSolver`] makes it
+/// A batch is what is left of a generation, unless [`Search::batch`] is smaller. A batch may be asked for before
+/// the last one is told. [`crate::ArgminSolver`] makes it
 /// a solver of argmin.
 #[derive(Clone, Debug)]
 pub struct Search<M> {
@@ -103,6 +107,8 @@ pub struct Search<M> {
     pub batch: usize,
     /// Evaluations after which the search ends: never one more is made.
     pub evaluation_limit: u64,
+    /// Individuals that have been handed out and not told: the first of those that are pending.
+    out: usize,
     space: Arc<SearchSpace>,
 }
 
@@ -116,7 +122,7 @@ impl<M> Search<M> {
     /// Goes on from `state`.
     #[must_use]
     pub const fn resume(state: SearchState<M>, space: Arc<SearchSpace>) -> Self {
-        Self { state, batch: usize::MAX, evaluation_limit: u64::MAX, space }
+        Self { state, batch: usize::MAX, evaluation_limit: u64::MAX, out: 0, space }
     }
 
     /// The space that is searched.
@@ -131,24 +137,48 @@ impl<M> Search<M> {
         score.cost + self.space.prior_cost(genome)
     }
 
-    /// The same of the best individual.
+    /// Individuals of the oldest generation that are out.
+    pub(crate) fn awaited(&self) -> usize {
+        let untold = self.state.pending.front().map_or(0, Vec::len) - self.state.scores.len();
+        untold.min(self.out)
+    }
+
+    /// [`Search::cost`] of the best individual.
     pub(crate) fn best_cost(&self) -> Option<f64> {
         self.state.best.as_ref().map(|best| self.cost(&best.genome, &best.score))
     }
 }
 
 impl<M: Method> Search<M> {
-    /// Tells the method about a generation whose scores are complete.
-    fn end_generation(&mut self) {
+    /// Breeds what the method breeds before it is told more. Nothing may be told between two calls that
+    /// would both breed: what is bred would depend on when this is called.
+    fn breed(&mut self) {
         let state = &mut self.state;
-        state.method.tell(&self.space, &state.members, &state.scores);
+        while state.pending.len() <= state.method.lag() {
+            let mut members = Vec::new();
+            state.method.ask(&self.space, &mut members);
+            // What a search starts from is the caller's; the exact truth may be among it.
+            if state.generation > 0 || !state.pending.is_empty() {
+                members.iter_mut().for_each(|member| self.space.settle(member));
+            }
+            state.pending.push_back(members);
+        }
+    }
+
+    /// Tells the method about a generation whose scores are complete.
+    fn end_generation(&mut self, members: &[Genome]) {
+        let state = &mut self.state;
+        state.method.tell(&self.space, members, &state.scores);
         state.generation_best = state.scores.iter().copied().min_by(|a, b| a.cost.total_cmp(&b.cost));
         if let (0, Some(best)) = (state.generation, &state.best) {
             state.most = largest_after(best.score.size);
         }
         state.generation += 1;
-        state.members.clear();
         state.scores.clear();
+        // With none pending the next is bred when it is asked for, if ever.
+        if !state.pending.is_empty() {
+            self.breed();
+        }
     }
 }
 
@@ -158,42 +188,54 @@ impl<M: Method> AskTell for Search<M> {
     }
 
     fn ask(&mut self) -> Batch<'_> {
-        let state = &mut self.state;
-        if state.members.is_empty() {
-            state.method.ask(&self.space, &mut state.members);
-            // What a search starts from is the caller's; the exact truth may be among it.
-            if state.generation > 0 {
-                state.members.iter_mut().for_each(|member| self.space.settle(member));
+        if self.state.pending.is_empty() {
+            self.breed();
+        }
+        let told = self.state.scores.len();
+        let room = (self.evaluation_limit - self.state.evaluations).saturating_sub(self.out as u64);
+        let most = usize::try_from(room).unwrap_or(usize::MAX).min(self.batch.max(1));
+        // What is out are the first without a score, maybe of several generations.
+        let mut before = told + self.out;
+        let mut left: &[Genome] = &[];
+        for generation in &self.state.pending {
+            left = generation.get(before..).unwrap_or_default();
+            before = before.saturating_sub(generation.len());
+            if !left.is_empty() {
+                break;
             }
         }
-        let waiting = &state.members[state.scores.len()..];
-        let room = usize::try_from(self.evaluation_limit - state.evaluations).unwrap_or(usize::MAX);
-        let count = waiting.len().min(self.batch.max(1)).min(room);
-        Batch { genomes: &waiting[..count], most: state.most }
+        let count = left.len().min(most);
+        self.out += count;
+        Batch { genomes: &left[..count], most: self.state.most }
     }
 
     fn tell(&mut self, scores: &[Score]) -> Option<Scored> {
         let first = self.state.scores.len();
+        self.out = self.out.saturating_sub(scores.len());
         self.state.evaluations += scores.len() as u64;
-        let batch = &mut self.state.members[first..first + scores.len()];
+        let mut members = self.state.pending.pop_front()?;
+        let batch = &mut members[first..first + scores.len()];
         for (member, score) in batch.iter_mut().zip(scores) {
             self.space.resize(member, score.resized);
         }
         // What the method is told holds what draws numbers to the start; what is kept of the best does not.
-        let batch = &self.state.members[first..first + scores.len()];
-        let told: Vec<Score> = (scores.iter().zip(batch))
+        let told: Vec<Score> = (scores.iter().zip(&*batch))
             .map(|(score, member)| Score { cost: self.cost(member, score), ..*score })
             .collect();
-        let (at, of_top) = told.iter().enumerate().min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))?;
-        let top = Scored { genome: batch[at].clone(), score: scores[at] };
-        if self.best_cost().is_none_or(|best| of_top.cost < best) {
-            self.state.best = Some(top.clone());
-        }
+        let top = told.iter().enumerate().min_by(|a, b| a.1.cost.total_cmp(&b.1.cost)).map(|(at, told)| {
+            let top = Scored { genome: batch[at].clone(), score: scores[at] };
+            if self.best_cost().is_none_or(|best| told.cost < best) {
+                self.state.best = Some(top.clone());
+            }
+            top
+        });
         self.state.scores.extend(told);
-        if self.state.scores.len() == self.state.members.len() {
-            self.end_generation();
+        if self.state.scores.len() == members.len() {
+            self.end_generation(&members);
+        } else {
+            self.state.pending.push_front(members);
         }
-        Some(top)
+        top
     }
 
     fn ended(&self) -> Option<TerminationReason> {

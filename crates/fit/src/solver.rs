@@ -7,7 +7,7 @@ use argmin::core::{Error, KV, PopulationState, Problem, Solver, TerminationReaso
 /// Individuals that wait for their scores.
 #[derive(Clone, Copy, Debug)]
 pub struct Batch<'a> {
-    /// The individuals, at least one.
+    /// The individuals; none if the search has to be told of earlier ones first.
     pub genomes: &'a [Genome],
     /// A tree larger than this may be given up as one that does not grow.
     pub most: Size,
@@ -18,11 +18,12 @@ pub trait AskTell {
     /// A short name.
     fn name(&self) -> &str;
 
-    /// The next individuals.
+    /// The next individuals, all of one generation. May be asked before the last ones are told; with none
+    /// untold it gives one at least, unless the search has ended.
     fn ask(&mut self) -> Batch<'_>;
 
-    /// Takes the scores of the individuals last asked for, in their order; the best of them, none of an
-    /// empty batch.
+    /// Takes the scores of the oldest individuals that were asked for and not told, in their order, not
+    /// beyond the end of a generation; the best of them, none of no scores.
     fn tell(&mut self, scores: &[Score]) -> Option<Scored>;
 
     /// Why the search has ended, if it has.

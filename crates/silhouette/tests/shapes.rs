@@ -303,9 +303,27 @@ fn black_pixels_that_are_marked_change_no_picture() {
             for frame in [frame, Frame { meters_per_pixel: 0.4 * frame.meters_per_pixel, ..frame }] {
                 let [mut plain, mut marked] = [Bitmap::default(), Bitmap::default()];
                 Rasterizer::with_detail(detail).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut plain);
-                Rasterizer::saturating(detail).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut marked);
+                let mut marking = Rasterizer::with_detail(detail);
+                marking.saturates = true;
+                marking.draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut marked);
                 assert_eq!(marked.differing(&plain), 0, "{name} at {size}, {detail:?}");
             }
+        }
+    }
+}
+
+/// Stems evaluated in the plane are those in space, but for pixels that are half covered to rounding.
+#[test]
+fn flattened_stems_are_where_others_are() {
+    for name in pleach_generators::HEWITT_2017 {
+        let tree = pleach_generators::preset(name).unwrap().grow(1).unwrap();
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 256, 256);
+        for view in [View::FRONT, View::degrees(40.0, 30.0)] {
+            let [mut plain, mut flat] = [Bitmap::default(), Bitmap::default()];
+            Rasterizer::with_detail(Detail::Half).draw(&tree, &view, &frame, Parts::BARE, &mut plain);
+            Rasterizer::for_searches(Detail::Half).draw(&tree, &view, &frame, Parts::BARE, &mut flat);
+            let share = f64::from(flat.differing(&plain) as u32) / f64::from(plain.ink() as u32);
+            assert!(share < 0.02, "{name}: {share} of the ink");
         }
     }
 }

@@ -3,7 +3,7 @@
 //! A checkpoint is one line of text and a binary body:
 //!
 //! ```text
-//! pleach-checkpoint 5 weber-penn/evolution <length of the body> <checksum, 8 hexadecimal digits>
+//! pleach-checkpoint 6 weber-penn/evolution <length of the body> <checksum, 8 hexadecimal digits>
 //! ```
 //!
 //! The line names the program, the number of the format, and what the state belongs to: a family of

@@ -24,9 +24,7 @@ impl<M: Method> Course<M> {
     /// `search` from where it stands, with the rows of its earlier parts, driven from `now` on.
     pub(crate) fn new(mut search: Search<M>, budget: Budget, history: Vec<Row>, now: Duration) -> Self {
         search.evaluation_limit = budget.evaluations.unwrap_or(u64::MAX).max(search.state.evaluations);
-        let mut pace = Pace::new(now);
-        search.batch = pace.batch(rayon::current_num_threads());
-        Self { search, budget, history, likeness: None, pace }
+        Self { search, budget, history, likeness: None, pace: Pace::new(now) }
     }
 
     /// The next individuals, for so many threads wherever they are.
@@ -62,8 +60,8 @@ impl<M: Method> Course<M> {
         of_best.or_else(|| self.likeness.map_or_else(last_row, |known| known.1))
     }
 
-    /// After a batch: the row of the generation that it has finished, if it has. `now` decides how large the
-    /// next batch is.
+    /// After scores: the row of the generation that they have finished, if they have. `now` decides how large the
+    /// next batch of [`Course::ask_for`] is.
     pub(crate) fn after_batch(
         &mut self,
         objective: &(impl Evaluate + ?Sized),
@@ -72,7 +70,7 @@ impl<M: Method> Course<M> {
     ) -> Option<Row> {
         let row = self.new_row(objective, elapsed);
         self.history.extend(row);
-        self.search.batch = self.pace.next(now);
+        self.pace.next(now);
         row
     }
 

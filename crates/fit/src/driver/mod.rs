@@ -2,6 +2,7 @@
 
 mod course;
 mod pace;
+mod streaming;
 #[cfg(test)]
 mod tests;
 
@@ -11,23 +12,24 @@ use crate::control::{Control, Outcome};
 use crate::error::FitError;
 use crate::evaluate::Evaluate;
 use crate::fingerprint::Fingerprint;
-use crate::genome::{Score, Scored};
+use crate::flight::fly;
 use crate::method::{Method, MethodSettings};
 use crate::observer::{Observer, Progress};
 use crate::search::{Search, SearchState};
 use crate::settings::FitSettings;
-use crate::solver::{ArgminSolver, AskTell, Batch, FitState};
+use crate::solver::FitState;
 use crate::space::SearchSpace;
-use argmin::core::{Executor, TerminationReason};
+use argmin::core::Executor;
 pub(crate) use course::Course;
 use serde::{Serialize, de::DeserializeOwned};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
+use streaming::Streaming;
 
 /// Searches `space` for what `objective` scores best.
 pub(crate) fn drive<S: MethodSettings<Method: State>>(
-    objective: &impl Evaluate,
+    objective: &(impl Evaluate + Sync),
     space: SearchSpace,
     settings: &FitSettings,
     method: &S,
@@ -38,8 +40,9 @@ pub(crate) fn drive<S: MethodSettings<Method: State>>(
     driver.announce();
     if driver.verdict().is_none() {
         let best = driver.course.search.state.best.clone();
-        let executor =
-            Executor::new(objective, ArgminSolver(driver)).ctrlc(false).configure(|mut state: FitState| {
+        let run = fly(objective, |flight| {
+            let solver = Streaming { driver, flight };
+            let executor = Executor::new(objective, solver).ctrlc(false).configure(|mut state: FitState| {
                 // What argmin keeps of the earlier parts of a resumed run.
                 if let Some(best) = best {
                     state.best_cost = best.score.cost;
@@ -47,7 +50,9 @@ pub(crate) fn drive<S: MethodSettings<Method: State>>(
                 }
                 state
             });
-        driver = executor.run().map_err(|error| FitError::Search(error.into()))?.solver.0;
+            executor.run().map(|result| result.solver.driver)
+        });
+        driver = run.map_err(|error| FitError::Search(error.into()))?;
     }
     Ok(driver.finish())
 }
@@ -236,25 +241,4 @@ fn check<S: MethodSettings>(
         return Err(BodyProblem::Method);
     }
     Ok(())
-}
-
-impl<M: State> AskTell for Driver<'_, '_, M> {
-    fn name(&self) -> &str {
-        self.course.search.name()
-    }
-
-    fn ask(&mut self) -> Batch<'_> {
-        self.course.search.ask()
-    }
-
-    fn tell(&mut self, scores: &[Score]) -> Option<Scored> {
-        let best = self.course.search.tell(scores);
-        self.after_batch();
-        best
-    }
-
-    fn ended(&self) -> Option<TerminationReason> {
-        // The reason is told in our own words by `Outcome::stop`.
-        self.verdict().map(|reason| TerminationReason::SolverExit(reason.to_string()))
-    }
 }

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 /// How many individuals make a batch of about a third of a second.
 ///
-/// Small enough for ctrl-C, timeouts and checkpoints to be prompt, large enough to keep the threads
-/// busy: at the end of a batch all wait for the slowest tree. The clock decides it, and nothing but
-/// promptness depends on it.
+/// For searches whose caller scores batch by batch. Small enough for a stop and timeouts to be prompt, large
+/// enough to keep workers busy: at the end of a batch all wait for the slowest tree. The clock decides it, and
+/// nothing but promptness depends on it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
     batch: usize,
@@ -30,13 +30,12 @@ impl Pace {
         self.batch
     }
 
-    /// The size of the next batch, now that the last one is done.
-    pub(super) fn next(&mut self, now: Duration) -> usize {
+    /// Sets the size of the next batch, now that the last one is done.
+    pub(super) fn next(&mut self, now: Duration) {
         let took = now.saturating_sub(self.last).as_secs_f64();
         self.last = now;
         let wanted = self.batch as f64 * (Self::TARGET / took.max(1e-6)).clamp(0.25, 4.0);
         let rounds = (wanted / self.threads as f64).round().clamp(1.0, 1e4) as usize;
         self.batch = rounds * self.threads;
-        self.batch
     }
 }

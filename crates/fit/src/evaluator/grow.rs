@@ -30,8 +30,8 @@ impl EvalWorkspace {
             values: Vec::new(),
             tree: Tree::default(),
             workspace: Workspace::default(),
-            rasterizer: Rasterizer::saturating(Detail::Half),
-            fine: Rasterizer::saturating(Detail::Draft),
+            rasterizer: Rasterizer::for_searches(Detail::Half),
+            fine: Rasterizer::for_searches(Detail::Draft),
             bitmap: Bitmap::default(),
             comparisons: Comparisons::default(),
         }

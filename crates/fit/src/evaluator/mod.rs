@@ -171,7 +171,10 @@ impl Evaluator {
 
     /// Grows `genome`'s tree into `memory` at the height that it should have; none if it does not grow.
     ///
-    /// Of searched structures most trees are resized, and half of the time would go into growing them again.
+    /// A third to half of all trees are resized, of searched structures most, and growing them again would take up
+    /// to half of the time. So a tree that is nearly right is drawn larger or smaller instead: its branches are
+    /// then off by what does not grow in proportion, the least thickness of twigs, and not by more than can
+    /// be seen.
     fn grow_matched(
         &self,
         generator: &dyn Generator,
@@ -188,7 +191,9 @@ impl Evaluator {
             return Some(Matched { resized: 1.0, magnified: 1.0 });
         };
         let is_flat = || self.views.iter().all(PreparedView::is_orthographic);
-        if genome.structure.is_some() && generator.grows_in_proportion() && is_flat() {
+        let is_near = (1.0 / NEAR..NEAR).contains(&factor);
+        let in_proportion = genome.structure.is_some() && generator.grows_in_proportion();
+        if (is_near || in_proportion) && is_flat() {
             return Some(Matched { resized: factor, magnified: factor });
         }
         memory.grow(generator, growth).then_some(Matched { resized: factor, magnified: 1.0 })
@@ -257,6 +262,9 @@ impl Evaluator {
         shares.sum::<f64>() / self.views.len() as f64
     }
 }
+
+/// Trees that are to be resized by less than this factor are drawn at another scale instead.
+const NEAR: f64 = 1.25;
 
 /// How a tree was brought to the height of its goal.
 struct Matched {

@@ -15,7 +15,7 @@
 //! The text is silent on every number and on how lists merge. The best individual ever seen is
 //! reported by [`crate::Search`], and plays no part here.
 
-use super::{Method, MethodSettings, Start, is_individual, ranking};
+use super::{Method, MethodSettings, Start, alone, is_individual, ranking};
 use crate::genome::{Genome, Score};
 use crate::space::{SearchSpace, TreeSeed};
 use crate::stream::Stream;
@@ -201,7 +201,8 @@ impl Method for Hewitt {
         self.round += 1;
     }
 
-    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
+        let Some(pending) = alone(pending) else { return false };
         let asked = self.base.as_ref().map_or(1, |_| self.settings.population.max(2));
         self.round <= generations
             && self.base.iter().all(|base| is_individual(base, space))

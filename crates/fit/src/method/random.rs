@@ -1,6 +1,6 @@
 //! Random parameter lists, one after the other.
 
-use super::{Method, MethodSettings, Start};
+use super::{Method, MethodSettings, Start, alone};
 use crate::genome::{Genome, Score};
 use crate::space::SearchSpace;
 use crate::stream::Stream;
@@ -75,7 +75,7 @@ impl Method for Random {
 
     fn tell(&mut self, _: &SearchSpace, _: &[Genome], _: &[Score]) {}
 
-    fn suits(&self, _: &SearchSpace, generations: u64, _: usize) -> bool {
-        self.round <= generations + 1
+    fn suits(&self, _: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
+        alone(pending).is_some() && self.round <= generations + 1
     }
 }

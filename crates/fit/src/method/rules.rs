@@ -7,7 +7,7 @@
 //! the best one, or begins again from nothing, alternately, so that a short search ends with more
 //! trials about its best structure and a long one sees others.
 
-use super::{Method, MethodSettings, Start, is_individual};
+use super::{Method, MethodSettings, Start, alone, is_individual};
 use crate::genome::{Genome, Score, Scored};
 use crate::objective::Objective;
 use crate::space::{SearchSpace, TreeSeed};
@@ -248,7 +248,8 @@ impl Method for Rules {
         self.end_islands();
     }
 
-    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
+        let Some(pending) = alone(pending) else { return false };
         let population = || self.islands.iter().flat_map(|island| &island.population);
         self.round <= generations
             && self.islands.len() == self.settings.islands.max(1)

@@ -64,6 +64,9 @@ pub struct Rasterizer {
     /// Whether pixels that are black are not looked at any more: the same pictures, sooner where crowns are dense,
     /// but without a meaning of [`Rasterizer::coverage`].
     pub saturates: bool,
+    /// Whether stems are projected before they are evaluated, and then in single precision, where there is no
+    /// perspective: sooner, and the same but for a pixel here and there.
+    pub flattens: bool,
     grid: Grid,
     /// Pixels that are black, of trees with many leaves.
     black: Bitmap,
@@ -83,10 +86,10 @@ impl Rasterizer {
         Self { detail, ..Self::default() }
     }
 
-    /// A rasteriser for pictures of which nobody asks the coverage.
+    /// A rasteriser for the many pictures of a search, of which nobody asks the coverage.
     #[must_use]
-    pub fn saturating(detail: Detail) -> Self {
-        Self { detail, saturates: true, ..Self::default() }
+    pub fn for_searches(detail: Detail) -> Self {
+        Self { detail, saturates: true, flattens: true, ..Self::default() }
     }
 
     /// Draws `parts` of `tree` into `out`, which takes the frame's size. Allocates nothing once its
@@ -120,8 +123,9 @@ impl Rasterizer {
     /// Sets the samples of `parts` of `tree` and leaves the others as they are.
     fn sample_onto(&mut self, tree: &Tree, camera: &Camera, down: u32, parts: Parts) {
         let scale = Vec2::new(ACROSS as f32, down as f32);
+        let draw = if self.flattens && camera.is_orthographic() { strip::flat::draw } else { strip::draw };
         for stem in tree.stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
-            strip::draw(&mut self.grid, camera, scale, tree, stem);
+            draw(&mut self.grid, camera, scale, tree, stem);
         }
         if parts.contains(Parts::LEAVES) {
             self.leaves(tree, camera, scale);

@@ -1,5 +1,7 @@
 //! Stems as tapered strips.
 
+pub(super) mod flat;
+
 use super::grid::{Corner, Grid};
 use crate::view::Camera;
 use glam::{DVec3, Vec2};

@@ -22,7 +22,7 @@ mod normal;
 mod strategy;
 
 use super::first::{first, given};
-use super::{Method, MethodSettings, Start, ranking};
+use super::{Method, MethodSettings, Start, alone, ranking};
 use crate::genome::{Genome, Score};
 use crate::space::{SearchSpace, TreeSeed};
 use crate::stream::Stream;
@@ -235,7 +235,8 @@ impl Method for Cma {
         self.round += 1;
     }
 
-    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
+        let Some(pending) = alone(pending) else { return false };
         let n = space.genes().len();
         let asked = self.state.as_ref().map_or(0, |_| pending);
         let state_suits = |state: &State| {

@@ -8,6 +8,7 @@ use crate::space::SearchSpace;
 use crate::stream::Stream;
 use pleach_tree::math;
 use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
 
 /// A population, best first, with the steps and the chances of operators that have worked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -19,8 +20,8 @@ pub(super) struct Island {
     weight: Vec<f64>,
     /// How much each operator has helped recently.
     operator_credit: Vec<f64>,
-    /// Where the children come from that are being evaluated.
-    offspring: Vec<Offspring>,
+    /// Where the children come from of each generation that is out, oldest first.
+    offspring: VecDeque<Vec<Offspring>>,
     /// Generations since the best became better by more than [`GAIN`] of its cost.
     stagnation: u64,
     /// The cost that has to be beaten for an island not to stagnate.
@@ -52,6 +53,11 @@ impl Island {
         self.population.first()
     }
 
+    /// Generations that wait for their scores.
+    pub(super) fn out(&self) -> usize {
+        self.offspring.len()
+    }
+
     pub(super) const fn stagnation(&self) -> u64 {
         self.stagnation
     }
@@ -66,7 +72,6 @@ impl Island {
         self.population.sort_by(|a, b| a.score.cost.total_cmp(&b.score.cost));
         self.population.dedup_by(|a, b| a.score.cost == b.score.cost);
         self.population.truncate(most.max(2));
-        self.offspring.clear();
         let best = self.best().map_or(f64::INFINITY, |best| best.score.cost);
         if best < self.mark * (1.0 - GAIN) || self.mark == f64::INFINITY {
             self.mark = best;
@@ -82,7 +87,7 @@ impl Island {
         space: &SearchSpace,
         settings: &EvolutionSettings,
         generations: u64,
-        pending: usize,
+        pending: &[usize],
     ) -> bool {
         let genes = space.genes().len();
         let has_learnt = self.operator_credit.len() == Operator::ALL.len()
@@ -96,12 +101,21 @@ impl Island {
             && self.stagnation <= generations
             && self.population.len() <= most
             && self.population.iter().all(|one| is_individual(&one.genome, space))
-            && self.offspring.iter().flat_map(|offspring| &offspring.genes).all(|&gene| gene < genes)
-            && (pending == 0 || self.is_empty() || self.offspring.len() == pending)
+            && self
+                .offspring
+                .iter()
+                .flatten()
+                .flat_map(|offspring| &offspring.genes)
+                .all(|&gene| gene < genes)
+            && if self.is_empty() {
+                pending.len() <= 1 && self.offspring.is_empty()
+            } else {
+                self.offspring.iter().map(Vec::len).eq(pending.iter().copied())
+            }
     }
 
     /// Before the first children: nothing is known yet.
-    pub(super) fn prepare(&mut self, space: &SearchSpace, settings: &EvolutionSettings) {
+    fn prepare(&mut self, space: &SearchSpace, settings: &EvolutionSettings) {
         if self.operator_credit.is_empty() {
             let genes = space.genes().len();
             self.steps = vec![settings.step; genes];
@@ -110,13 +124,15 @@ impl Island {
         }
     }
 
-    /// A child that is not one of the population itself, as far as a few tries can tell.
+    /// Appends a generation of children to `members`; `draws` gives each its own stream.
     pub(super) fn breed(
         &mut self,
         space: &SearchSpace,
         settings: &EvolutionSettings,
-        draws: &mut Stream,
-    ) -> Genome {
+        draws: impl Fn(u32) -> Stream,
+        members: &mut Vec<Genome>,
+    ) {
+        self.prepare(space, settings);
         let variation = Variation {
             space,
             population: &self.population,
@@ -125,21 +141,29 @@ impl Island {
             operator_credit: &self.operator_credit,
             greed: settings.greed,
         };
-        let (mut child, mut offspring) = variation.child(draws);
+        let children =
+            (0..settings.children.max(1)).map(|member| self.child(&variation, draws(member as u32)));
+        let (genomes, offspring): (Vec<_>, Vec<_>) = children.unzip();
+        members.extend(genomes);
+        self.offspring.push_back(offspring);
+    }
+
+    /// A child that is not one of the population itself, as far as a few tries can tell.
+    fn child(&self, variation: &Variation<'_>, mut draws: Stream) -> (Genome, Offspring) {
+        let (mut child, mut offspring) = variation.child(&mut draws);
         for _ in 0..5 {
             if self.population.iter().all(|old| old.genome != child) {
                 break;
             }
-            (child, offspring) = variation.child(draws);
+            (child, offspring) = variation.child(&mut draws);
         }
-        self.offspring.push(offspring);
-        child
+        (child, offspring)
     }
 
     /// Rewards operators and genes for the children they have made, and adapts the steps.
     pub(super) fn learn(&mut self, scores: &[Score]) {
         let best = self.best().map_or(f64::INFINITY, |best| best.score.cost);
-        for (offspring, score) in self.offspring.iter().zip(scores) {
+        for (offspring, score) in self.offspring.pop_front().unwrap_or_default().iter().zip(scores) {
             let better = score.cost < offspring.parent_cost;
             let reward = if score.cost < best {
                 BEST_REWARD

@@ -72,6 +72,12 @@ impl Evolution {
         first(space, lists, self.settings.first.max(2), self.settings.sparsity, draws, members);
     }
 
+    /// Whether the island has not improved for long.
+    fn has_stagnated(&self) -> bool {
+        let patience = (self.settings.patience * self.settings.parents) as u64;
+        self.island.stagnation() * self.settings.children.max(1) as u64 > patience
+    }
+
     /// Ends the island and prepares the next.
     fn change_lanes(&mut self) {
         self.elites.extend(self.island.best().cloned());
@@ -108,16 +114,20 @@ impl Method for Evolution {
         "evolution"
     }
 
+    fn lag(&self) -> usize {
+        // Islands begin and end with nothing out.
+        if self.island.is_empty() || self.has_stagnated() { 0 } else { self.settings.lag }
+    }
+
     fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>) {
         if self.island.is_empty() {
             self.begin(space, members);
             return;
         }
-        self.island.prepare(space, &self.settings);
-        for member in 0..self.settings.children.max(1) {
-            let mut draws = Stream::at(self.seed, CHILD, self.round, member as u32);
-            members.push(self.island.breed(space, &self.settings, &mut draws));
-        }
+        // Rounds are counted when they are told; what is out will be by then.
+        let round = self.round + self.island.out() as u64;
+        let draws = |member| Stream::at(self.seed, CHILD, round, member);
+        self.island.breed(space, &self.settings, draws, members);
     }
 
     fn tell(&mut self, _: &SearchSpace, members: &[Genome], scores: &[Score]) {
@@ -130,13 +140,12 @@ impl Method for Evolution {
         }
         self.island.learn(scores);
         self.island.settle(newborn.collect(), self.settings.parents);
-        let patience = (self.settings.patience * self.settings.parents) as u64;
-        if self.island.stagnation() * members.len() as u64 > patience {
+        if self.island.out() == 0 && self.has_stagnated() {
             self.change_lanes();
         }
     }
 
-    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
         self.round <= generations
             && self.islands_begun <= generations
             && self.elites.len() <= self.settings.lanes.max(1)

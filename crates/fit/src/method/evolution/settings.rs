@@ -3,7 +3,7 @@
 use crate::space::PRIOR;
 use serde::{Deserialize, Serialize};
 
-/// Settings of [`Evolution`](super::Evolution). The defaults were chosen by `examples/compare.rs`.
+/// Settings of [`Evolution`](super::Evolution). The defaults were chosen by searches of equal time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvolutionSettings {
     /// Random lists at the beginning of an island.
@@ -12,6 +12,8 @@ pub struct EvolutionSettings {
     pub parents: usize,
     /// Children in a generation, at least 1.
     pub children: usize,
+    /// Generations that may be out, waiting for their scores, when the next is bred: what keeps threads busy.
+    pub lag: usize,
     /// First step of every number, as a part of its search range.
     pub step: f64,
     /// Largest chance that a number of a random list which may be zero is set to zero.
@@ -35,6 +37,7 @@ impl Default for EvolutionSettings {
             first: 200,
             parents: 30,
             children: 20,
+            lag: 1,
             step: 0.15,
             sparsity: 0.8,
             greed: 2.0,

@@ -27,7 +27,7 @@
 mod memory;
 
 use super::first::{first, given};
-use super::{Method, MethodSettings, Start, is_individual, ranking};
+use super::{Method, MethodSettings, Start, alone, is_individual, ranking};
 use crate::genome::{Genome, Score, Scored};
 use crate::space::{SearchSpace, TreeSeed};
 use crate::stream::Stream;
@@ -287,7 +287,8 @@ impl Method for Shade {
         self.round += 1;
     }
 
-    fn suits(&self, space: &SearchSpace, generations: u64, pending: usize) -> bool {
+    fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
+        let Some(pending) = alone(pending) else { return false };
         let population = self.population.iter().map(|scored| &scored.genome);
         let most = self.settings.population.max(MIN);
         let room = (self.settings.archive * self.population.len() as f64) as usize;

@@ -1,0 +1,75 @@
+//! Stems without perspective: their splines are projected first, and evaluated in the picture's plane.
+//!
+//! A Bézier curve's projection is the Bézier curve of its projected control points, so that all that is left to do
+//! is in two dimensions and, at a picture's size, in single precision.
+
+use super::{Rib, TOLERANCE, cap, quad};
+use crate::raster::grid::Grid;
+use crate::view::Camera;
+use glam::{DVec3, Vec2};
+use pleach_tree::plant::piece;
+use pleach_tree::{Knot, Stem, Tree};
+
+/// A knot in pixels.
+#[derive(Clone, Copy)]
+struct FlatKnot {
+    point: Vec2,
+    handle_in: Vec2,
+    handle_out: Vec2,
+    radius: f32,
+}
+
+impl FlatKnot {
+    fn new(camera: &Camera, knot: &Knot) -> Self {
+        let flat = |point: DVec3| {
+            let (x, y) = camera.project(point, 1.0);
+            Vec2::new(x as f32, y as f32)
+        };
+        Self {
+            point: flat(knot.point),
+            handle_in: flat(knot.handle_in),
+            handle_out: flat(knot.handle_out),
+            radius: (knot.radius * camera.pixels_per_meter()) as f32,
+        }
+    }
+}
+
+/// Draws `stem` as [`super::draw`] does, up to rounding. `camera` is without perspective.
+pub(in crate::raster) fn draw(grid: &mut Grid, camera: &Camera, scale: Vec2, tree: &Tree, stem: &Stem) {
+    let knots = tree.knots_of(stem);
+    let [first, second, ..] = knots else { return };
+    let mut from = FlatKnot::new(camera, first);
+    let last_point = FlatKnot::new(camera, &knots[knots.len() - 1]).point;
+    // The way of a curve that stands still.
+    let straight = (last_point - from.point).try_normalize().unwrap_or(Vec2::Y);
+    let rib = |center: Vec2, along: Vec2, width: f32| {
+        let along = along.try_normalize().unwrap_or(straight);
+        Rib { center, side: along.perp() * width }
+    };
+    let mut last = rib(from.point, from.handle_out - from.point, from.radius);
+    cap(grid, camera, scale, &piece(first, second), 0.0, first.radius);
+    for knot in &knots[1..] {
+        let to = FlatKnot::new(camera, knot);
+        let (a, b, c, d) = (from.point, from.handle_out, to.handle_in, to.point);
+        // As `Cubic::chords`, of the bend that can be seen.
+        let (bend, bend_after) = (a - b * 2.0 + c, b - c * 2.0 + d);
+        let bend = bend.length_squared().max(bend_after.length_squared()).sqrt();
+        let chords = (0.75 / TOLERANCE as f32 * bend).sqrt().ceil().clamp(1.0, 1024.0);
+        let mut step = 1.0;
+        while step < chords {
+            let t = step / chords;
+            let s = 1.0 - t;
+            let (ab, bc, cd) = (a * s + b * t, b * s + c * t, c * s + d * t);
+            let (abc, bcd) = (ab * s + bc * t, bc * s + cd * t);
+            let next = rib(abc * s + bcd * t, bcd - abc, from.radius + (to.radius - from.radius) * t);
+            quad(grid, scale, &last, &next);
+            last = next;
+            step += 1.0;
+        }
+        let next = rib(d, d - c, to.radius);
+        quad(grid, scale, &last, &next);
+        (last, from) = (next, to);
+    }
+    let [.., before, tip] = knots else { return };
+    cap(grid, camera, scale, &piece(before, tip), 1.0, tip.radius);
+}
