@@ -154,3 +154,106 @@ impl Drop for Failure<'_> {
         self.0.enough.notify_all();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+    use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+    /// The first value of an individual is its cost; one of zero waits until `open` is set.
+    #[derive(Default)]
+    struct Gate {
+        open: AtomicBool,
+        scored: AtomicUsize,
+    }
+
+    impl Evaluate for Gate {
+        fn scores(&self, genomes: &[Genome], _: Size) -> Vec<Score> {
+            assert_eq!(genomes.len(), 1);
+            let cost = genomes[0].values[0];
+            assert!(cost >= 0.0, "a cost below zero");
+            while cost == 0.0 && !self.open.load(Ordering::Relaxed) {
+                std::thread::yield_now();
+            }
+            self.scored.fetch_add(1, Ordering::Relaxed);
+            vec![Score::from_cost(cost)]
+        }
+    }
+
+    fn genomes(costs: &[f64]) -> Vec<Genome> {
+        costs.iter().map(|&cost| Genome::new(vec![cost], 1)).collect()
+    }
+
+    fn batch(genomes: &[Genome]) -> Batch<'_> {
+        Batch { genomes, most: Size::ANY }
+    }
+
+    fn costs(scores: Option<Vec<Score>>) -> Vec<f64> {
+        scores.unwrap().iter().map(|score| score.cost).collect()
+    }
+
+    fn pool(threads: usize) -> rayon::ThreadPool {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap()
+    }
+
+    const LONG: Duration = Duration::from_secs(60);
+
+    #[test]
+    fn scores_are_taken_in_order_whichever_comes_first() {
+        pool(3).install(|| {
+            let gate = Gate::default();
+            fly(&gate, |flight| {
+                flight.launch(batch(&genomes(&[5.0, 0.0])));
+                flight.launch(batch(&genomes(&[6.0, 7.0])));
+                while gate.scored.load(Ordering::Relaxed) < 3 {
+                    std::thread::yield_now();
+                }
+                let soon = Duration::from_millis(5);
+                assert_eq!(costs(flight.land(4, soon)), [5.0], "the second is not there");
+                assert_eq!(costs(flight.land(3, soon)), [0.0; 0]);
+                gate.open.store(true, Ordering::Relaxed);
+                assert_eq!(costs(flight.land(2, LONG)), [0.0, 6.0]);
+                assert_eq!(costs(flight.land(9, LONG)), [7.0], "no more are out");
+            });
+        });
+    }
+
+    #[test]
+    fn one_thread_is_enough_even_if_it_is_the_one_that_waits() {
+        let gate = Gate { open: AtomicBool::new(true), ..Gate::default() };
+        let taken = pool(1).install(|| {
+            fly(&gate, |flight| {
+                flight.launch(batch(&genomes(&[1.0, 2.0, 3.0])));
+                costs(flight.land(3, LONG))
+            })
+        });
+        assert_eq!(taken, [1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn what_no_thread_has_begun_at_the_end_is_never_scored() {
+        let gate = Gate { open: AtomicBool::new(true), ..Gate::default() };
+        pool(1).install(|| {
+            fly(&gate, |flight| {
+                flight.launch(batch(&genomes(&[1.0; 50])));
+                let _ = flight.land(1, LONG);
+            });
+        });
+        assert!(gate.scored.into_inner() < 50);
+    }
+
+    #[test]
+    fn a_panic_is_passed_on_and_nobody_waits_for_its_score() {
+        let gate = Gate::default();
+        let flown = catch_unwind(AssertUnwindSafe(|| {
+            pool(2).install(|| {
+                fly(&gate, |flight| {
+                    flight.launch(batch(&genomes(&[-1.0])));
+                    assert_eq!(flight.land(1, LONG), None);
+                });
+            });
+        }));
+        assert!(flown.is_err());
+    }
+}

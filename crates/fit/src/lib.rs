@@ -97,6 +97,6 @@ pub use setting::{SETTINGS, Setting, SettingKind};
 pub use settings::{FIT_LIMITS, FitSettings};
 pub use solver::{ArgminSolver, AskTell, Batch, EmptyBatch, FitState};
 pub use space::{Freedom, Gene, PRIOR, Place, SearchSpace, SpaceError, TreeSeed, check_freedom};
-pub use stepwise::Stepwise;
+pub use stepwise::{Asked, Stepwise};
 pub use stream::Stream;
 pub use verdict::{Kindred, MIN_VERDICT_SPAN, Off, Verdict};

@@ -120,6 +120,12 @@ macro_rules! optimizers {
                 }
             }
 
+            fn ends_generation(&self) -> bool {
+                match self {
+                    $(Self::$variant(method) => method.ends_generation(),)*
+                }
+            }
+
             fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
                 match self {
                     $(Self::$variant(method) => method.suits(space, generations, pending),)*

@@ -12,8 +12,8 @@ use std::sync::Arc;
 /// Everything that a search knows and that a checkpoint holds.
 ///
 /// A generation may be evaluated in several batches. How many does not matter to the result: the
-/// method is told only when the whole generation has its scores. Nor does it matter when a batch is asked for:
-/// a generation is bred as soon as the method's [lag](Method::lag) allows it, and no later.
+/// method is told only when a whole brood has its scores. Nor does it matter when a batch is asked for:
+/// a brood is bred as soon as the method's [lag](Method::lag) allows it, and no later.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SearchState<M> {
     /// The optimiser.
@@ -27,7 +27,9 @@ pub struct SearchState<M> {
     pub best: Option<Scored>,
     /// Score of the best individual of the last finished generation, as the method was told it.
     pub generation_best: Option<Score>,
-    /// Generations that have been bred and not told, oldest first.
+    /// The best of the broods of the present generation that have been told.
+    best_so_far: Option<Score>,
+    /// Broods that have been bred and not told, oldest first.
     pending: VecDeque<Vec<Genome>>,
     /// Scores of the first members of the oldest.
     scores: Vec<Score>,
@@ -66,6 +68,7 @@ impl<M> SearchState<M> {
             evaluations: 0,
             best: None,
             generation_best: None,
+            best_so_far: None,
             pending: VecDeque::new(),
             scores: Vec::new(),
             most: if matches!(start, Start::Random) { ALWAYS } else { Size::ANY },
@@ -75,7 +78,12 @@ impl<M> SearchState<M> {
     /// Whether the last score was the last of a generation.
     #[must_use]
     pub const fn is_between_generations(&self) -> bool {
-        self.scores.is_empty()
+        self.scores.is_empty() && self.best_so_far.is_none()
+    }
+
+    /// Largest trees that are tried.
+    pub(crate) const fn most(&self) -> Size {
+        self.most
     }
 
     /// Whether this can be the state of a search in `space`: what was read from a file may be anything.
@@ -95,7 +103,7 @@ impl<M> SearchState<M> {
 
 /// A method that searches a space.
 ///
-/// A batch is what is left of a generation, unless [`Search::batch`] is smaller. A batch may be asked for before
+/// A batch is what is left of a brood, unless [`Search::batch`] is smaller. A batch may be asked for before
 /// the last one is told. [`crate::ArgminSolver`] makes it
 /// a solver of argmin.
 #[derive(Clone, Debug)]
@@ -137,7 +145,7 @@ impl<M> Search<M> {
         score.cost + self.space.prior_cost(genome)
     }
 
-    /// Individuals of the oldest generation that are out.
+    /// Individuals of the oldest brood that are out.
     pub(crate) fn awaited(&self) -> usize {
         let untold = self.state.pending.front().map_or(0, Vec::len) - self.state.scores.len();
         untold.min(self.out)
@@ -165,16 +173,20 @@ impl<M: Method> Search<M> {
         }
     }
 
-    /// Tells the method about a generation whose scores are complete.
-    fn end_generation(&mut self, members: &[Genome]) {
+    /// Tells the method about a brood whose scores are complete.
+    fn end_brood(&mut self, members: &[Genome]) {
         let state = &mut self.state;
         state.method.tell(&self.space, members, &state.scores);
-        state.generation_best = state.scores.iter().copied().min_by(|a, b| a.cost.total_cmp(&b.cost));
-        if let (0, Some(best)) = (state.generation, &state.best) {
-            state.most = largest_after(best.score.size);
-        }
-        state.generation += 1;
+        let scores = state.best_so_far.iter().chain(&state.scores).copied();
+        state.best_so_far = scores.min_by(|a, b| a.cost.total_cmp(&b.cost));
         state.scores.clear();
+        if state.method.ends_generation() {
+            state.generation_best = state.best_so_far.take();
+            if let (0, Some(best)) = (state.generation, &state.best) {
+                state.most = largest_after(best.score.size);
+            }
+            state.generation += 1;
+        }
         // With none pending the next is bred when it is asked for, if ever.
         if !state.pending.is_empty() {
             self.breed();
@@ -194,12 +206,12 @@ impl<M: Method> AskTell for Search<M> {
         let told = self.state.scores.len();
         let room = (self.evaluation_limit - self.state.evaluations).saturating_sub(self.out as u64);
         let most = usize::try_from(room).unwrap_or(usize::MAX).min(self.batch.max(1));
-        // What is out are the first without a score, maybe of several generations.
+        // What is out are the first without a score, maybe of several broods.
         let mut before = told + self.out;
         let mut left: &[Genome] = &[];
-        for generation in &self.state.pending {
-            left = generation.get(before..).unwrap_or_default();
-            before = before.saturating_sub(generation.len());
+        for brood in &self.state.pending {
+            left = brood.get(before..).unwrap_or_default();
+            before = before.saturating_sub(brood.len());
             if !left.is_empty() {
                 break;
             }
@@ -231,7 +243,7 @@ impl<M: Method> AskTell for Search<M> {
         });
         self.state.scores.extend(told);
         if self.state.scores.len() == members.len() {
-            self.end_generation(&members);
+            self.end_brood(&members);
         } else {
             self.state.pending.push_front(members);
         }
@@ -246,7 +258,7 @@ impl<M: Method> AskTell for Search<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::{Random, RandomSettings};
+    use crate::method::{Evolution, EvolutionSettings, Random, RandomSettings};
     use crate::solver::{ArgminSolver, FitState};
     use crate::space::{Freedom, TreeSeed};
     use crate::testing::{Function, cube};
@@ -280,6 +292,45 @@ mod tests {
         for batch in [1, 3, 7, 10, 11] {
             let (parts, _) = run(Search { batch, evaluation_limit: 57, ..search() });
             assert_eq!(parts, whole, "batches of {batch}");
+        }
+    }
+
+    /// A search of a method with a lag, of islands that end soon.
+    fn lagging() -> Search<Evolution> {
+        let space =
+            SearchSpace::from_params(cube(3, -1.0, 1.0), &[0.5; 3], &Freedom::default(), TreeSeed::Fixed(1));
+        let settings =
+            EvolutionSettings { first: 8, parents: 4, children: 8, brood: 5, lag: 2, ..Default::default() };
+        let search =
+            Search::new(Evolution::new(settings, 1, Start::Random), &Start::Random, Arc::new(space.unwrap()));
+        Search { evaluation_limit: 700, ..search }
+    }
+
+    #[test]
+    fn when_children_are_asked_for_and_told_changes_nothing() {
+        let sphere = |genome: &Genome| Score::from_cost(genome.values.iter().map(|v| v * v).sum());
+        let mut whole = lagging();
+        while whole.ended().is_none() {
+            let scores: Vec<Score> = whole.ask().genomes.iter().map(sphere).collect();
+            let _ = whole.tell(&scores);
+        }
+        for (batch, told) in [(usize::MAX, 1), (3, 2), (1, usize::MAX), (usize::MAX, usize::MAX)] {
+            let mut search = Search { batch, ..lagging() };
+            let (mut out, mut most_out) = (VecDeque::new(), 0);
+            while search.ended().is_none() {
+                loop {
+                    let asked = search.ask().genomes;
+                    if asked.is_empty() {
+                        break;
+                    }
+                    out.extend(asked.iter().map(sphere));
+                }
+                most_out = most_out.max(out.len());
+                let scores: Vec<Score> = out.drain(..search.awaited().min(told)).collect();
+                let _ = search.tell(&scores);
+            }
+            assert_eq!(search.state, whole.state, "asked by {batch}, told by {told}");
+            assert!(out.is_empty() && most_out > 10, "{most_out} were out at most");
         }
     }
 }

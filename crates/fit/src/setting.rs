@@ -41,10 +41,11 @@ const fn setting(optimizer: &'static str, name: &'static str, kind: SettingKind)
 }
 
 /// All settings of all optimisers.
-pub const SETTINGS: [Setting; 33] = [
+pub const SETTINGS: [Setting; 34] = [
     setting("evolution", "first", Count(1, MANY)),
     setting("evolution", "parents", Count(2, MANY)),
     setting("evolution", "children", Count(1, MANY)),
+    setting("evolution", "brood", Count(1, MANY)),
     setting("evolution", "lag", Count(0, MANY)),
     setting("evolution", "step", Number(1e-6, 1.0)),
     setting("evolution", "sparsity", Number(0.0, 1.0)),

@@ -18,12 +18,12 @@ pub trait AskTell {
     /// A short name.
     fn name(&self) -> &str;
 
-    /// The next individuals, all of one generation. May be asked before the last ones are told; with none
+    /// The next individuals, all bred at once. May be asked before the last ones are told; with none
     /// untold it gives one at least, unless the search has ended.
     fn ask(&mut self) -> Batch<'_>;
 
     /// Takes the scores of the oldest individuals that were asked for and not told, in their order, not
-    /// beyond the end of a generation; the best of them, none of no scores.
+    /// beyond the end of what was bred at once; the best of them, none of no scores.
     fn tell(&mut self, scores: &[Score]) -> Option<Scored>;
 
     /// Why the search has ended, if it has.

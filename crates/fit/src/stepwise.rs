@@ -7,14 +7,14 @@ use crate::driver::Course;
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
 use crate::fit_goal::{Fitted, GoalSettings, begin, conclude};
-use crate::genome::{Score, Scored};
+use crate::genome::{Genome, Score, Scored, Size};
 use crate::guess::GuessLibrary;
 use crate::history::Row;
 use crate::optimizer::AnyMethod;
 use crate::problem::FitProblem;
 use crate::run::{evaluator_in, search_space};
 use crate::search::{Search, SearchState};
-use crate::solver::{AskTell as _, Batch};
+use crate::solver::AskTell as _;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -48,7 +48,7 @@ use std::time::Duration;
 /// let evaluator = evaluator(&begun.problem, &begun.settings)?;
 /// while fit.ended(Duration::ZERO).is_none() {
 ///     let batch = fit.ask(1);
-///     let scores = evaluator.scores(batch.genomes, batch.most);
+///     let scores = evaluator.scores(&batch.genomes, batch.most);
 ///     fit.tell(&scores, Duration::ZERO);
 /// }
 /// let fitted = fit.finish(Control::new(&clock, &stop))?;
@@ -64,6 +64,15 @@ pub struct Stepwise {
     course: Course<AnyMethod>,
     /// What had passed when the search began.
     before_search: Duration,
+}
+
+/// Individuals to be scored.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The individuals.
+    pub genomes: Vec<Genome>,
+    /// A tree larger than this may be given up as one that does not grow.
+    pub most: Size,
 }
 
 impl Stepwise {
@@ -100,17 +109,41 @@ impl Stepwise {
         self.course.verdict(&self.course.spent(now, false))
     }
 
-    /// The next individuals: about a third of a second's for so many workers, and one for each at least where the
-    /// generation has as many left.
-    pub fn ask(&mut self, workers: usize) -> Batch<'_> {
-        self.course.ask_for(workers)
+    /// The next individuals: about a third of a second's for so many workers, or as many as there are.
+    ///
+    /// May be asked again before the last ones are told; with many untold it gives none.
+    pub fn ask(&mut self, workers: usize) -> Asked {
+        let most = self.course.search.state.most();
+        let mut genomes = Vec::new();
+        let wanted = self.course.batch_size(workers);
+        while genomes.len() < wanted {
+            self.course.search.batch = wanted - genomes.len();
+            let some = self.course.search.ask().genomes;
+            if some.is_empty() {
+                break;
+            }
+            genomes.extend_from_slice(some);
+        }
+        Asked { genomes, most }
     }
 
-    /// Takes the scores of the individuals last asked for, in their order; the row of the generation that they
-    /// finished, if they did.
-    pub fn tell(&mut self, scores: &[Score], now: Duration) -> Option<Row> {
-        self.course.search.tell(scores);
-        self.course.after_batch(&self.objective, now, now)
+    /// Takes the scores of the oldest individuals that were asked for and not told, in their order; the rows of the
+    /// generations that they finished.
+    pub fn tell(&mut self, mut scores: &[Score], now: Duration) -> Vec<Row> {
+        let mut rows = Vec::new();
+        while !scores.is_empty() {
+            let brood = self.course.search.awaited().min(scores.len());
+            if brood == 0 {
+                // Scores of what nobody has asked for.
+                break;
+            }
+            let (these, others) = scores.split_at(brood);
+            self.course.search.tell(these);
+            rows.extend(self.course.after_scores(&self.objective, now));
+            scores = others;
+        }
+        self.course.set_pace(now);
+        rows
     }
 
     /// The best individual so far; none before the first batch.

@@ -76,7 +76,7 @@ fn what_is_stopped_early_is_judged_all_the_same() {
     assert!(fit.best().is_none() && fit.likeness().is_none());
     let elsewhere = evaluator(&fit.begun().problem, &fit.begun().settings).unwrap();
     let batch = fit.ask(2);
-    let scores = elsewhere.scores(batch.genomes, batch.most);
+    let scores = elsewhere.scores(&batch.genomes, batch.most);
     let _ = fit.tell(&scores, Duration::from_secs(1));
     assert_eq!(fit.evaluations(), scores.len() as u64);
     assert!(fit.used(Duration::from_secs(1)).unwrap() < 1.0);

@@ -183,7 +183,7 @@ impl Fit {
         }
         let now = self.elapsed;
         let Stage::Searching(search) = &mut self.stage else { return Err(thrown(NOT_SEARCHING)) };
-        search.tell(&all, now);
+        let _ = search.tell(&all, now);
         Ok(())
     }
 

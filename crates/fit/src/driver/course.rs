@@ -6,7 +6,6 @@ use crate::evaluate::Evaluate;
 use crate::history::Row;
 use crate::method::Method;
 use crate::search::Search;
-use crate::solver::{AskTell as _, Batch};
 use std::time::Duration;
 
 /// A search within a budget. It knows no clock: whoever drives it says what has passed.
@@ -27,10 +26,14 @@ impl<M: Method> Course<M> {
         Self { search, budget, history, likeness: None, pace: Pace::new(now) }
     }
 
-    /// The next individuals, for so many threads wherever they are.
-    pub(crate) fn ask_for(&mut self, threads: usize) -> Batch<'_> {
-        self.search.batch = self.pace.batch(threads);
-        self.search.ask()
+    /// How many individuals are about a third of a second's for so many threads, wherever they are.
+    pub(crate) fn batch_size(&mut self, threads: usize) -> usize {
+        self.pace.batch(threads)
+    }
+
+    /// Minds how long the last batch took.
+    pub(crate) fn set_pace(&mut self, now: Duration) {
+        self.pace.next(now);
     }
 
     pub(crate) fn spent(&self, elapsed: Duration, interrupted: bool) -> Spent {
@@ -60,17 +63,14 @@ impl<M: Method> Course<M> {
         of_best.or_else(|| self.likeness.map_or_else(last_row, |known| known.1))
     }
 
-    /// After scores: the row of the generation that they have finished, if they have. `now` decides how large the
-    /// next batch of [`Course::ask_for`] is.
-    pub(crate) fn after_batch(
+    /// After scores: the row of the generation that they have finished, if they have.
+    pub(crate) fn after_scores(
         &mut self,
         objective: &(impl Evaluate + ?Sized),
         elapsed: Duration,
-        now: Duration,
     ) -> Option<Row> {
         let row = self.new_row(objective, elapsed);
         self.history.extend(row);
-        self.pace.next(now);
         row
     }
 

@@ -171,9 +171,9 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
     }
 
     /// After a batch: a row if it finished a generation, progress, a checkpoint if one is due.
-    fn after_batch(&mut self) {
-        let (elapsed, now) = (self.elapsed(), self.control.clock.elapsed());
-        if let Some(row) = self.course.after_batch(self.objective, elapsed, now) {
+    fn after_scores(&mut self) {
+        let elapsed = self.elapsed();
+        if let Some(row) = self.course.after_scores(self.objective, elapsed) {
             self.tell_all(|observer| observer.generation(&row));
         }
         self.tell_progress();

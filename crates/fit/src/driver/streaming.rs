@@ -11,7 +11,7 @@ use std::time::Duration;
 /// wait for them.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// One iteration takes the scores of what is left of a generation, or what has come of them by the next look.
+/// One iteration takes the scores of what is left of a brood, or what has come of them by the next look.
 pub(super) struct Streaming<'f, 'scope, 'a, 'e, M, O: ?Sized> {
     pub(super) driver: Driver<'a, 'e, M>,
     pub(super) flight: Flight<'f, 'scope, O>,
@@ -41,7 +41,7 @@ impl<'scope, M: State, O: Evaluate + Sync + ?Sized> Solver<&'scope O, FitState>
         let landed = flight.land(search.awaited(), LOOK).ok_or(EmptyBatch)?;
         let scores = problem.bulk_problem("cost_count", landed.len(), |_| Ok(landed))?;
         let Some(best) = search.tell(&scores) else { return Ok((state, None)) };
-        driver.after_batch();
+        driver.after_scores();
         Ok((state.individual(best.genome).cost(best.score.cost), None))
     }
 

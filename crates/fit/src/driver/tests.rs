@@ -62,6 +62,19 @@ fn every_optimizer_keeps_its_budget_exactly() {
 }
 
 #[test]
+fn threads_change_nothing() {
+    for name in Optimizer::NAMES {
+        let settings = settings(name, Budget::evaluations(400));
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| run(&settings, None).unwrap())
+        };
+        let alone = on(1);
+        assert_eq!((on(2), on(7)), (alone.clone(), alone), "{name}");
+    }
+}
+
+#[test]
 fn a_run_stopped_anywhere_goes_on_to_the_same_bits() {
     let folder = tempfile::tempdir().unwrap();
     for name in Optimizer::NAMES {

@@ -39,25 +39,31 @@ pub trait Method {
     /// A short name, as on the command line.
     fn name(&self) -> &'static str;
 
-    /// How many generations may wait for their scores when another is asked for: 0 for a method that has
-    /// to be told of one before it breeds the next.
+    /// How many broods may wait for their scores when another is asked for: 0 for a method that has to be
+    /// told of one before it breeds the next.
     ///
-    /// With a lag, threads have something to do while others are busy with the slowest tree of a generation,
-    /// and the search has the same bits on any number of threads. Asked whenever a generation could be bred.
+    /// With a lag, threads have something to do while others are busy with the slowest tree of a brood, and
+    /// the search has the same bits on any number of threads. Asked whenever a brood could be bred.
     fn lag(&self) -> usize {
         0
     }
 
-    /// Appends the individuals of the next generation to `members`; at least one.
+    /// Appends the individuals of the next brood to `members`; at least one. A brood is what is bred at
+    /// once: a generation, or a part of one.
     ///
-    /// Called with at most [`Method::lag`] generations that [`Method::tell`] has not been called for.
+    /// Called with at most [`Method::lag`] broods that [`Method::tell`] has not been called for.
     fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>);
 
-    /// Takes the scores of the oldest generation that was asked for and not told, in their order.
+    /// Takes the scores of the oldest brood that was asked for and not told, in their order.
     fn tell(&mut self, space: &SearchSpace, members: &[Genome], scores: &[Score]);
 
+    /// Whether what was told last ends a generation.
+    fn ends_generation(&self) -> bool {
+        true
+    }
+
     /// Whether this can be the state of a search in `space` that has finished `generations` and waits for
-    /// the scores of further ones, as many and as large as `pending` says, oldest first.
+    /// the scores of broods as many and as large as `pending` says, oldest first.
     ///
     /// What was read from a file may be anything that its form allows. A state that suits neither panics
     /// nor asks for more memory than the settings do; whether it makes sense is not asked.
@@ -120,7 +126,7 @@ pub(crate) fn is_individual(genome: &Genome, space: &SearchSpace) -> bool {
     genome.values.len() == space.params().len() && genome.nuisances.len() == nuisances
 }
 
-/// How many individuals a method without a lag waits for; none if more generations are `pending` than it
+/// How many individuals a method without a lag waits for; none if more broods are `pending` than it
 /// ever asks for.
 pub(crate) fn alone(pending: &[usize]) -> Option<usize> {
     match pending {

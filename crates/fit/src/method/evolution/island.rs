@@ -20,9 +20,9 @@ pub(super) struct Island {
     weight: Vec<f64>,
     /// How much each operator has helped recently.
     operator_credit: Vec<f64>,
-    /// Where the children come from of each generation that is out, oldest first.
+    /// Where the children come from of each brood that is out, oldest first.
     offspring: VecDeque<Vec<Offspring>>,
-    /// Generations since the best became better by more than [`GAIN`] of its cost.
+    /// Children since the best became better by more than [`GAIN`] of its cost.
     stagnation: u64,
     /// The cost that has to be beaten for an island not to stagnate.
     mark: f64,
@@ -53,7 +53,7 @@ impl Island {
         self.population.first()
     }
 
-    /// Generations that wait for their scores.
+    /// Broods that wait for their scores.
     pub(super) fn out(&self) -> usize {
         self.offspring.len()
     }
@@ -76,9 +76,12 @@ impl Island {
         if best < self.mark * (1.0 - GAIN) || self.mark == f64::INFINITY {
             self.mark = best;
             self.stagnation = 0;
-        } else {
-            self.stagnation += 1;
         }
+    }
+
+    /// Counts `children` towards stagnation: they are about to be told.
+    pub(super) const fn age(&mut self, children: usize) {
+        self.stagnation += children as u64;
     }
 
     /// Whether this can be an island of a search in `space`: see [`super::Method::suits`].
@@ -86,7 +89,7 @@ impl Island {
         &self,
         space: &SearchSpace,
         settings: &EvolutionSettings,
-        generations: u64,
+        children: u64,
         pending: &[usize],
     ) -> bool {
         let genes = space.genes().len();
@@ -98,7 +101,7 @@ impl Island {
         // Champions that meet may be more than survive a generation.
         let most = settings.parents.max(2).max(settings.lanes.saturating_add(1));
         (has_learnt || (is_new && self.offspring.is_empty()))
-            && self.stagnation <= generations
+            && self.stagnation <= children
             && self.population.len() <= most
             && self.population.iter().all(|one| is_individual(&one.genome, space))
             && self
@@ -124,11 +127,12 @@ impl Island {
         }
     }
 
-    /// Appends a generation of children to `members`; `draws` gives each its own stream.
+    /// Appends `size` children to `members`; `draws` gives each its own stream.
     pub(super) fn breed(
         &mut self,
         space: &SearchSpace,
         settings: &EvolutionSettings,
+        size: usize,
         draws: impl Fn(u32) -> Stream,
         members: &mut Vec<Genome>,
     ) {
@@ -141,8 +145,7 @@ impl Island {
             operator_credit: &self.operator_credit,
             greed: settings.greed,
         };
-        let children =
-            (0..settings.children.max(1)).map(|member| self.child(&variation, draws(member as u32)));
+        let children = (0..size).map(|member| self.child(&variation, draws(member as u32)));
         let (genomes, offspring): (Vec<_>, Vec<_>) = children.unzip();
         members.extend(genomes);
         self.offspring.push_back(offspring);

@@ -39,9 +39,14 @@ pub struct Evolution {
     settings: EvolutionSettings,
     seed: u64,
     start: Start,
+    /// Broods that have been told.
     round: u64,
     islands_begun: u64,
     island: Island,
+    /// Broods of children of the island that have been told.
+    broods: u64,
+    /// Whether what was told last ended a generation.
+    ended: bool,
     /// The best of each island since the elites last met, theirs included.
     elites: Vec<Scored>,
 }
@@ -49,6 +54,10 @@ pub struct Evolution {
 /// Purposes of the draws.
 const FIRST: u32 = 0;
 const CHILD: u32 = 1;
+
+/// The lag grows by one after so many broods of an island: at its beginning every tree teaches much, and a
+/// child that is bred a moment later is the better for it.
+const BROODS_A_LAG: u64 = 10;
 
 impl Evolution {
     /// Starts from the lists of `start` and variations of them, or from random lists.
@@ -61,6 +70,8 @@ impl Evolution {
             round: 0,
             islands_begun: 0,
             island: Island::default(),
+            broods: 0,
+            ended: false,
             elites: Vec::new(),
         }
     }
@@ -75,13 +86,26 @@ impl Evolution {
     /// Whether the island has not improved for long.
     fn has_stagnated(&self) -> bool {
         let patience = (self.settings.patience * self.settings.parents) as u64;
-        self.island.stagnation() * self.settings.children.max(1) as u64 > patience
+        self.island.stagnation() > patience
+    }
+
+    /// Broods of a generation.
+    fn broods_a_generation(&self) -> u64 {
+        self.settings.children.max(1).div_ceil(self.settings.brood.max(1)) as u64
+    }
+
+    /// Children of brood `number` of an island: the last of a generation may be smaller than the others.
+    fn brood_size(&self, number: u64) -> usize {
+        let before = (number % self.broods_a_generation()) as usize * self.settings.brood.max(1);
+        self.settings.brood.max(1).min(self.settings.children.max(1) - before)
     }
 
     /// Ends the island and prepares the next.
     fn change_lanes(&mut self) {
         self.elites.extend(self.island.best().cloned());
         self.island = Island::default();
+        self.broods = 0;
+        self.ended = true;
         self.islands_begun += 1;
         if self.elites.len() > self.settings.lanes.max(1) {
             self.island.settle(std::mem::take(&mut self.elites), usize::MAX);
@@ -116,7 +140,11 @@ impl Method for Evolution {
 
     fn lag(&self) -> usize {
         // Islands begin and end with nothing out.
-        if self.island.is_empty() || self.has_stagnated() { 0 } else { self.settings.lag }
+        if self.island.is_empty() || self.has_stagnated() {
+            return 0;
+        }
+        let grown = 1 + usize::try_from(self.broods / BROODS_A_LAG).unwrap_or(usize::MAX);
+        grown.min(self.settings.lag)
     }
 
     fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>) {
@@ -124,10 +152,11 @@ impl Method for Evolution {
             self.begin(space, members);
             return;
         }
-        // Rounds are counted when they are told; what is out will be by then.
-        let round = self.round + self.island.out() as u64;
+        // Both are counted when they are told; what is out will be by then.
+        let out = self.island.out() as u64;
+        let (round, size) = (self.round + out, self.brood_size(self.broods + out));
         let draws = |member| Stream::at(self.seed, CHILD, round, member);
-        self.island.breed(space, &self.settings, draws, members);
+        self.island.breed(space, &self.settings, size, draws, members);
     }
 
     fn tell(&mut self, _: &SearchSpace, members: &[Genome], scores: &[Score]) {
@@ -136,20 +165,31 @@ impl Method for Evolution {
         let newborn = newborn.map(|(genome, score)| Scored { genome: genome.clone(), score: *score });
         if self.island.is_empty() {
             self.island.settle(newborn.collect(), self.settings.parents);
+            self.ended = true;
             return;
         }
         self.island.learn(scores);
+        self.island.age(scores.len());
         self.island.settle(newborn.collect(), self.settings.parents);
+        self.broods += 1;
+        self.ended = self.broods.is_multiple_of(self.broods_a_generation());
         if self.island.out() == 0 && self.has_stagnated() {
             self.change_lanes();
         }
     }
 
+    fn ends_generation(&self) -> bool {
+        self.ended
+    }
+
     fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
-        self.round <= generations
+        let broods = (generations + 1).saturating_mul(self.broods_a_generation());
+        let children = (generations + 1).saturating_mul(self.settings.children.max(1) as u64);
+        self.round <= broods
+            && self.broods <= broods
             && self.islands_begun <= generations
             && self.elites.len() <= self.settings.lanes.max(1)
             && self.elites.iter().all(|elite| is_individual(&elite.genome, space))
-            && self.island.suits(space, &self.settings, generations, pending)
+            && self.island.suits(space, &self.settings, children, pending)
     }
 }

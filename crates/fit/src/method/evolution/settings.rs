@@ -12,7 +12,10 @@ pub struct EvolutionSettings {
     pub parents: usize,
     /// Children in a generation, at least 1.
     pub children: usize,
-    /// Generations that may be out, waiting for their scores, when the next is bred: what keeps threads busy.
+    /// Children that are bred at once, from what is known by then.
+    pub brood: usize,
+    /// Broods that may wait for their scores when the next is bred, once an island has got going: more keep more
+    /// threads busy, and know less of each other.
     pub lag: usize,
     /// First step of every number, as a part of its search range.
     pub step: f64,
@@ -37,7 +40,8 @@ impl Default for EvolutionSettings {
             first: 200,
             parents: 30,
             children: 20,
-            lag: 1,
+            brood: 5,
+            lag: 7,
             step: 0.15,
             sparsity: 0.8,
             greed: 2.0,
