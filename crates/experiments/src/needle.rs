@@ -123,7 +123,7 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
     let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIZE, SIZE);
     let mut goal = Bitmap::default();
     // As searches draw, so that the truth itself is a perfect match.
-    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
+    Rasterizer::for_searches(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
     let ellipse = ScoreCard::new(&goal, &goal)?.best_ellipse_iou;
     let generator = &species.generator;
     let truth = Genome::new(species.params.values().to_vec(), TREE_SEED);

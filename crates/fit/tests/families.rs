@@ -29,7 +29,7 @@ fn goal_of_pole(species: &Species) -> FitProblem {
     let tree = species.grow(1).unwrap();
     let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 64, 64);
     let mut goal = Bitmap::default();
-    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
+    Rasterizer::for_searches(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
     FitProblem::new(pleach_generators::preset("palm").unwrap(), GoalView::new(goal, View::FRONT, frame))
 }
 

@@ -108,7 +108,7 @@ fn bare(name: &str, seed: u64) -> FitProblem {
     let goal = &mut problem.goals[0];
     goal.frame = Frame::automatic(&tree, &View::FRONT, Parts::BARE, 96, 96);
     let mut picture = Bitmap::default();
-    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &goal.frame, Parts::BARE, &mut picture);
+    Rasterizer::for_searches(Detail::Half).draw(&tree, &View::FRONT, &goal.frame, Parts::BARE, &mut picture);
     goal.goal = picture;
     problem
 }
@@ -153,7 +153,7 @@ fn what_is_near_one_goal_is_not_kept_for_the_next() {
         let tree = pole("goal", 20.0, girth(number)).grow(1).unwrap();
         let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 128, 128);
         let mut drawn = Bitmap::default();
-        Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut drawn);
+        Rasterizer::for_searches(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut drawn);
         FitProblem::new(pole("start", 10.0, 0.1), GoalView::new(drawn, View::FRONT, frame))
     };
     let settings = FitSettings::default();

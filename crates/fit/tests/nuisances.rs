@@ -25,7 +25,7 @@ fn two_views(azimuth: f64, off: Placement, unknown: Unknown) -> FitProblem {
     let view = View::degrees(azimuth, 0.0);
     let frame = Frame::automatic(&tree, &view, Parts::LEAFY, SIZE, SIZE);
     let mut goal = Bitmap::default();
-    Rasterizer::with_detail(Detail::Half).draw(&tree, &view, &off.frame(&frame), Parts::LEAFY, &mut goal);
+    Rasterizer::for_searches(Detail::Half).draw(&tree, &view, &off.frame(&frame), Parts::LEAFY, &mut goal);
     // What is told of the direction is 10 degrees off.
     let view = View::degrees(azimuth - 10.0, 0.0);
     problem.goals.push(GoalView { unknown, ..GoalView::new(goal, view, frame) });

@@ -2,7 +2,7 @@
 
 use super::compare::Comparisons;
 use pleach_silhouette::{Bitmap, Detail, Rasterizer};
-use pleach_tree::{CheckedParams, Generator, Growth, Tree, Workspace};
+use pleach_tree::{CheckedParams, Generator, Growth, StemKind, Tree, Workspace};
 
 /// Memory that one thread reuses from one evaluation to the next: about the largest tree so far.
 #[derive(Debug)]
@@ -41,6 +41,12 @@ impl EvalWorkspace {
     pub(super) fn grow(&mut self, generator: &dyn Generator, growth: &Growth) -> bool {
         self.params.set(&self.values).is_ok()
             && generator.grow(&self.params, growth, &mut self.workspace, &mut self.tree).is_ok()
+    }
+
+    /// Whether the tree stands on one trunk. How far apart several stand may not grow with them.
+    pub(super) fn has_one_trunk(&self) -> bool {
+        let mut trunks = self.tree.stems.iter().filter(|stem| stem.kind == StemKind::Trunk);
+        trunks.next().is_some() && trunks.next().is_none()
     }
 
     /// The tree of the last evaluation.

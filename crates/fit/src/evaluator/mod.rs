@@ -191,7 +191,7 @@ impl Evaluator {
             return Some(Matched { resized: 1.0, magnified: 1.0 });
         };
         let is_flat = || self.views.iter().all(PreparedView::is_orthographic);
-        let is_near = (1.0 / NEAR..NEAR).contains(&factor);
+        let is_near = (1.0 / NEAR..NEAR).contains(&factor) && memory.has_one_trunk();
         let in_proportion = genome.structure.is_some() && generator.grows_in_proportion();
         if (is_near || in_proportion) && is_flat() {
             return Some(Matched { resized: factor, magnified: factor });
@@ -264,7 +264,7 @@ impl Evaluator {
 }
 
 /// Trees that are to be resized by less than this factor are drawn at another scale instead.
-const NEAR: f64 = 1.25;
+const NEAR: f64 = 1.15;
 
 /// How a tree was brought to the height of its goal.
 struct Matched {

@@ -11,6 +11,6 @@ pub(crate) fn goal_of(species: &str, seed: u64, size: u32) -> FitProblem {
     let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, size, size);
     let mut goal = Bitmap::default();
     // Drawn as the evaluator draws, so that the truth is a perfect match.
-    Rasterizer::with_detail(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
+    Rasterizer::for_searches(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
     FitProblem::new(species, GoalView::new(goal, View::FRONT, frame))
 }

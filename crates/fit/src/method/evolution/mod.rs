@@ -57,7 +57,7 @@ const CHILD: u32 = 1;
 
 /// The lag grows by one after so many broods of an island: at its beginning every tree teaches much, and a
 /// child that is bred a moment later is the better for it.
-const BROODS_A_LAG: u64 = 10;
+const BROODS_A_LAG: u64 = 40;
 
 impl Evolution {
     /// Starts from the lists of `start` and variations of them, or from random lists.
