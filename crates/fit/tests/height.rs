@@ -14,7 +14,8 @@ fn what_is_nearly_of_the_right_height_scores_as_if_it_were() {
     let mut differences = Vec::new();
     for name in pleach_generators::HEWITT_2017 {
         let problem = common::goal_of(name, 1, 256);
-        let evaluator = Evaluator::new(&problem, Objective::Balance, FIT_LIMITS).unwrap().with_height_matching();
+        let evaluator =
+            Evaluator::new(&problem, Objective::Balance, FIT_LIMITS).unwrap().with_height_matching();
         let mut memory = evaluator.workspace();
         let mut score = |factors: &[f64]| {
             let mut values = problem.start.params.values().to_vec();
