@@ -56,6 +56,11 @@ pub struct Growth<'a> {
     pub foliage: Foliage,
     /// Whether the stems of a big tree may be grown on rayon's threads. The tree is the same.
     pub parallel: bool,
+    /// Whether a tree that looks too large while it grows is counted ahead, without growing the rest, and given up
+    /// at once if it will pass a limit. Trees within the limits are the same, and those beyond fail; but the
+    /// error may name another one of the limits that they pass, and blame other parameters. Generators that
+    /// cannot count do not.
+    pub counts_ahead: bool,
     /// Stems with draws of their own; generators without [spreads](crate::Generator::spreads) have none.
     pub draws: Option<&'a Draws>,
 }

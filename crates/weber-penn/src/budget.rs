@@ -13,6 +13,11 @@ const TELL: u64 = 1024;
 /// Stems that wait in one part may be this fraction of the limit; beyond, one thread grows alone.
 const WAITING_SHARE: usize = 16;
 
+/// Part of a limit that has to be spent before it is worth counting what is to come.
+const LEAST_SPENT: f64 = 0.01;
+/// Part of a limit that a tree has to be likely to spend for that.
+const LOOKS_SHORT: f64 = 0.6;
+
 /// Stems that may wait to be pruned for each stem of the limit: most of them may vanish.
 const WAITING_PER_STEM: usize = 8;
 /// Where memory matters, though, no more wait than there may be stems: a quarter of a kilobyte each.
@@ -142,7 +147,12 @@ impl Budget<'_> {
 
     /// Counts a leaf or blossom.
     pub(crate) const fn leaf(&mut self) -> Result<(), Exceeded> {
-        self.spent.leaves += 1;
+        self.leaves(1)
+    }
+
+    /// Counts leaves or blossoms.
+    pub(crate) const fn leaves(&mut self, count: usize) -> Result<(), Exceeded> {
+        self.spent.leaves += count;
         if self.spent.leaves > self.limits.leaves { Err(Exceeded::Leaves) } else { Ok(()) }
     }
 
@@ -158,6 +168,25 @@ impl Budget<'_> {
         let most = stems.saturating_mul(WAITING_PER_STEM);
         let room = if stems > FREE_WAITING { stems } else { FREE_WAITING };
         if waiting > most || waiting > room { Err(Exceeded::Waiting) } else { Ok(()) }
+    }
+
+    /// Whether the tree would pass a limit if the rest of its `all` branches were like the `done` ones.
+    ///
+    /// Not before some work has been done, and earlier than it would come to pass: branches differ.
+    pub(crate) fn looks_short(&self, done: usize, all: usize) -> bool {
+        let (limits, spent) = (&self.limits, &self.spent);
+        let part = |spent: u64, limit: u64| spent as f64 / (limit as f64).max(1.0);
+        let spent = part(spent.stems as u64, limits.stems as u64)
+            .max(part(spent.leaves as u64, limits.leaves as u64))
+            .max(part(spent.knots as u64, limits.knots as u64))
+            .max(part(spent.work, limits.work));
+        spent > LEAST_SPENT && spent * all as f64 > LOOKS_SHORT * done as f64
+    }
+
+    /// A budget of its own that goes on from what has been spent so far.
+    pub(crate) const fn trial(&self) -> Budget<'static> {
+        let Self { limits, prunes, spent, steps, .. } = *self;
+        Budget { limits, prunes, spent, told: spent, pool: None, steps }
     }
 
     /// Adds what is new to the pool, if there is one, and fails if the sums are over.

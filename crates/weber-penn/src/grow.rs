@@ -5,6 +5,7 @@
 
 use crate::blame;
 use crate::budget::{Budget, Cause, Exceeded, POINT_STEPS, SOLIDS_A_STEP, TRIAL_STEPS};
+use crate::census;
 use crate::certain;
 use crate::children;
 use crate::leaves;
@@ -12,7 +13,6 @@ use crate::model::Model;
 use crate::path::{Forks, PathPoint, walk};
 use crate::prune;
 use crate::purpose;
-use crate::radius::Profile;
 use crate::solid::Surroundings;
 use crate::stem::{ForkStart, StemSpec};
 use crate::trunks;
@@ -50,7 +50,7 @@ pub(crate) struct GrowContext<'a> {
 pub(crate) struct Buffers<'a> {
     pub(crate) tree: &'a mut Tree,
     pub(crate) path: &'a mut Vec<PathPoint>,
-    forked_stems: &'a mut Vec<StemSpec>,
+    pub(crate) forked_stems: &'a mut Vec<StemSpec>,
     /// Stems that wait to be grown. Within a stem's own, the next to grow is the last.
     pub(crate) children: &'a mut Vec<StemSpec>,
     pub(crate) budget: Budget<'a>,
@@ -91,6 +91,16 @@ pub(crate) fn grow(
 impl GrowContext<'_> {
     /// Grows the trunks, then what they carry.
     fn tree(&self, buffers: &mut Buffers<'_>, root: Key, sites: &mut Vec<DVec2>) -> Result<(), Exceeded> {
+        self.trunks(buffers, root, sites)?;
+        let parallel = self.growth.parallel && buffers.children.len() >= PARALLEL_BRANCHES;
+        if parallel && self.branches_in_parallel(buffers.children, &buffers.budget, buffers.tree).is_ok() {
+            return Ok(());
+        }
+        self.branches(buffers)
+    }
+
+    /// Grows the trunks; their branches wait.
+    fn trunks(&self, buffers: &mut Buffers<'_>, root: Key, sites: &mut Vec<DVec2>) -> Result<(), Exceeded> {
         trunks::sites(self.model, root, sites, &mut buffers.budget)?;
         for (i, site) in sites.iter().enumerate() {
             let trunk = self.trunk(root, i as u32, *site, sites.len() == 1);
@@ -98,11 +108,23 @@ impl GrowContext<'_> {
             let mut carry = if i == 0 { 0.0 } else { trunk.key.unit(purpose::SPLIT_PHASE, 0) };
             self.stem(buffers, trunk, &mut carry)?;
         }
-        let parallel = self.growth.parallel && buffers.children.len() >= PARALLEL_BRANCHES;
-        if parallel && self.branches_in_parallel(buffers.children, &buffers.budget, buffers.tree).is_ok() {
-            return Ok(());
+        Ok(())
+    }
+
+    /// Grows the first-level branches, which wait, and what they carry.
+    fn branches(&self, buffers: &mut Buffers<'_>) -> Result<(), Exceeded> {
+        let all = buffers.children.len();
+        buffers.children.reverse();
+        let mut counts_ahead = self.growth.counts_ahead && self.model.prune_ratio <= 0.0;
+        while let Some(branch) = buffers.children.pop() {
+            self.branch(buffers, branch)?;
+            let left = buffers.children.len();
+            if counts_ahead && buffers.budget.looks_short(all - left, all) {
+                counts_ahead = false;
+                census::count(self, buffers)?;
+            }
         }
-        self.waiting(buffers, 0)
+        Ok(())
     }
 
     /// Grows the stems that wait, down to number `first`.
@@ -161,8 +183,7 @@ impl GrowContext<'_> {
 
     /// A child stem and everything on it.
     fn branch(&self, buffers: &mut Buffers<'_>, branch: StemSpec) -> Result<(), Exceeded> {
-        let seg_splits = self.model.levels[branch.level].seg_splits;
-        let mut carry = if seg_splits > 0.0 { branch.key.unit(purpose::SPLIT_PHASE, 0) } else { 0.0 };
+        let mut carry = branch.first_carry(self.model);
         self.stem(buffers, branch, &mut carry)
     }
 
@@ -200,11 +221,7 @@ impl GrowContext<'_> {
     fn stem(&self, buffers: &mut Buffers<'_>, mut stem: StemSpec, carry: &mut f64) -> Result<(), Exceeded> {
         let model = self.model;
         let level = &model.levels[stem.level];
-        let next = model.child_level(stem.level);
-        let child_length = stem.forked.map_or_else(
-            || (next.length + stem.key.signed(purpose::CHILD_LENGTH, 0) * next.length_v).max(0.0),
-            |clone| clone.child_length,
-        );
+        let child_length = stem.child_length(model);
         if model.prune_ratio > 0.0 && stem.forked.is_none_or(|_| level.split_angle_v < 0.0) {
             let Some(length) = self.prune(buffers, &stem, *carry)? else { return Ok(()) };
             stem.length = length;
@@ -214,7 +231,7 @@ impl GrowContext<'_> {
                 stem.radius = stem.branch_radius(model);
             }
         }
-        if !stem.length.is_finite() || stem.length < MIN_LENGTH {
+        if !stem.is_made() {
             return Ok(());
         }
 
@@ -222,7 +239,7 @@ impl GrowContext<'_> {
         let first_clone = buffers.forked_stems.len();
         let first_child = buffers.children.len();
         let mut forks = Collect { growth: self.growth, origin: stem, forked_stems: buffers.forked_stems };
-        buffers.budget.work(Cause::Walk, stem.level, POINT_STEPS * self.points(&stem))?;
+        buffers.budget.work(Cause::Walk, stem.level, POINT_STEPS * u64::from(stem.points(model)))?;
         walk(model, &stem, stem.length, child_length, carry, buffers.path, &mut forks);
         let index = buffers.tree.stems.len() as u32;
         self.emit(buffers, &stem, first_point)?;
@@ -242,10 +259,7 @@ impl GrowContext<'_> {
         for i in first_clone..last_clone {
             let mut clone = buffers.forked_stems[i];
             clone.parent = Some(index);
-            // Where the fork is on the stem that it leaves, in metres from that stem's own first point.
-            clone.offset = stem.length * f64::from(clone.start() - stem.start()) / f64::from(level.curve_res);
-            clone.length = stem.length;
-            clone.radius = stem.radius;
+            clone.adopt(model, &stem);
             self.stem(buffers, clone, carry)?;
         }
         buffers.forked_stems.truncate(first_clone);
@@ -259,7 +273,7 @@ impl GrowContext<'_> {
         let Self { model, surroundings, .. } = *self;
         let first = buffers.path.len();
         let solids = surroundings.inside.as_ref().map_or(0, Vec::len) + surroundings.obstacles.len();
-        let points = self.points(stem);
+        let points = u64::from(stem.points(model));
         let judged = if stem.level == 0 { 1 } else { points };
         let steps = TRIAL_STEPS * points + judged * (solids as u64 / SOLIDS_A_STEP);
         prune::pruned_length(model.prune_ratio, stem.length, |length| {
@@ -273,27 +287,19 @@ impl GrowContext<'_> {
         })
     }
 
-    /// Points of the path of `stem`.
-    fn points(&self, stem: &StemSpec) -> u64 {
-        u64::from(self.model.levels[stem.level].curve_res - stem.start() + 1)
-    }
-
     /// Writes the path of `stem` to the tree as a stem with knots.
     fn emit(&self, buffers: &mut Buffers<'_>, stem: &StemSpec, first_point: usize) -> Result<(), Exceeded> {
         let model = self.model;
         let level = &model.levels[stem.level];
-        let profile = self.profile(stem);
+        let profile = stem.profile(model);
         let path = &buffers.path[first_point..];
-        // Flare and beads change the radius faster than the path bends: more knots on the same path.
-        let fine = stem.level == 0 || level.taper > 1.0;
-        let per_piece = if fine { 100_u32.div_ceil(level.curve_res).max(2) } else { 2 };
-        let made = (path.len() - 1) * (per_piece as usize - 1) + 1;
+        let (per_piece, made) = (stem.knots_a_piece(model), stem.knots(model));
         buffers.budget.work(Cause::Walk, stem.level, made as u64)?;
         buffers.budget.stem(made)?;
         let knots = &mut buffers.tree.knots;
         let first_knot = knots.len() as u32;
         let site = |i: f64| (f64::from(stem.start()) + i) / f64::from(level.curve_res);
-        if fine {
+        if stem.is_fine(model) {
             resample(path, per_piece, knots, |i| profile.at(site(i)));
         } else {
             knots.extend(path.iter().enumerate().map(|(i, p)| Knot {
@@ -321,17 +327,7 @@ impl GrowContext<'_> {
         });
         Ok(())
     }
-
-    /// Radius along `stem`.
-    pub(crate) fn profile(&self, stem: &StemSpec) -> Profile {
-        let taper = self.model.levels[stem.level].taper;
-        let flare = if stem.level == 0 { self.model.flare } else { 0.0 };
-        Profile { base: stem.radius, length: stem.length, taper, flare }
-    }
 }
-
-/// Stems shorter than this, in metres, are not made.
-pub(crate) const MIN_LENGTH: f64 = 1e-4;
 
 /// Collects the forks of a stem.
 struct Collect<'a> {
@@ -342,22 +338,12 @@ struct Collect<'a> {
 
 impl Forks for Collect<'_> {
     fn clone_at(&mut self, mut turtle: Turtle, state: ForkStart, index: u32) {
-        let origin = &self.origin;
-        let address = origin.address.fork(index);
-        let draw = self.growth.draw(address, origin.level);
+        let (fork, draw) = self.origin.fork_at(self.growth, state, index);
         if draw != Draw::OWN {
             turtle.rotate_about(DVec3::Z, draw.azimuth);
             turtle.pitch_down(draw.pitch);
         }
-        self.forked_stems.push(StemSpec {
-            key: draw.key(origin.key.child(purpose::CLONE, index)),
-            fork_key: origin.fork_key.child(purpose::CLONE, index),
-            address,
-            number: index,
-            turtle,
-            forked: Some(state),
-            ..*origin
-        });
+        self.forked_stems.push(StemSpec { turtle, ..fork });
     }
 }
 
@@ -382,6 +368,54 @@ fn resample(path: &[PathPoint], per_piece: u32, knots: &mut Vec<Knot>, radius: i
                 handle_out: point + reach,
                 radius: radius(i as f64 + t),
             });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::space;
+    use crate::params::table::Id;
+    use pleach_tree::Limits;
+
+    /// What growing the branches costs, and what the census says that it will.
+    fn costs(values: &[f64], seed: u64) -> (Budget<'static>, Budget<'static>) {
+        let model = Model::new(values);
+        let growth = Growth::seed(seed);
+        let surroundings = Surroundings::default();
+        let context = GrowContext { model: &model, surroundings: &surroundings, growth: &growth };
+        let (mut tree, mut scratch) = (Tree::default(), Scratch::default());
+        let Scratch { path, forked_stems, children, sites } = &mut scratch;
+        let budget = Budget::new(Limits::DEFAULT, false);
+        let mut buffers = Buffers { tree: &mut tree, path, forked_stems, children, budget };
+        context.trunks(&mut buffers, Key::root(seed), sites).unwrap();
+        buffers.children.reverse();
+        let counted = census::count(&context, &mut buffers).unwrap();
+        assert!(buffers.forked_stems.is_empty(), "the census leaves nothing behind");
+        buffers.children.reverse();
+        context.branches(&mut buffers).unwrap();
+        (buffers.budget.trial(), counted.trial())
+    }
+
+    #[test]
+    fn the_census_counts_what_grows() {
+        for name in crate::HEWITT_2017 {
+            let mut values = crate::preset(name).unwrap().params.values().to_vec();
+            values[Id::prune_ratio.slot(0).index()] = 0.0;
+            for (seed, splits, whorls) in [(1, None, 0.0), (2, Some(0.4), 0.0), (3, Some(1.3), 2.5)] {
+                for level in 1..3 {
+                    if let Some(splits) = splits {
+                        values[Id::seg_splits.slot(level).index()] = splits;
+                    }
+                    if whorls > 0.0 {
+                        values[Id::branch_dist.slot(level).index()] = whorls;
+                    }
+                }
+                space().check(values.clone()).unwrap();
+                let (grown, counted) = costs(&values, seed);
+                assert_eq!(format!("{grown:?}"), format!("{counted:?}"), "{name}, seed {seed}");
+            }
         }
     }
 }

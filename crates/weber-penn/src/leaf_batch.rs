@@ -256,8 +256,8 @@ const ATAN: [f32; 5] = [0.999_999_98, -0.333_327_86, 0.199_740_82, -0.138_484_9,
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::children::{ChildSite, Spacing};
     use crate::model::Level;
+    use crate::spacing::{ChildSite, Spacing};
     use crate::stem::StemSpec;
     use pleach_tree::Key;
     use pleach_tree::turtle::Turtle;

@@ -3,10 +3,12 @@
 //! Weber and Penn 1995, §4.9; Hewitt 2017, §3.2.2.
 
 use crate::budget::{Cause, Exceeded};
-use crate::children::{ChildFrame, Spacing, relative_length};
+use crate::children::relative_length;
 use crate::grow::{Buffers, GrowContext};
 use crate::leaf_batch::{LANES, LeafBatch, LeafSite};
+use crate::model::Model;
 use crate::purpose;
+use crate::spacing::{ChildFrame, Spacing};
 use crate::stem::StemSpec;
 use glam::Vec3;
 use pleach_tree::{Leaf, Tree};
@@ -21,14 +23,8 @@ pub(crate) fn grow(
 ) -> Result<(), Exceeded> {
     let model = context.model;
     let relative_scale = stem.scale / model.g_scale;
-    let spacing = Spacing {
-        stem,
-        level: &model.levels[stem.level],
-        next: model.child_level(stem.level),
-        count: model.leaf_blos_num * relative_scale * relative_length(stem),
-        forks_cost: false,
-    };
-    let profile = context.profile(stem);
+    let spacing = spacing(model, stem);
+    let profile = stem.profile(model);
     let kinds = Kinds {
         stem: (stem, index),
         blossom_rate: model.blossom_rate,
@@ -68,6 +64,17 @@ pub(crate) fn grow(
     })?;
     kinds.flush(tree, &mut batch, &numbers, helix, model.leaf_bend);
     Ok(())
+}
+
+/// How the leaves and blossoms of `stem` are spaced.
+pub(crate) fn spacing<'a>(model: &'a Model, stem: &'a StemSpec) -> Spacing<'a> {
+    Spacing {
+        stem,
+        level: &model.levels[stem.level],
+        next: model.child_level(stem.level),
+        count: model.leaf_blos_num * (stem.scale / model.g_scale) * relative_length(stem),
+        forks_cost: false,
+    }
 }
 
 /// How large the leaves and blossoms of a stem are, and which are which.

@@ -15,6 +15,7 @@
 
 mod blame;
 mod budget;
+mod census;
 mod certain;
 mod children;
 mod family;
@@ -29,6 +30,7 @@ mod prune;
 mod purpose;
 mod radius;
 mod solid;
+mod spacing;
 mod spread;
 mod stem;
 mod trunks;

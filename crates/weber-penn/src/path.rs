@@ -102,15 +102,15 @@ pub(crate) fn walk(
 
 /// A fork about to happen.
 #[derive(Clone, Copy, Debug, Default)]
-struct Parting {
+pub(crate) struct Parting {
     /// Number of forks that leave.
-    forked_stems: u32,
+    pub(crate) forked_stems: u32,
     /// Whether this is the fork where the trunk's bare base ends.
     base: bool,
 }
 
 /// How many forks leave at point `i`; updates the fork state.
-fn forks_at(
+pub(crate) fn forks_at(
     model: &Model,
     stem: &StemSpec,
     i: u32,
@@ -135,6 +135,11 @@ fn forks_at(
     fork.branch_factor = (fork.branch_factor / (forked_stems + 1.0)).max(0.8);
     *keep *= fork.branch_factor;
     Parting { forked_stems: forked_stems as u32, base: false }
+}
+
+/// What tells fork `j` of those that leave at point `i` from the other forks of its stem.
+pub(crate) const fn fork_index(i: u32, j: u32) -> u32 {
+    i * 32 + j
 }
 
 /// Clones where the bare base ends; a negative number is the most that may be drawn.
@@ -194,7 +199,7 @@ fn part(
             clone.rotate_about(DVec3::Z, about);
         }
         let state = ForkStart { start: i, first_handle, child_length, fork: *fork };
-        forks.clone_at(clone, state, i * 32 + j);
+        forks.clone_at(clone, state, fork_index(i, j));
     }
 
     if direct {

@@ -1,9 +1,11 @@
 //! What is known of a stem before its path is walked.
 
 use crate::model::Model;
+use crate::purpose;
+use crate::radius::Profile;
 use pleach_tree::math;
 use pleach_tree::turtle::Turtle;
-use pleach_tree::{Address, Key};
+use pleach_tree::{Address, Draw, Growth, Key};
 
 /// A stem about to grow.
 #[derive(Clone, Copy, Debug)]
@@ -81,6 +83,77 @@ impl StemSpec {
         self.forked.map_or(ForkState::UNFORKED, |c| c.fork)
     }
 
+    /// Radius along the stem.
+    pub(crate) fn profile(&self, model: &Model) -> Profile {
+        let flare = if self.level == 0 { model.flare } else { 0.0 };
+        Profile { base: self.radius, length: self.length, taper: model.levels[self.level].taper, flare }
+    }
+
+    /// Whether it is long enough to be made.
+    pub(crate) fn is_made(&self) -> bool {
+        self.length.is_finite() && self.length >= MIN_LENGTH
+    }
+
+    /// The greatest relative length of its children.
+    pub(crate) fn child_length(&self, model: &Model) -> f64 {
+        let next = model.child_level(self.level);
+        self.forked.map_or_else(
+            || (next.length + self.key.signed(purpose::CHILD_LENGTH, 0) * next.length_v).max(0.0),
+            |fork| fork.child_length,
+        )
+    }
+
+    /// Points of the path.
+    pub(crate) fn points(&self, model: &Model) -> u32 {
+        model.levels[self.level].curve_res - self.start() + 1
+    }
+
+    /// Whether the radius changes faster than the path bends, by flare and beads: more knots on the same path.
+    pub(crate) fn is_fine(&self, model: &Model) -> bool {
+        self.level == 0 || model.levels[self.level].taper > 1.0
+    }
+
+    /// Knots for a piece of the path, both ends included; two are the path's own.
+    pub(crate) fn knots_a_piece(&self, model: &Model) -> u32 {
+        let curve_res = model.levels[self.level].curve_res;
+        if self.is_fine(model) { 100_u32.div_ceil(curve_res).max(2) } else { 2 }
+    }
+
+    /// Knots of the whole stem.
+    pub(crate) fn knots(&self, model: &Model) -> usize {
+        (self.points(model) as usize - 1) * (self.knots_a_piece(model) as usize - 1) + 1
+    }
+
+    /// The error of `seg_splits` with which a branch begins: in mid-pattern.
+    pub(crate) fn first_carry(&self, model: &Model) -> f64 {
+        let splits = model.levels[self.level].seg_splits > 0.0;
+        if splits { self.key.unit(purpose::SPLIT_PHASE, 0) } else { 0.0 }
+    }
+
+    /// Fork `index` of this stem, which leaves in `state`, and its draws; its turtle is still this stem's.
+    pub(crate) fn fork_at(&self, growth: &Growth<'_>, state: ForkStart, index: u32) -> (Self, Draw) {
+        let address = self.address.fork(index);
+        let draw = growth.draw(address, self.level);
+        let fork = Self {
+            key: draw.key(self.key.child(purpose::CLONE, index)),
+            fork_key: self.fork_key.child(purpose::CLONE, index),
+            address,
+            number: index,
+            forked: Some(state),
+            ..*self
+        };
+        (fork, draw)
+    }
+
+    /// Makes this a fork of `origin`, as that has grown.
+    pub(crate) fn adopt(&mut self, model: &Model, origin: &Self) {
+        // Where the fork is on the stem that it leaves, in metres from that stem's own first point.
+        let from_start = f64::from(self.start() - origin.start());
+        self.offset = origin.length * from_start / f64::from(model.levels[self.level].curve_res);
+        self.length = origin.length;
+        self.radius = origin.radius;
+    }
+
     /// Base radius of a branch of this length (Weber and Penn 1995, §4.4; `radius_mod` and the floor
     /// are Hewitt's): thinner by a power of the length ratio, never thicker than its parent there.
     pub(crate) fn branch_radius(&self, model: &Model) -> f64 {
@@ -90,6 +163,9 @@ impl StemSpec {
         radius.max(MIN_RADIUS).min(self.radius_limit)
     }
 }
+
+/// Stems shorter than this, in metres, are not made.
+const MIN_LENGTH: f64 = 1e-4;
 
 /// Branches are at least this thick, in metres, unless their parent is thinner.
 const MIN_RADIUS: f64 = 0.005;

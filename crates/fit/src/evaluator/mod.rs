@@ -166,7 +166,7 @@ impl Evaluator {
             knots: self.limits.knots.min(most.knots),
             ..self.limits
         };
-        Growth { seed, limits, foliage, ..Growth::default() }
+        Growth { seed, limits, foliage, counts_ahead: true, ..Growth::default() }
     }
 
     /// Grows `genome`'s tree into `memory` at the height that it should have; none if it does not grow.
