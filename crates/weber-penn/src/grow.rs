@@ -10,7 +10,7 @@ use crate::certain;
 use crate::children;
 use crate::leaves;
 use crate::model::Model;
-use crate::path::{Forks, PathPoint, walk};
+use crate::path::{Forks, PathPoint, lay_out, stretch, walk};
 use crate::prune;
 use crate::purpose;
 use crate::solid::Surroundings;
@@ -222,11 +222,23 @@ impl GrowContext<'_> {
         let model = self.model;
         let level = &model.levels[stem.level];
         let child_length = stem.child_length(model);
-        if model.prune_ratio > 0.0 && stem.forked.is_none_or(|_| level.split_angle_v < 0.0) {
-            let Some(length) = self.prune(buffers, &stem, *carry)? else { return Ok(()) };
-            stem.length = length;
+        let first_point = buffers.path.len();
+        let first_clone = buffers.forked_stems.len();
+        let first_child = buffers.children.len();
+        let is_pruned = model.prune_ratio > 0.0 && stem.forked.is_none_or(|_| level.split_angle_v < 0.0);
+        if is_pruned {
+            let carry_before = *carry;
+            self.walk(buffers, &stem, child_length, carry);
+            let length = self.prune(buffers, &stem, first_point)?;
+            stem.length = length.unwrap_or(0.0);
+            if !stem.is_made() {
+                buffers.path.truncate(first_point);
+                buffers.forked_stems.truncate(first_clone);
+                *carry = carry_before;
+                return Ok(());
+            }
             if stem.level == 0 {
-                stem.radius = length * model.ratio * level.radius_mod;
+                stem.radius = stem.length * model.ratio * level.radius_mod;
             } else if stem.forked.is_none() {
                 stem.radius = stem.branch_radius(model);
             }
@@ -234,13 +246,12 @@ impl GrowContext<'_> {
         if !stem.is_made() {
             return Ok(());
         }
-
-        let first_point = buffers.path.len();
-        let first_clone = buffers.forked_stems.len();
-        let first_child = buffers.children.len();
-        let mut forks = Collect { growth: self.growth, origin: stem, forked_stems: buffers.forked_stems };
         buffers.budget.work(Cause::Walk, stem.level, POINT_STEPS * u64::from(stem.points(model)))?;
-        walk(model, &stem, stem.length, child_length, carry, buffers.path, &mut forks);
+        if is_pruned {
+            self.lay_out(buffers, &stem, first_point, first_clone);
+        } else {
+            self.walk(buffers, &stem, child_length, carry);
+        }
         let index = buffers.tree.stems.len() as u32;
         self.emit(buffers, &stem, first_point)?;
         if stem.level + 1 < model.level_count {
@@ -266,25 +277,44 @@ impl GrowContext<'_> {
         Ok(())
     }
 
-    /// The length that pruning leaves of `stem`, or `None` if it is dropped.
+    /// Walks the path of `stem` and collects its forks.
+    fn walk(&self, buffers: &mut Buffers<'_>, stem: &StemSpec, child_length: f64, carry: &mut f64) {
+        let mut forks = Collect { growth: self.growth, origin: *stem, forked_stems: buffers.forked_stems };
+        walk(self.model, stem, stem.length, child_length, carry, buffers.path, &mut forks);
+    }
+
+    /// The length that pruning leaves of `stem`, whose path has been walked, or `None` if it is dropped. Leaves the
+    /// path as it was tried last.
     ///
     /// The trunk is judged by its tip alone, as the add-on does: it would not fit at its foot.
-    fn prune(&self, buffers: &mut Buffers<'_>, stem: &StemSpec, carry: f64) -> Result<Option<f64>, Exceeded> {
+    fn prune(
+        &self,
+        buffers: &mut Buffers<'_>,
+        stem: &StemSpec,
+        first: usize,
+    ) -> Result<Option<f64>, Exceeded> {
         let Self { model, surroundings, .. } = *self;
-        let first = buffers.path.len();
         let solids = surroundings.inside.as_ref().map_or(0, Vec::len) + surroundings.obstacles.len();
         let points = u64::from(stem.points(model));
         let judged = if stem.level == 0 { 1 } else { points };
         let steps = TRIAL_STEPS * points + judged * (solids as u64 / SOLIDS_A_STEP);
         prune::pruned_length(model.prune_ratio, stem.length, |length| {
             buffers.budget.work(Cause::Pruning, stem.level, steps)?;
-            walk(model, stem, length, 1.0, &mut carry.clone(), buffers.path, &mut crate::path::NoForks);
+            stretch(model, stem, length, buffers.path, first);
             let points = &buffers.path[first + 1..];
             let judged = if stem.level == 0 { &points[points.len() - 1..] } else { points };
-            let fits = judged.iter().all(|p| prune::fits(model, surroundings, stem.scale, p.point));
-            buffers.path.truncate(first);
-            Ok(fits)
+            // From the tip, which is the most likely to stick out.
+            Ok(judged.iter().rev().all(|p| prune::fits(model, surroundings, stem.scale, p.point)))
         })
+    }
+
+    /// Moves the path of `stem` to where it is at its new length, and its forks with it.
+    fn lay_out(&self, buffers: &mut Buffers<'_>, stem: &StemSpec, first_point: usize, first_clone: usize) {
+        lay_out(self.model, stem, stem.length, buffers.path, first_point);
+        for fork in &mut buffers.forked_stems[first_clone..] {
+            let point = first_point + (fork.start() - stem.start()) as usize;
+            fork.turtle.position = buffers.path[point].point;
+        }
     }
 
     /// Writes the path of `stem` to the tree as a stem with knots.

@@ -25,16 +25,24 @@ pub(crate) struct PathPoint {
     pub(crate) keep: f64,
 }
 
-/// Receives the forks of a path; trials of pruning drop them.
-pub(crate) trait Forks {
-    fn clone_at(&mut self, turtle: Turtle, state: ForkStart, index: u32);
+impl PathPoint {
+    /// Where `turtle` has arrived, with handles that reach as far as `reach`.
+    fn new(turtle: &Turtle, reach: DVec3, keep: f64) -> Self {
+        let Turtle { position, direction, right } = *turtle;
+        let mut point =
+            Self { point: position, handle_in: position, handle_out: position, direction, right, keep };
+        point.stand_at(position, reach);
+        point
+    }
+
+    fn stand_at(&mut self, point: DVec3, reach: DVec3) {
+        (self.point, self.handle_in, self.handle_out) = (point, point - reach, point + reach);
+    }
 }
 
-/// Drops all forks.
-pub(crate) struct NoForks;
-
-impl Forks for NoForks {
-    fn clone_at(&mut self, _: Turtle, _: ForkStart, _: u32) {}
+/// Receives the forks of a path.
+pub(crate) trait Forks {
+    fn clone_at(&mut self, turtle: Turtle, state: ForkStart, index: u32);
 }
 
 /// Walks the path of `stem` at `length` metres for the whole stem; appends its points to `path`.
@@ -64,15 +72,8 @@ pub(crate) fn walk(
     let mut keep = fork.branch_factor;
     let mut turtle = stem.turtle;
 
-    let leave = stem.forked.and_then(|c| c.first_handle).unwrap_or(turtle.direction);
-    path.push(PathPoint {
-        point: turtle.position,
-        handle_in: turtle.position - leave * handle,
-        handle_out: turtle.position + leave * handle,
-        direction: turtle.direction,
-        right: turtle.right,
-        keep,
-    });
+    let leave = first_direction(stem);
+    path.push(PathPoint::new(&turtle, leave * handle, keep));
     for i in start + 1..=segments {
         turtle.walk(step);
         let parting = if i < segments {
@@ -80,14 +81,7 @@ pub(crate) fn walk(
         } else {
             Parting::default()
         };
-        path.push(PathPoint {
-            point: turtle.position,
-            handle_in: turtle.position - turtle.direction * handle,
-            handle_out: turtle.position + turtle.direction * handle,
-            direction: turtle.direction,
-            right: turtle.right,
-            keep,
-        });
+        path.push(PathPoint::new(&turtle, turtle.direction * handle, keep));
         if i == segments {
             break;
         }
@@ -97,6 +91,43 @@ pub(crate) fn walk(
             turn(level, stem, i, &fork, &mut turtle);
         }
         lean(&mut turtle, pull);
+    }
+}
+
+/// Direction in which the path of `stem` begins.
+fn first_direction(stem: &StemSpec) -> DVec3 {
+    stem.forked.and_then(|c| c.first_handle).unwrap_or(stem.turtle.direction)
+}
+
+/// Moves the points from number `first` on, which are the path of `stem` at another length, to where walking at
+/// `length` would have put them, to the last bit; handles may stay behind. But for helices, which are walked again,
+/// no turn depends on the length.
+pub(crate) fn stretch(model: &Model, stem: &StemSpec, length: f64, path: &mut Vec<PathPoint>, first: usize) {
+    let level = &model.levels[stem.level];
+    if level.is_helix() {
+        path.truncate(first);
+        helix(model, level, stem, length, path);
+        return;
+    }
+    let step = length / f64::from(level.curve_res);
+    let mut at = stem.turtle.position;
+    for point in &mut path[first + 1..] {
+        at += point.direction * step;
+        point.point = at;
+    }
+}
+
+/// [`stretch`], handles included.
+pub(crate) fn lay_out(model: &Model, stem: &StemSpec, length: f64, path: &mut Vec<PathPoint>, first: usize) {
+    stretch(model, stem, length, path, first);
+    let level = &model.levels[stem.level];
+    if level.is_helix() {
+        return;
+    }
+    let handle = length / f64::from(level.curve_res) / 3.0;
+    path[first].stand_at(stem.turtle.position, first_direction(stem) * handle);
+    for point in &mut path[first + 1..] {
+        point.stand_at(point.point, point.direction * handle);
     }
 }
 
@@ -315,6 +346,13 @@ mod tests {
         path
     }
 
+    /// Drops all forks.
+    struct NoForks;
+
+    impl Forks for NoForks {
+        fn clone_at(&mut self, _: Turtle, _: ForkStart, _: u32) {}
+    }
+
     const PLAIN: [(&str, f64); 6] = [
         ("curve", 0.0),
         ("curve_v", 0.0),
@@ -376,5 +414,35 @@ mod tests {
         stem.level = 2;
         let drooping = path(&model, &stem)[10].direction;
         assert!(drooping.z < -0.99, "{drooping}");
+    }
+
+    #[test]
+    fn a_stretched_path_is_the_path_walked_at_that_length() {
+        let same = |a: &PathPoint, b: &PathPoint| {
+            let all = |p: &PathPoint| [p.point, p.handle_in, p.handle_out, p.direction, p.right];
+            all(a) == all(b) && a.keep == b.keep
+        };
+        for name in crate::HEWITT_2017 {
+            let species = crate::preset(name).unwrap();
+            let mut values = species.params.values().to_vec();
+            for helix in [false, true] {
+                if helix {
+                    let slot = space().select("curve_v[1]").unwrap()[0];
+                    values[slot.index()] = -40.0;
+                }
+                let model = Model::new(&values);
+                let stem = StemSpec::test_stem();
+                let mut path = vec![PathPoint::new(&Turtle::UP, DVec3::X, 1.0)];
+                let mut forks = NoForks;
+                walk(&model, &stem, 10.0, 1.0, &mut 0.3, &mut path, &mut forks);
+                for length in [9.0, 3.7, 10.0, 1e-3] {
+                    let mut walked = Vec::new();
+                    walk(&model, &stem, length, 1.0, &mut 0.3, &mut walked, &mut forks);
+                    lay_out(&model, &stem, length, &mut path, 1);
+                    assert_eq!(path.len(), walked.len() + 1, "{name}");
+                    assert!(path[1..].iter().zip(&walked).all(|(a, b)| same(a, b)), "{name} at {length}");
+                }
+            }
+        }
     }
 }

@@ -17,7 +17,7 @@ pub(crate) fn fits(model: &Model, surroundings: &Surroundings, scale: f64, point
         None => {
             let foot = scale * (1.0 - model.levels[0].base_size);
             let q = (scale - point.z) / foot;
-            point.truncate().length() / scale < model.prune_width * model.envelope(q)
+            model.is_within_envelope(q, point.truncate().length() / scale)
         }
     };
     inside && !surroundings.obstacles.iter().any(|s| s.contains(point))

@@ -1,6 +1,6 @@
 //! What is known of a stem before its path is walked.
 
-use crate::model::Model;
+use crate::model::{Model, power_bounds};
 use crate::purpose;
 use crate::radius::Profile;
 use pleach_tree::math;
@@ -157,10 +157,22 @@ impl StemSpec {
     /// Base radius of a branch of this length (Weber and Penn 1995, §4.4; `radius_mod` and the floor
     /// are Hewitt's): thinner by a power of the length ratio, never thicker than its parent there.
     pub(crate) fn branch_radius(&self, model: &Model) -> f64 {
+        // Twigs on twigs: whatever the power is, the floor or the parent decides.
+        if self.radius_limit <= MIN_RADIUS {
+            return self.radius_limit;
+        }
         let part = self.length / self.parent_length;
-        let radius =
-            model.levels[self.level].radius_mod * self.parent_radius * math::pow(part, model.ratio_power);
-        radius.max(MIN_RADIUS).min(self.radius_limit)
+        let whole = model.levels[self.level].radius_mod * self.parent_radius;
+        // A power takes longer than all else that is known of a twig, and for most the bounds are enough.
+        if let Some((least, most)) = power_bounds(part, model.ratio_power) {
+            if whole * most < (1.0 - 1e-9) * MIN_RADIUS {
+                return MIN_RADIUS;
+            }
+            if whole * least > (1.0 + 1e-9) * self.radius_limit {
+                return self.radius_limit;
+            }
+        }
+        (whole * math::pow(part, model.ratio_power)).max(MIN_RADIUS).min(self.radius_limit)
     }
 }
 
@@ -192,5 +204,38 @@ impl StemSpec {
             scale: 20.0,
             forked: None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::space;
+
+    #[test]
+    fn radii_are_those_of_the_power() {
+        let mut model = Model::new(&space().defaults());
+        let (mut floored, mut limited, mut free) = (0, 0, 0);
+        for case in 0..20_000 {
+            let key = Key::root(case);
+            let unit = |i| key.unit(0, i);
+            model.ratio_power = 3.0 * unit(0);
+            model.levels[1].radius_mod = 2.0 * unit(1);
+            let stem = StemSpec {
+                length: 11.0 * unit(2),
+                parent_length: 10.0,
+                parent_radius: 0.3 * unit(3) * unit(4),
+                radius_limit: 0.3 * unit(5) * unit(6),
+                ..StemSpec::test_stem()
+            };
+            let power = math::pow(stem.length / stem.parent_length, model.ratio_power);
+            let radius = model.levels[1].radius_mod * stem.parent_radius * power;
+            let expected = radius.max(MIN_RADIUS).min(stem.radius_limit);
+            assert_eq!(stem.branch_radius(&model).to_bits(), expected.to_bits(), "case {case}");
+            floored += u32::from(expected == MIN_RADIUS);
+            limited += u32::from(expected == stem.radius_limit);
+            free += u32::from(expected == radius);
+        }
+        assert!(floored > 1000 && limited > 1000 && free > 1000, "{floored}, {limited}, {free}");
     }
 }
