@@ -145,8 +145,9 @@ impl<M> Search<M> {
         score.cost + self.space.prior_cost(genome)
     }
 
-    /// Individuals of the oldest brood that are out.
-    pub(crate) fn awaited(&self) -> usize {
+    /// Individuals of the oldest brood that have been handed out and not told.
+    #[must_use]
+    pub fn awaited(&self) -> usize {
         let untold = self.state.pending.front().map_or(0, Vec::len) - self.state.scores.len();
         untold.min(self.out)
     }

@@ -49,7 +49,7 @@ fn trees_of_the_kind_come_to_lie_on_the_goal_and_look_more_like_it() {
         let tree = read.grow(1).unwrap();
         let mut drawn = Bitmap::default();
         let GoalView { goal, view, frame, .. } = &problem.goals[0];
-        Rasterizer::with_detail(Detail::Half).draw(&tree, view, frame, Parts::LEAFY, &mut drawn);
+        Rasterizer::for_searches(Detail::Half).draw(&tree, view, frame, Parts::LEAFY, &mut drawn);
         let shared = drawn.intersection(goal);
         let iou = shared as f64 / (drawn.ink() + goal.ink() - shared) as f64;
         assert!((iou - after.iou).abs() < 1e-9, "{species}: {iou} {after:?}");
