@@ -1,7 +1,9 @@
 //! How much of many threads a search would use: its trees are scored on one thread and timed, and dealt out to
-//! threads that are only counted, in the order in which a fit scores them.
+//! threads that are only counted, in the order in which a fit scores them; and what the same trees would make of
+//! the threads if all waited for the end of each generation.
 //!
-//! `cargo run --release -p pleach-fit --example efficiency [EVALUATIONS]`, on Linux; breeding is taken to cost nothing.
+//! `cargo run --release -p pleach-fit --example efficiency [EVALUATIONS [GOAL…]]`, on Linux; breeding is
+//! taken to cost nothing.
 
 use pleach_fit::{
     AskTell as _, Evaluate as _, Evaluator, Evolution, EvolutionSettings, FIT_LIMITS, Freedom, Objective,
@@ -55,8 +57,10 @@ impl Pool {
     }
 }
 
-/// What a search of `evaluations` trees would make of each number of [`THREADS`].
-fn efficiencies(goal: &str, start: &Start, settings: &EvolutionSettings, evaluations: u64) -> [f64; 4] {
+/// What a search of `evaluations` trees makes of each number of [`THREADS`], and what it would with barriers.
+fn efficiencies(goal: &str, start: &Start, evaluations: u64) -> [[f64; 4]; 2] {
+    let settings = EvolutionSettings::default();
+    let (first, generation) = (settings.first, settings.children);
     let problem = common::goal_of(goal, 1, 256);
     let evaluator = Evaluator::new(&problem, Objective::Balance, FIT_LIMITS).expect("a good problem");
     let evaluator = evaluator.with_height_matching();
@@ -66,10 +70,11 @@ fn efficiencies(goal: &str, start: &Start, settings: &EvolutionSettings, evaluat
     let mut space = space.expect("numbers to search");
     start.lists().iter().for_each(|list| space.widen(list).expect("a species' numbers"));
     let space = space.plausible(start.lists().first().map_or(base, Vec::as_slice)).settling(true);
-    let mut search = Search::new(Evolution::new(settings.clone(), 1, start.clone()), start, Arc::new(space));
+    let mut search = Search::new(Evolution::new(settings, 1, start.clone()), start, Arc::new(space));
     search.evaluation_limit = evaluations;
 
     let mut pools = THREADS.map(Pool::new);
+    let mut times = Vec::new();
     let mut flying: VecDeque<(Score, [f64; 4])> = VecDeque::new();
     while search.ended().is_none() {
         loop {
@@ -81,6 +86,7 @@ fn efficiencies(goal: &str, start: &Start, settings: &EvolutionSettings, evaluat
                 let before = processor_time();
                 let score = evaluator.scores(slice::from_ref(genome), batch.most)[0];
                 let seconds = processor_time() - before;
+                times.push(seconds);
                 flying.push_back((score, pools.each_mut().map(|pool| pool.work(seconds))));
             }
         }
@@ -91,20 +97,26 @@ fn efficiencies(goal: &str, start: &Start, settings: &EvolutionSettings, evaluat
         }
         let _ = search.tell(&landed.iter().map(|(score, _)| *score).collect::<Vec<_>>());
     }
-    pools.map(|pool| pool.efficiency())
+    let mut waiting = THREADS.map(Pool::new);
+    let (first, others) = times.split_at(first.min(times.len()));
+    for generation in std::iter::once(first).chain(others.chunks(generation)) {
+        for pool in &mut waiting {
+            let before = pool.now;
+            pool.now = generation.iter().map(|seconds| pool.work(*seconds)).fold(before, f64::max);
+        }
+    }
+    [waiting, pools].map(|pools| pools.map(|pool| pool.efficiency()))
 }
 
-fn report(evaluations: u64) {
+fn report(evaluations: u64, goals: &[String]) {
     let list = |name| pleach_generators::preset(name).expect("a known species").params.values().to_vec();
     let starts =
         [("random lists", Start::Random), ("other species", Start::Lists(STARTS.map(list).to_vec()))];
-    let usual = EvolutionSettings::default();
-    let waiting = EvolutionSettings { brood: usual.children, lag: 0, ..usual.clone() };
     println!("{:16} {:14} {:8} {}", "goal", "start", "", THREADS.map(|n| format!("{n:>6}")).concat());
-    for goal in GOALS {
+    for goal in goals {
         for (from, start) in &starts {
-            for (name, settings) in [("barriers", &waiting), ("usual", &usual)] {
-                let row = efficiencies(goal, start, settings, evaluations);
+            let rows = efficiencies(goal, start, evaluations);
+            for (name, row) in ["barriers", "stream"].iter().zip(rows) {
                 println!("{goal:16} {from:14} {name:8} {}", row.map(|x| format!("{x:6.2}")).concat());
             }
         }
@@ -112,8 +124,13 @@ fn report(evaluations: u64) {
 }
 
 fn main() {
-    let evaluations = std::env::args().nth(1).map_or(1000, |n| n.parse().expect("a number of evaluations"));
+    let mut arguments = std::env::args().skip(1);
+    let evaluations = arguments.next().map_or(1000, |n| n.parse().expect("a number of evaluations"));
+    let mut goals: Vec<String> = arguments.collect();
+    if goals.is_empty() {
+        goals = GOALS.map(str::to_owned).to_vec();
+    }
     // Scores are made on the pool: of one thread, this one.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
-    pool.install(|| report(evaluations));
+    pool.install(|| report(evaluations, &goals));
 }
