@@ -12,7 +12,8 @@ pub struct EvalWorkspace {
     pub(super) tree: Tree,
     workspace: Workspace,
     pub(super) rasterizer: Rasterizer,
-    /// For pictures at twice the goal's size: there half the samples are as many.
+    /// For pictures at twice the goal's size: there half the samples are as many. They are drawn
+    /// as any picture is, so that the drawings of known species that are built in stay as they are.
     pub(super) fine: Rasterizer,
     pub(super) bitmap: Bitmap,
     pub(super) comparisons: Comparisons,
@@ -31,7 +32,7 @@ impl EvalWorkspace {
             tree: Tree::default(),
             workspace: Workspace::default(),
             rasterizer: Rasterizer::for_searches(Detail::Half),
-            fine: Rasterizer::for_searches(Detail::Draft),
+            fine: Rasterizer::with_detail(Detail::Draft),
             bitmap: Bitmap::default(),
             comparisons: Comparisons::default(),
         }
