@@ -5,6 +5,8 @@
 //! `cargo run --release -p pleach-fit --example efficiency [EVALUATIONS [GOAL…]]`, on Linux; breeding is
 //! taken to cost nothing.
 
+#![allow(clippy::print_stdout, reason = "printing is what it is for")]
+
 use pleach_fit::{
     AskTell as _, Evaluate as _, Evaluator, Evolution, EvolutionSettings, FIT_LIMITS, Freedom, Objective,
     Score, Search, SearchSpace, Start, TreeSeed,
