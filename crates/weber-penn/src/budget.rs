@@ -117,8 +117,7 @@ impl Budget<'_> {
 
     /// The budget of a part.
     pub(crate) const fn part<'p>(&self, pool: &'p Pool) -> Budget<'p> {
-        let Self { limits, prunes, spent, steps, .. } = *self;
-        Budget { limits, prunes, spent, told: spent, pool: Some(pool), steps }
+        Budget { pool: Some(pool), ..self.trial() }
     }
 
     /// Counts `steps` of work on level `level`.

@@ -11,9 +11,15 @@ use pleach_tree::{
 };
 use pleach_weber_penn::{HEWITT_2017, WeberPenn, preset, space};
 
-fn grow(params: &CheckedParams, growth: &Growth) -> Result<Tree, GrowError> {
+/// The tree, or what there was of it when it was given up, with the error.
+fn try_to_grow(params: &CheckedParams, growth: &Growth) -> (Tree, Result<(), GrowError>) {
     let mut tree = Tree::default();
     let grown = WeberPenn::default().grow(params, growth, &mut Workspace::default(), &mut tree);
+    (tree, grown)
+}
+
+fn grow(params: &CheckedParams, growth: &Growth) -> Result<Tree, GrowError> {
+    let (tree, grown) = try_to_grow(params, growth);
     grown.map(|()| tree)
 }
 
@@ -83,4 +89,24 @@ fn least_work(params: &CheckedParams, growth: &Growth) -> u64 {
         if grow(params, &Growth { limits, ..*growth }).is_ok() { enough = work } else { too_little = work }
     }
     enough
+}
+
+#[test]
+fn what_is_too_large_is_given_up_early() {
+    for name in HEWITT_2017 {
+        let species = preset(name).unwrap();
+        let slot = space().select("prune_ratio").unwrap()[0].index();
+        let mut values = species.params.values().to_vec();
+        values[slot] = 0.0;
+        let params = space().check(values).unwrap();
+        let stems = grow(&params, &Growth::seed(1)).unwrap().stems.len();
+        let growth = Growth { limits: Limits { stems: stems * 3 / 4, ..Limits::DEFAULT }, ..Growth::seed(1) };
+        let (whole, error) = try_to_grow(&params, &growth);
+        let (ahead, sooner) = try_to_grow(&params, &Growth { counts_ahead: true, ..growth });
+        assert!(error.is_err() && sooner.is_err(), "{name}");
+        if whole.stems.len() > 200 {
+            let (grown, most) = (ahead.stems.len(), whole.stems.len() / 2);
+            assert!(grown < most, "{name}: {grown} stems were grown, {} without counting", whole.stems.len());
+        }
+    }
 }
