@@ -159,13 +159,8 @@ impl RulesSpec {
             rules: Some(RulesSettings::default()),
             ..FitSettings::default()
         };
-        let settings = GoalSettings {
-            search,
-            guess: Guessing::Off,
-            candidates: Vec::new(),
-            judging: None,
-            individual: None,
-        };
+        let settings =
+            GoalSettings { search, guess: Guessing::Off, judging: None, ..GoalSettings::new(Vec::new()) };
         let started = Instant::now();
         let clock = || started.elapsed();
         let fitted = fit_goal(&problem, &settings, Control::new(&clock, stop::flag()))?;

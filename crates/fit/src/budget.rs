@@ -1,5 +1,6 @@
 //! When a fit ends.
 
+use crate::ending::Kept;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::time::Duration;
@@ -31,6 +32,8 @@ pub struct Budget {
     /// Time by the caller's clock, all parts of a resumed run together. Checked between batches of
     /// about a third of a second.
     pub timeout: Option<Duration>,
+    /// What of `timeout` is left to what follows the search; none is nothing.
+    pub kept: Option<Kept>,
     /// Intersection over union of the best individual, in 0..=1.
     pub target_iou: Option<f64>,
 }
@@ -86,6 +89,8 @@ pub(crate) struct Spent {
     pub(crate) evaluations: u64,
     pub(crate) generations: u64,
     pub(crate) elapsed: Duration,
+    /// What is to be left of the time.
+    pub(crate) kept: Duration,
     pub(crate) best_cost: f64,
     pub(crate) best_iou: f64,
     pub(crate) interrupted: bool,
@@ -102,7 +107,7 @@ impl Budget {
             Some(StopReason::Evaluations)
         } else if self.generations.is_some_and(|most| spent.generations >= most) {
             Some(StopReason::Generations)
-        } else if self.timeout.is_some_and(|most| spent.elapsed >= most) {
+        } else if self.timeout.is_some_and(|most| spent.elapsed + spent.kept >= most) {
             Some(StopReason::Timeout)
         } else if spent.interrupted {
             Some(StopReason::Interrupted)
@@ -116,7 +121,10 @@ impl Budget {
         let parts = [
             self.evaluations.map(|most| spent.evaluations as f64 / most.max(1) as f64),
             self.generations.map(|most| spent.generations as f64 / most.max(1) as f64),
-            self.timeout.map(|most| spent.elapsed.as_secs_f64() / most.as_secs_f64().max(1e-9)),
+            self.timeout.map(|most| {
+                let most = most.saturating_sub(spent.kept);
+                spent.elapsed.as_secs_f64() / most.as_secs_f64().max(1e-9)
+            }),
         ];
         parts.into_iter().flatten().map(|share| share.min(1.0)).reduce(f64::max)
     }
@@ -130,6 +138,7 @@ mod tests {
         evaluations: 10,
         generations: 2,
         elapsed: Duration::from_secs(3),
+        kept: Duration::ZERO,
         best_cost: 0.4,
         best_iou: 0.6,
         interrupted: false,

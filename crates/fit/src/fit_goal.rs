@@ -3,7 +3,9 @@
 use crate::begun::Begun;
 use crate::budget::StopReason;
 use crate::control::{Control, Outcome};
+use crate::ending::{Ending, Rest};
 use crate::error::FitError;
+use crate::evaluator::Evaluator;
 use crate::genome::Scored;
 use crate::guess::{Candidate, FirstGuess, GuessLibrary, GuessSettings, References};
 use crate::individual::{FoundIndividual, IndividualSettings, individuals};
@@ -14,10 +16,9 @@ use crate::settings::FitSettings;
 use crate::space::SpaceError;
 use crate::verdict::Verdict;
 use pleach_silhouette::score::ScoreCard;
-use pleach_tree::Species;
 use pleach_tree::param::SlotError;
+use pleach_tree::{Limits, Species};
 use std::sync::atomic::Ordering;
-use std::time::Duration;
 
 /// How a goal is fitted, from the first guess to the judging of the result.
 #[derive(Clone, Debug)]
@@ -32,6 +33,10 @@ pub struct GoalSettings {
     pub judging: Option<Judging>,
     /// How the goal's own tree is searched among the trees of the kind, once that is found; none if it is not.
     pub individual: Option<IndividualSettings>,
+    /// When all of it is to be over; none is whenever it is. What follows the search then has the time that is left:
+    /// the last that is asked for, individuals where they take the rest and judging where there are none, has all
+    /// of it.
+    pub ending: Option<Ending>,
 }
 
 /// Where the species comes from that a fit starts from.
@@ -57,6 +62,7 @@ impl GoalSettings {
             candidates,
             judging: Some(Judging::default()),
             individual: None,
+            ending: None,
         }
     }
 }
@@ -184,12 +190,19 @@ pub(crate) fn conclude(
         begun.problem.start = begun.problem.species(&best.genome).map_err(SpaceError::Start)?;
         best.genome.structure = None;
     }
+    let evaluate = || {
+        let evaluator = Evaluator::new(&begun.problem, begun.settings.objective, Limits::DEFAULT)?;
+        evaluator.evaluate_with_likeness(&best.genome);
+        Ok(())
+    };
+    let rest = Rest::new(settings, outcome.elapsed, control.clock, evaluate)?;
     let mut judged = None;
     if settings.judging.is_some() && control.stop.load(Ordering::Relaxed) {
         outcome.stop = StopReason::Interrupted;
     } else if let Some(judging) = settings.judging {
         control.observers.iter_mut().for_each(|observer| observer.judging());
         let (clock, stop) = (control.clock, control.stop);
+        let judging = Judging { time: rest.for_judging(judging.time), ..judging };
         let judge = Judge { begun: &begun, judging, candidates: &settings.candidates, clock, stop };
         match judge.judge(&best, library) {
             Ok((kept, of_kept)) => (best, judged) = (kept, Some(of_kept)),
@@ -199,8 +212,8 @@ pub(crate) fn conclude(
         }
     }
     let mut found = Vec::new();
-    let time_for_individuals = time_for_individuals(settings, outcome.elapsed, judged.as_ref());
-    let individual = settings.individual.map(|how| IndividualSettings { time: time_for_individuals, ..how });
+    let time = rest.for_individuals();
+    let individual = settings.individual.map(|how| IndividualSettings { time, ..how });
     if individual.is_some() && control.stop.load(Ordering::Relaxed) {
         outcome.stop = StopReason::Interrupted;
     } else if let Some(how) = individual {
@@ -233,7 +246,7 @@ pub(crate) fn begin(
             Some(library.first_guess(problem, search, &settings.candidates, how, stop, tell)?)
         }
     };
-    let begun = match guess {
+    let mut begun = match guess {
         None => Begun { problem: problem.clone(), settings: search.clone(), guess: None },
         Some(guess) => Begun {
             problem: guess.problem(problem),
@@ -241,25 +254,15 @@ pub(crate) fn begin(
             guess: Some(guess),
         },
     };
+    // Where no stem can be dealt other draws, the search has the time that was meant for it.
+    let start = &begun.problem.start;
+    if let (Some(timeout), Some(individual)) = (&mut begun.settings.budget.timeout, settings.individual)
+        && start.generator.spreads(start.params.values()).is_empty()
+    {
+        *timeout += individual.time.unwrap_or_default();
+    }
     for observer in &mut control.observers {
         observer.begun(&begun).map_err(FitError::Observer)?;
     }
     Ok(begun)
-}
-
-/// What is left for individuals of the time of the whole fit, of which the search took `searched`.
-fn time_for_individuals(
-    settings: &GoalSettings,
-    searched: Duration,
-    judged: Option<&Judged>,
-) -> Option<Duration> {
-    let IndividualSettings { time, takes_rest, .. } = settings.individual?;
-    let time = time?;
-    let Some(search) = settings.search.budget.timeout else { return Some(time) };
-    let for_judging = settings.judging.and_then(|judging| judging.time).unwrap_or_default();
-    let judging = judged.map_or(Duration::ZERO, |judged| judged.elapsed);
-    // A search or a judging that ended late takes from it, one that ended early may give to it.
-    let left = (search + for_judging + time).saturating_sub(searched + judging);
-    let rest = if takes_rest { for_judging.saturating_sub(judging) } else { Duration::ZERO };
-    Some(left.min(time + rest))
 }

@@ -14,7 +14,7 @@
 //! | optimisers | [`Optimizer`], [`Method`], [`Search`]; with argmin: [`ArgminSolver`] |
 //! | this very tree | [`individuals`]: draws of single stems, [`IndividualSettings`], [`FoundIndividual`] |
 //! | what a result is worth | [`fresh_seeds`], [`profile()`], [`Verdict`] |
-//! | watching and stopping | [`Observer`], [`Budget`], [`StopReason`], [`Clock`] |
+//! | watching and stopping | [`Observer`], [`Budget`], [`StopReason`], [`Clock`]; ending on time: [`Ending`], [`Kept`] |
 //!
 //! # Invariants
 //!
@@ -32,6 +32,7 @@ mod cancellable;
 mod checkpoint;
 mod control;
 mod driver;
+mod ending;
 mod error;
 mod evaluate;
 mod evaluator;
@@ -68,6 +69,7 @@ pub use budget::{Budget, Clock, StopReason};
 pub use cancellable::Until;
 pub use checkpoint::{BodyProblem, CheckpointError};
 pub use control::{CheckpointSettings, Control, Outcome};
+pub use ending::{Aftermath, Ending, Kept};
 pub use error::{FitError, ObserverError};
 pub use evaluate::Evaluate;
 pub use evaluator::{EvalWorkspace, Evaluator};

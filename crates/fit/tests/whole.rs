@@ -6,9 +6,9 @@ mod common;
 
 use common::goal_of;
 use pleach_fit::{
-    Begun, Budget, Candidate, CheckpointSettings, Control, FitError, FitProblem, FitSettings, Fitted,
-    GoalSettings, GuessLibrary, Guessing, Identifiability, IndividualSettings, Judging, Observer,
-    ObserverError, Progress, Start, StopReason, fit, fit_goal, fit_goal_with,
+    Aftermath, Begun, Budget, Candidate, CheckpointSettings, Control, Ending, FitError, FitProblem,
+    FitSettings, Fitted, GoalSettings, GuessLibrary, Guessing, Identifiability, IndividualSettings, Judging,
+    Observer, ObserverError, Progress, Start, StopReason, fit, fit_goal, fit_goal_with,
 };
 use pleach_tree::Limits;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -142,11 +142,11 @@ fn without_a_guess_the_problem_is_as_it_is() {
     assert!(matches!(error, FitError::NothingGrew { evaluations: 60 }), "{error}");
 }
 
-/// Judging has its share of the time; what it and the search leave is for this very tree.
+/// Judging has its share of the time; what is left in the end is for this very tree.
 #[test]
 fn a_late_judging_does_less_and_says_so() {
     let problem = goal_of("palm", 4, 64);
-    let timed = |judging: f64, individual: f64, takes_rest: bool| {
+    let timed = |judging: f64, individual: f64, after: Option<f64>| {
         let plain = GoalSettings { guess: Guessing::Off, candidates: Vec::new(), ..settings(60) };
         let search = FitSettings {
             start: Start::Lists(vec![problem.start.params.values().to_vec()]),
@@ -155,8 +155,12 @@ fn a_late_judging_does_less_and_says_so() {
         };
         let time = |seconds: f64| Duration::from_secs_f64(seconds);
         let judging = Judging { time: Some(time(judging)), ..Judging::default() };
+        let takes_rest = after.is_some();
         let individual = IndividualSettings { takes_rest, ..IndividualSettings::time(time(individual)) };
-        let settings = GoalSettings { search, judging: Some(judging), individual: Some(individual), ..plain };
+        let none = Aftermath::default();
+        let ending = after.map(|after| Ending { after: time(after), writing: none, further: none });
+        let settings =
+            GoalSettings { search, judging: Some(judging), individual: Some(individual), ending, ..plain };
         let stop = AtomicBool::new(false);
         let ticks = std::sync::atomic::AtomicU64::new(0);
         // A hundredth of a second from look to look.
@@ -168,13 +172,13 @@ fn a_late_judging_does_less_and_says_so() {
         profiles.iter().filter(|profile| profile.seen == Identifiability::NotTried).count()
     };
     let seeds = |fitted: &Fitted| fitted.judged.as_ref().unwrap().held_out.unwrap().count;
-    let (short, long) = (timed(0.02, 1.0, false), timed(100.0, 1.0, false));
+    let (short, long) = (timed(0.02, 1.0, None), timed(100.0, 1.0, None));
     assert!((2..16).contains(&seeds(&short)) || rayon::current_num_threads() > 7, "{}", seeds(&short));
     assert!(not_tried(&short) > 0 && short.judged.as_ref().unwrap().put_back.is_empty());
     assert_eq!((seeds(&long), not_tried(&long)), (16, 0));
     assert!(!long.judged.as_ref().unwrap().put_back.is_empty());
-    // What judging leaves makes the search for this very tree longer, if it is to.
-    let (alone, with_rest) = (timed(5.0, 1.0, false), timed(5.0, 1.0, true));
+    // What is left makes the search for this very tree longer, if it is to.
+    let (alone, with_rest) = (timed(5.0, 1.0, None), timed(5.0, 1.0, Some(10.0)));
     let trees = |fitted: &Fitted| fitted.individuals[0].trees;
     assert!(trees(&with_rest) > 2 * trees(&alone), "{} {}", trees(&alone), trees(&with_rest));
 }

@@ -118,12 +118,12 @@ pub use pleach_tree::{param, random, species};
 
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
-    Begun, Budget, COLUMNS, Candidate, Control, Drawings, DrawingsError, EvalWorkspace, Evaluator,
-    FirstGuess, FitError, FitProblem, FitSettings, Fitted, FoundIndividual, Freedom, Gene, Genome,
+    Aftermath, Begun, Budget, COLUMNS, Candidate, Control, Drawings, DrawingsError, Ending, EvalWorkspace,
+    Evaluator, FirstGuess, FitError, FitProblem, FitSettings, Fitted, FoundIndividual, Freedom, Gene, Genome,
     GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing, Identifiability, IndividualProgress,
-    IndividualSettings, Judged, Judging, Objective, Observer, ObserverError, Optimizer, Outcome, Profile,
-    Progress, Row, RulesSettings, Score, Scored, SearchSpace, Start, Stepwise, StopReason, TreeSeed, Unknown,
-    Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
+    IndividualSettings, Judged, Judging, Kept, Objective, Observer, ObserverError, Optimizer, Outcome,
+    Profile, Progress, Row, RulesSettings, Score, Scored, SearchSpace, Start, Stepwise, StopReason, TreeSeed,
+    Unknown, Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
 };
 
 #[cfg(feature = "fit")]

@@ -11,9 +11,9 @@ use crate::view::{Direction, view};
 use numpy::PyArray2;
 use pleach::plan::{Effort, Origin, Shares, USUAL_TIME, has_individuals, library, plan, usual_start};
 use pleach::{
-    Bitmap, Budget, COLUMNS, Control, FitProblem, FitSettings, Fitted, Foliage, Freedom, GeneratorChoice,
-    Goal, GoalOptions, GoalSettings, GoalView, Growth, Identifiability, IndividualSettings, Judging, Profile,
-    Rasterizer, ScoreCard, TreeSeed, View, fit_goal_with,
+    Aftermath, Bitmap, Budget, COLUMNS, Control, FitProblem, FitSettings, Fitted, Foliage, Freedom,
+    GeneratorChoice, Goal, GoalOptions, GoalSettings, GoalView, Growth, Identifiability, IndividualSettings,
+    Profile, Rasterizer, ScoreCard, TreeSeed, View, fit_goal_with,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -249,6 +249,7 @@ fn settings(
             evaluations: options.evaluations,
             generations: options.generations,
             target_iou: None,
+            kept: None,
         },
         seed: options.seed,
         tree_seed: options.tree_seed.map_or(TreeSeed::Any, TreeSeed::Fixed),
@@ -256,11 +257,14 @@ fn settings(
         ..FitSettings::default()
     };
     let planned = plan(origin, generator, &problem.start, search).map_err(of_fit)?;
-    let time = shares.map(|shares| shares.judging);
-    Ok(GoalSettings {
-        judging: planned.judging.map(|judging| Judging { time, ..judging }),
-        individual,
-        ..planned
+    let settings = GoalSettings { individual, ..planned };
+    Ok(match shares {
+        // A tree that is found is drawn and scored once more; what takes long of it is made where it is asked for.
+        Some(shares) => {
+            let drawing = Aftermath { fixed: Duration::from_millis(100), trees: 3.0, spread: 0.0 };
+            shares.bound(settings, drawing, drawing)
+        }
+        None => settings,
     })
 }
 

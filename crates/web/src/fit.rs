@@ -7,8 +7,9 @@ use crate::{message, report};
 use js_sys::{Array, Function, Uint8Array};
 use pleach::plan::{Origin, Shares, plan, usual_start};
 use pleach::{
-    Bitmap, Budget, Control, Drawings, FitProblem, FitSettings, Foliage, GeneratorChoice, GoalView, Growth,
-    GuessLibrary, Judging, Observer, Rasterizer, Scored, Species, Stepwise, StopReason, TreeSeed, View,
+    Aftermath, Bitmap, Budget, Control, Drawings, FitProblem, FitSettings, Foliage, GeneratorChoice,
+    GoalView, Growth, GuessLibrary, Observer, Rasterizer, Scored, Species, Stepwise, StopReason, TreeSeed,
+    View,
 };
 use serde::Deserialize;
 use serde_json::json;
@@ -102,8 +103,10 @@ impl Fit {
             ..FitSettings::default()
         };
         let mut settings = plan(origin, generator, &start, search).map_err(thrown)?;
-        let time = shares.map(|shares| shares.judging);
-        settings.judging = settings.judging.map(|judging| Judging { time, ..judging });
+        if let Some(shares) = shares {
+            let drawing = Aftermath { fixed: Duration::from_millis(100), trees: 3.0, spread: 0.0 };
+            settings = shares.bound(settings, drawing, drawing);
+        }
         let working = goal.working()?;
         let view = GoalView::new(working.bitmap.clone(), View::FRONT, working.frame(height));
         let foliage = if options.leaves == Some(false) { Foliage::None } else { Foliage::All };

@@ -13,8 +13,8 @@ use goals::IndividualGoal;
 use natural::Natural;
 use pleach_console::{files, output};
 use pleach_fit::{
-    Budget, Candidate, Control, FitSettings, Fitted, GoalSettings, GoalView, GuessLibrary, GuessSettings,
-    Guessing, IndividualSettings, fit_goal_with, fresh_seeds,
+    Budget, Candidate, Control, FitSettings, Fitted, GoalSettings, GoalView, GuessLibrary,
+    IndividualSettings, fit_goal_with, fresh_seeds,
 };
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, View, picture};
@@ -191,10 +191,9 @@ impl IndividualSpec {
         let budget = Budget { timeout: Some(whole * 2 / 3), ..Budget::default() };
         let settings = GoalSettings {
             search: FitSettings { budget, ..FitSettings::default() },
-            guess: Guessing::Compare(GuessSettings::default()),
-            candidates: candidates.to_vec(),
             judging: None,
             individual: Some(IndividualSettings::time(whole / 3)),
+            ..GoalSettings::new(candidates.to_vec())
         };
         let started = Instant::now();
         let clock = || started.elapsed();

@@ -2,6 +2,7 @@
 
 use super::pace::Pace;
 use crate::budget::{Budget, Spent, StopReason};
+use crate::ending::Kept;
 use crate::evaluate::Evaluate;
 use crate::history::Row;
 use crate::method::Method;
@@ -17,13 +18,15 @@ pub(crate) struct Course<M> {
     /// the last row counts.
     likeness: Option<(f64, Option<f64>)>,
     pace: Pace,
+    /// What a tree like the best takes to be grown and scored, once it has been timed.
+    tree: Option<Duration>,
 }
 
 impl<M: Method> Course<M> {
     /// `search` from where it stands, with the rows of its earlier parts, driven from `now` on.
     pub(crate) fn new(mut search: Search<M>, budget: Budget, history: Vec<Row>, now: Duration) -> Self {
         search.evaluation_limit = budget.evaluations.unwrap_or(u64::MAX).max(search.state.evaluations);
-        Self { search, budget, history, likeness: None, pace: Pace::new(now) }
+        Self { search, budget, history, likeness: None, pace: Pace::new(now), tree: None }
     }
 
     /// How many individuals are about a third of a second's for so many threads, wherever they are.
@@ -43,10 +46,30 @@ impl<M: Method> Course<M> {
             evaluations: state.evaluations,
             generations: state.generation,
             elapsed,
+            kept: self.kept(),
             best_cost: best.map_or(f64::INFINITY, |score| score.cost),
             best_iou: best.map_or(f64::NEG_INFINITY, |score| score.iou),
             interrupted,
         }
+    }
+
+    /// What is to be left of the time to what follows.
+    fn kept(&self) -> Duration {
+        let of_trees =
+            |kept: Kept| self.tree.map_or(kept.most, |tree| kept.aftermath.takes(tree).min(kept.most));
+        self.budget.kept.map_or(Duration::ZERO, of_trees)
+    }
+
+    /// Whether it is time to find out how long a tree like the best takes: with most of what may be kept the
+    /// search would be over now.
+    pub(crate) fn wants_a_timed_tree(&self, elapsed: Duration) -> bool {
+        let (Some(timeout), Some(kept)) = (self.budget.timeout, self.budget.kept) else { return false };
+        self.tree.is_none() && self.search.state.best.is_some() && elapsed + kept.most >= timeout
+    }
+
+    /// Minds how long a tree like the best takes.
+    pub(crate) fn set_tree_time(&mut self, tree: Duration) {
+        self.tree = Some(tree);
     }
 
     /// Why to stop now, if so.

@@ -146,6 +146,20 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
         self.control.observers.iter_mut().for_each(|observer| tell(&mut **observer));
     }
 
+    /// Times a tree like the best, once what is to be left of the time hangs on it.
+    fn time_a_tree(&mut self) {
+        if !self.course.wants_a_timed_tree(self.elapsed()) {
+            return;
+        }
+        if let Some(best) = &self.course.search.state.best {
+            let before = self.control.clock.elapsed();
+            // On this thread: the others have trees before them.
+            let _ = self.objective.likeness(&best.genome);
+            let tree = self.control.clock.elapsed().saturating_sub(before);
+            self.course.set_tree_time(tree);
+        }
+    }
+
     /// Replays the rows of earlier parts and tells where things stand.
     fn announce(&mut self) {
         for row in self.course.history.clone() {
@@ -176,6 +190,7 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
         if let Some(row) = self.course.after_scores(self.objective, elapsed) {
             self.tell_all(|observer| observer.generation(&row));
         }
+        self.time_a_tree();
         self.tell_progress();
         let now = self.control.clock.elapsed();
         if self.control.checkpoint.as_ref().is_some_and(|file| now - self.saved >= file.interval) {

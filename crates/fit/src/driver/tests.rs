@@ -3,6 +3,7 @@
 use super::*;
 use crate::budget::{Budget, Clock};
 use crate::control::CheckpointSettings;
+use crate::ending::{Aftermath, Kept};
 use crate::history::Row;
 use crate::optimizer::Optimizer;
 use crate::space::{Freedom, TreeSeed};
@@ -121,6 +122,20 @@ fn the_stop_flag_the_clock_and_the_target_end_a_run() {
     let outcome = run(Budget::timeout(Duration::from_millis(200)), &clock, &go);
     assert_eq!(outcome.stop, StopReason::Timeout);
     assert!(outcome.elapsed >= Duration::from_millis(200) && outcome.evaluations > 0);
+    // What is kept is what follows takes, by a tree that took one tick here; at most so much.
+    let elapsed = |most: u64, trees: f64| {
+        let aftermath = Aftermath { fixed: Duration::from_millis(10), trees, spread: 0.0 };
+        let kept = Kept { most: Duration::from_millis(most), aftermath };
+        let budget = Budget { kept: Some(kept), ..Budget::timeout(Duration::from_secs(1)) };
+        *ticks.lock().unwrap() = 0;
+        let outcome = run(budget, &clock, &go);
+        assert_eq!(outcome.stop, StopReason::Timeout);
+        outcome.elapsed.as_millis()
+    };
+    let (little, much, all) = (elapsed(500, 20.0), elapsed(500, 190.0), elapsed(500, 5000.0));
+    assert!((970..1000).contains(&little), "{little}");
+    assert!((800..850).contains(&much), "{much}");
+    assert!((500..550).contains(&all), "{all}");
     // A bare function has an intersection over union of zero.
     let target = Budget { target_iou: Some(0.0), ..Budget::default() };
     assert_eq!(run(target, &still, &go).stop, StopReason::TargetIou);

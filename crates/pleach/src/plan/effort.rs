@@ -12,7 +12,7 @@ pub enum Effort {
     Share,
     /// So long.
     Time(Duration),
-    /// So many trees, whatever the time.
+    /// So many trees, as far as the share of the time goes where that is bounded.
     Trees(u64),
     /// Not at all.
     Off,
@@ -36,7 +36,11 @@ impl Effort {
     ) -> Result<Option<IndividualSettings>, TooLong> {
         Ok(Some(match (self, timeout) {
             (Self::Off, _) => return Ok(None),
-            (Self::Trees(trees), _) => IndividualSettings::trees(trees),
+            (Self::Trees(trees), whole) => IndividualSettings {
+                time: whole.map(|whole| whole / SHARE_OF_TIME),
+                takes_rest: true,
+                ..IndividualSettings::trees(trees)
+            },
             (Self::Time(time), Some(whole)) => {
                 if time >= whole {
                     return Err(TooLong { time, whole });

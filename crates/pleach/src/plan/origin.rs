@@ -1,7 +1,7 @@
 //! Where a fit begins.
 
 use pleach_fit::{
-    Candidate, FitSettings, GoalSettings, GuessSettings, Guessing, Judging, SpaceError, Start, check_freedom,
+    Candidate, FitSettings, GoalSettings, GuessSettings, Guessing, SpaceError, Start, check_freedom,
 };
 use pleach_generators::GeneratorChoice;
 use pleach_tree::Species;
@@ -48,7 +48,7 @@ pub fn plan(
         search.start = if origin == Origin::Start { lists() } else { Start::Random };
         Guessing::Off
     };
-    Ok(GoalSettings { search, guess, candidates, judging: Some(Judging::default()), individual: None })
+    Ok(GoalSettings { search, guess, ..GoalSettings::new(candidates) })
 }
 
 /// The species whose generator is searched where a fit begins at none: the first of `generator`'s, without colours.

@@ -1,16 +1,19 @@
 //! How the time of a fit is shared out, so that all of it together takes as long as it may.
 
-use pleach_fit::IndividualSettings;
+use pleach_fit::{Aftermath, Ending, GoalSettings, IndividualSettings, Judging, Kept};
 use std::time::Duration;
 
-/// What of the time is for the search with its first guess, and for judging; the rest is for this very tree and for
-/// writing.
+/// How the whole of a fit's time is shared out: what is for this very tree is its
+/// [`IndividualSettings::time`], and all else is for the first guess, the search, judging and writing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shares {
-    /// For the first guess and the search: [`pleach_fit::Budget::timeout`].
+    whole: Duration,
+    /// All but what is for this very tree: [`pleach_fit::Budget::timeout`]. What the search has to leave of it is
+    /// [`Shares::bound`]'s to say.
     pub search: Duration,
-    /// For judging: [`pleach_fit::Judging::time`].
-    pub judging: Duration,
+    /// What of that is for judging, and for judging and writing together, at most.
+    judging: Duration,
+    kept: Duration,
 }
 
 /// The parts of the whole that judging gets: more where what it leaves is of use to this very tree.
@@ -20,6 +23,8 @@ const JUDGING_ALONE: u32 = 16;
 const WRITING: u32 = 20;
 const LEAST_WRITING: Duration = Duration::from_secs(2);
 const MOST_OF_LITTLE: u32 = 8;
+/// Trees that judging grows, for most species.
+const JUDGED: f64 = 300.0;
 
 impl Shares {
     /// Of a fit that is to take `whole`.
@@ -29,9 +34,24 @@ impl Shares {
         let taken = individual.and_then(|one| one.time).unwrap_or_default();
         let takes_rest = individual.is_some_and(|one| one.takes_rest);
         let writing = (whole / WRITING).max(LEAST_WRITING.min(whole / MOST_OF_LITTLE));
-        let left = whole.saturating_sub(taken + writing);
+        let search = whole.saturating_sub(taken);
+        let left = search.saturating_sub(writing);
         let judging = (whole / if takes_rest { JUDGING } else { JUDGING_ALONE }).min(left / 2);
-        Self { search: left - judging, judging }
+        Self { whole, search, judging, kept: search - left + judging }
+    }
+
+    /// `settings` whose search has [`Shares::search`], so that all of the fit ends on time with what its caller does
+    /// with the tree of the kind and with an individual, each, and with every further individual.
+    ///
+    /// A continued fit has used time before: the timeout in `settings` is longer by that.
+    #[must_use]
+    pub fn bound(&self, mut settings: GoalSettings, writing: Aftermath, further: Aftermath) -> GoalSettings {
+        let used = settings.search.budget.timeout.unwrap_or(self.search).saturating_sub(self.search);
+        let aftermath = Aftermath { spread: writing.spread + JUDGED, ..writing };
+        settings.search.budget.kept = Some(Kept { most: self.kept, aftermath });
+        settings.judging = settings.judging.map(|judging| Judging { time: Some(self.judging), ..judging });
+        settings.ending = Some(Ending { after: self.whole + used, writing, further });
+        settings
     }
 }
 
@@ -42,16 +62,29 @@ mod tests {
     #[test]
     fn shares_make_up_the_whole() {
         let seconds = Duration::from_secs_f64;
-        let alone = Shares::new(seconds(80.0), None);
-        assert_eq!((alone.search, alone.judging), (seconds(71.0), seconds(5.0)));
+        let parts = |whole: f64, individual: Option<&IndividualSettings>| {
+            let shares = Shares::new(seconds(whole), individual);
+            [shares.search, shares.judging, shares.kept].map(|time| time.as_secs_f64())
+        };
+        assert_eq!(parts(80.0, None), [80.0, 5.0, 9.0]);
         let third = IndividualSettings { takes_rest: true, ..IndividualSettings::time(seconds(30.0)) };
-        let beside = Shares::new(seconds(80.0), Some(&third));
-        assert_eq!((beside.search, beside.judging), (seconds(36.0), seconds(10.0)));
-        let short = Shares::new(seconds(16.0), None);
-        assert_eq!((short.search, short.judging), (seconds(13.0), seconds(1.0)));
+        assert_eq!(parts(80.0, Some(&third)), [50.0, 10.0, 14.0]);
+        assert_eq!(parts(16.0, None), [16.0, 1.0, 3.0]);
         // Hardly any is left.
         let all = IndividualSettings::time(seconds(70.0));
-        let tight = Shares::new(seconds(80.0), Some(&all));
-        assert_eq!((tight.search, tight.judging), (seconds(3.0), seconds(3.0)));
+        assert_eq!(parts(80.0, Some(&all)), [10.0, 3.0, 7.0]);
+    }
+
+    #[test]
+    fn a_continued_fit_ends_so_much_later() {
+        let shares = Shares::new(Duration::from_secs(80), None);
+        let mut settings = GoalSettings::new(Vec::new());
+        settings.search.budget.timeout = Some(shares.search);
+        let none = Aftermath::default();
+        let after =
+            |settings: &GoalSettings| shares.bound(settings.clone(), none, none).ending.unwrap().after;
+        assert_eq!(after(&settings), Duration::from_secs(80));
+        settings.search.budget.timeout = Some(Duration::from_secs(92));
+        assert_eq!(after(&settings), Duration::from_secs(92));
     }
 }

@@ -114,7 +114,7 @@ pub(super) struct SearchArgs {
 #[command(next_help_heading = "This very tree")]
 pub(super) struct IndividualArgs {
     /// How long single branches are dealt anew until the tree lies on the picture: a time such as 20s,
-    /// `Ntrees` for as many trees whatever the time, or off. By default a third of --timeout and what judging leaves of
+    /// `Ntrees` for as many trees if --timeout leaves time for them, or off. By default a third of --timeout and what judging leaves of
     /// its share, or an eighth as many trees as --evaluations
     #[arg(long, value_name = "TIME|Ntrees|off", value_parser = individual::effort)]
     pub(super) individual: Option<Effort>,

@@ -4,13 +4,37 @@ use super::args::GoalArgs;
 use super::goal::Goals;
 use crate::files;
 use anyhow::Context as _;
-use pleach_fit::{FitProblem, FoundIndividual, Genome, Scored};
+use pleach_fit::{Aftermath, FitProblem, FoundIndividual, Genome, Scored};
 use pleach_mesh::Palette;
 use pleach_render::{Preview, PreviewSettings, png_file};
 use pleach_silhouette::{Bitmap, Rasterizer, View, picture};
 use pleach_tree::species::safe_name;
 use pleach_tree::{Growth, Limits, Species, Tree};
 use std::path::Path;
+use std::time::Duration;
+
+/// What it takes to draw, score, paint and write the tree of a result.
+pub(super) fn writing(goals: &Goals) -> Aftermath {
+    Aftermath { fixed: PAINTED + scored(goals), trees: PAINTED_TREES, spread: 0.0 }
+}
+
+/// What it takes to draw and score a further individual.
+pub(super) fn writing_further(goals: &Goals) -> Aftermath {
+    Aftermath { fixed: scored(goals), trees: FURTHER_TREES, spread: 0.0 }
+}
+
+/// What a score card and its pictures take, by the size of the goal.
+fn scored(goals: &Goals) -> Duration {
+    A_MEGAPIXEL.mul_f64(goals.full.bitmap.area() as f64 / 1e6)
+}
+
+/// A shaded picture whatever the tree, and how many times as long as to grow and score it in a search it takes to
+/// paint one: measured over the fifteen species.
+const PAINTED: Duration = Duration::from_millis(150);
+const PAINTED_TREES: f64 = 20.0;
+const FURTHER_TREES: f64 = 6.0;
+/// A score card and the silhouettes of a million pixels.
+const A_MEGAPIXEL: Duration = Duration::from_millis(500);
 
 /// Draws individuals of one fit.
 #[derive(Clone)]

@@ -258,6 +258,7 @@ impl Fit {
                 evaluations: budget.evaluations,
                 generations: budget.generations,
                 target_iou: budget.target_iou,
+                kept: None,
             },
             seed: search.seed,
             tree_seed: search.tree_seed,

@@ -1,9 +1,7 @@
 //! Where a fit starts that takes its volume from a picture: `--volume-from`.
 
 use anyhow::Context;
-use pleach_fit::{
-    Azimuth, Candidate, FitSettings, GoalSettings, GoalView, Guessing, Judging, Start, check_freedom,
-};
+use pleach_fit::{Azimuth, Candidate, FitSettings, GoalSettings, GoalView, Guessing, Start, check_freedom};
 use pleach_least_cost_path::{SideView, species_around};
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::{Bitmap, Frame, View, outline};
@@ -78,7 +76,6 @@ impl Outlined {
         check_freedom(self.species.generator.space(), &search.freedom, search.tree_seed)?;
         let search = FitSettings { start: Start::Lists(self.lists.clone()), ..search.clone() };
         let candidates = vec![Candidate::from(self.species.clone())];
-        let judging = Some(Judging::default());
-        Ok(GoalSettings { search, guess: Guessing::Off, candidates, judging, individual: None })
+        Ok(GoalSettings { search, guess: Guessing::Off, ..GoalSettings::new(candidates) })
     }
 }

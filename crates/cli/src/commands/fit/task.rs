@@ -1,7 +1,7 @@
 //! The fit of one goal, from the picture to the run folder.
 
 use super::args::GoalArgs;
-use super::drawing::Drawing;
+use super::drawing::{self, Drawing};
 use super::goal::Goals;
 use super::outlined::Outlined;
 use super::request::Request;
@@ -11,7 +11,7 @@ use super::watch::Watch;
 use super::{Fit, views};
 use pleach_fit::{
     CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalSettings, GoalView, GuessLibrary,
-    Judging, fit_goal_with,
+    fit_goal_with,
 };
 use pleach_silhouette::goal::{Encoded, Goal};
 use serde_json::Value;
@@ -55,6 +55,8 @@ impl Task {
         library: &mut GuessLibrary,
         stop: &Arc<AtomicBool>,
     ) -> anyhow::Result<Ended> {
+        // To read a large photograph takes time too.
+        let started = Instant::now();
         // Whatever can be refused is refused before the folder is touched.
         let goals = Goals::load(&self.goal, &self.args, fit.verbose)?;
         let mut problem = self.problem(fit, &goals.working)?;
@@ -74,13 +76,16 @@ impl Task {
             }
             None => from.plan(*generator, self.args.leaves(), &problem.start, &search)?,
         };
-        let time = fit.shares()?.map(|shares| shares.judging);
-        let judging = settings.judging.map(|judging| Judging { time, ..judging });
-        let settings = GoalSettings { individual: fit.individual_settings()?, judging, ..settings };
+        let settings = GoalSettings { individual: fit.individual_settings()?, ..settings };
+        let settings = match fit.shares()? {
+            Some(shares) => {
+                shares.bound(settings, drawing::writing(&goals), drawing::writing_further(&goals))
+            }
+            None => settings,
+        };
         let request = self.request(fit, &goals.source, &search)?;
         let mut claim = self.folder.clone().claim(mode, &request)?;
 
-        let started = Instant::now();
         let clock = || started.elapsed();
         let checkpoint = CheckpointSettings {
             path: claim.checkpoint(),
