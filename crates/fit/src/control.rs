@@ -67,6 +67,8 @@ impl<'a> Control<'a> {
 pub struct Outcome {
     /// The best individual ever seen; none if the fit ended before its first evaluation.
     pub best: Option<Scored>,
+    /// Some that were the best before, oldest first, each by a fiftieth better than the one before it; at most seven.
+    pub finalists: Vec<Scored>,
     /// Individuals evaluated, in all parts of a resumed run.
     pub evaluations: u64,
     /// Finished generations.

@@ -2,10 +2,12 @@
 
 use crate::begun::Begun;
 use crate::budget::StopReason;
+use crate::cancellable::Until;
 use crate::control::{Control, Outcome};
 use crate::ending::{Ending, Rest};
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
+use crate::finalists::best_kind;
 use crate::genome::Scored;
 use crate::guess::{Candidate, FirstGuess, GuessLibrary, GuessSettings, References};
 use crate::individual::{FoundIndividual, IndividualSettings, individuals};
@@ -29,6 +31,9 @@ pub struct GoalSettings {
     pub guess: Guessing,
     /// The known species: a first guess is one of them, and a result's likeness stands beside theirs.
     pub candidates: Vec<Candidate>,
+    /// Whether the result is the one of the last bests of the search of which other seeds are best as well, where the
+    /// objective looks at likeness, and not the last best whatever its other seeds are.
+    pub validates: bool,
     /// How the result is judged; none leaves it as the search has found it.
     pub judging: Option<Judging>,
     /// How the goal's own tree is searched among the trees of the kind, once that is found; none if it is not.
@@ -60,6 +65,7 @@ impl GoalSettings {
             search: FitSettings::default(),
             guess: Guessing::Compare(GuessSettings::default()),
             candidates,
+            validates: true,
             judging: Some(Judging::default()),
             individual: None,
             ending: None,
@@ -196,6 +202,18 @@ pub(crate) fn conclude(
         Ok(())
     };
     let rest = Rest::new(settings, outcome.elapsed, control.clock, evaluate)?;
+    if settings.validates && begun.settings.rules.is_none() && begun.settings.objective.looks() {
+        let mut finalists = outcome.finalists.clone();
+        finalists.push(best.clone());
+        let share = settings.judging.and_then(|judging| rest.for_judging(judging.time));
+        let late = share.map(|share| control.clock.elapsed() + share / 2);
+        let until = Until::from(control.stop).or_late(control.clock, late);
+        match best_kind(&begun.problem, begun.settings.objective, &finalists, until) {
+            Ok(kind) => best = finalists.swap_remove(kind),
+            Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
+            Err(error) => return Err(error),
+        }
+    }
     let mut judged = None;
     if settings.judging.is_some() && control.stop.load(Ordering::Relaxed) {
         outcome.stop = StopReason::Interrupted;

@@ -36,6 +36,7 @@ mod ending;
 mod error;
 mod evaluate;
 mod evaluator;
+mod finalists;
 mod fingerprint;
 mod fit_goal;
 mod flight;

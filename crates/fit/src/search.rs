@@ -1,5 +1,6 @@
 //! A [`Method`] at work in a space: generations in batches, and the best so far.
 
+use crate::finalists::Finalists;
 use crate::genome::{Genome, Score, Scored, Size};
 use crate::method::{Method, Start, is_individual};
 use crate::solver::{AskTell, Batch};
@@ -25,6 +26,8 @@ pub struct SearchState<M> {
     /// The best individual ever seen, by cost and what draws it to the start together; none before the
     /// first. Its score is of the goal alone.
     pub best: Option<Scored>,
+    /// Some of those that were best before.
+    pub(crate) finalists: Finalists,
     /// Score of the best individual of the last finished generation, as the method was told it.
     pub generation_best: Option<Score>,
     /// The best of the broods of the present generation that have been told.
@@ -67,6 +70,7 @@ impl<M> SearchState<M> {
             generation: 0,
             evaluations: 0,
             best: None,
+            finalists: Finalists::new(),
             generation_best: None,
             best_so_far: None,
             pending: VecDeque::new(),
@@ -97,6 +101,7 @@ impl<M> SearchState<M> {
             && (self.pending.iter().flatten())
                 .chain(self.best.iter().map(|best| &best.genome))
                 .all(|g| is_individual(g, space))
+            && self.finalists.suit(space)
             && self.method.suits(space, self.generation, &sizes)
     }
 }
@@ -237,8 +242,10 @@ impl<M: Method> AskTell for Search<M> {
             .collect();
         let top = told.iter().enumerate().min_by(|a, b| a.1.cost.total_cmp(&b.1.cost)).map(|(at, told)| {
             let top = Scored { genome: batch[at].clone(), score: scores[at] };
-            if self.best_cost().is_none_or(|best| told.cost < best) {
-                self.state.best = Some(top.clone());
+            if self.best_cost().is_none_or(|best| told.cost < best)
+                && let Some(former) = self.state.best.replace(top.clone())
+            {
+                self.state.finalists.add(former);
             }
             top
         });

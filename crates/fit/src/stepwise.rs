@@ -187,6 +187,7 @@ impl Stepwise {
         let stop = course.verdict(&course.spent(elapsed, false)).unwrap_or(StopReason::Interrupted);
         let state = course.search.state;
         let outcome = Outcome {
+            finalists: state.finalists.iter().cloned().collect(),
             best: state.best,
             evaluations: state.evaluations,
             generations: state.generation,

@@ -40,7 +40,6 @@ def program() -> str:
 def test_a_fit_tells_all_there_is(found: pleach.Fit) -> None:
     assert found.species.name == "acer" and found.evaluations >= 40 and not found.interrupted
     assert found.individual is not None and found.individual.own_draws > 0 and found.species.own_draws == 0
-    assert found.individuals[0].card.iou > found.card.iou
     assert found.best is found.individual
     assert set(word for _, word in found.identifiability.values()) <= {"determined", "loosely", "not-seen", "not-tried"}
     history = found.history
@@ -51,6 +50,12 @@ def test_a_fit_tells_all_there_is(found: pleach.Fit) -> None:
     again = pleach.score(found.silhouette, found.goal)
     assert again == found.card
     assert pickle.loads(pickle.dumps(found)).species == found.species
+
+
+def test_this_very_tree_lies_on_the_goal() -> None:
+    # At a size at which lying on it and lying on the whole picture are the same.
+    found = pleach.fit(GOAL, start="acer", size=128, evaluations=40, individual="200trees")
+    assert found.individuals[0].card.iou > found.card.iou + 0.02
 
 
 @pytest.mark.parametrize("more", [{}, {"start": "auto", "evaluations": 25, "leaves": True}])

@@ -228,6 +228,7 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
         Outcome {
             elapsed: self.elapsed(),
             before_search: self.times.before_search,
+            finalists: self.course.search.state.finalists.iter().cloned().collect(),
             best: self.course.search.state.best,
             evaluations: self.course.search.state.evaluations,
             generations: self.course.search.state.generation,
@@ -246,7 +247,7 @@ fn check<S: MethodSettings>(
 ) -> Result<(), BodyProblem> {
     let state = &checkpoint.search;
     // What was scored has grown, so it is a list of this generator's.
-    if let Some(best) = &state.best {
+    for best in state.best.iter().chain(state.finalists.iter()) {
         space.params().check(best.genome.values.clone()).map_err(BodyProblem::Best)?;
         if !space.has_structure(&best.genome) {
             return Err(BodyProblem::Structure);

@@ -23,13 +23,13 @@ pub(crate) struct Crown {
 
 impl Crown {
     /// From points with the area in square metres that each stands for.
-    pub(crate) fn new(low: Vec3, high: Vec3, areas: &[(Vec3, f32)]) -> Self {
+    pub(crate) fn new(low: Vec3, high: Vec3, areas: impl Iterator<Item = (Vec3, f32)>) -> Self {
         let extent = (high - low).max(Vec3::splat(1e-3));
         let cell = extent.max_element() / CELLS;
         let size = (extent / cell).ceil().as_uvec3() + uvec3(2, 2, 2);
         let mut crown = Self { origin: low - cell, cell, size, sky: Vec::new() };
         let mut density = vec![0.0_f32; (size.x * size.y * size.z) as usize];
-        for &(at, area) in areas {
+        for (at, area) in areas {
             if let Some(index) = crown.index(crown.cell_of(at)) {
                 density[index] += area;
             }
@@ -119,7 +119,7 @@ mod tests {
                 areas.push((at, 0.01));
             }
         }
-        let crown = Crown::new(Vec3::splat(-2.0), Vec3::splat(2.0), &areas);
+        let crown = Crown::new(Vec3::splat(-2.0), Vec3::splat(2.0), areas.into_iter());
         let [heart, side, top] = [Vec3::ZERO, Vec3::X * 1.9, Vec3::Z * 1.9].map(|p| crown.sky_at(p));
         assert!(heart < 0.7 * side && side < top && top <= 1.0, "{heart} {side} {top}");
         assert!(crown.sky_at(Vec3::splat(9.0)) > 0.99);

@@ -7,7 +7,6 @@ use super::settings::{Background, Ground, PreviewSettings};
 use super::shade::View;
 use crate::picture::Picture;
 use glam::Vec3;
-use rayon::prelude::*;
 
 /// What a flat picture shows: a rectangle through `middle` that faces `azimuth`.
 #[derive(Clone, Copy, Debug)]
@@ -27,8 +26,8 @@ pub(super) fn picture(scene: &Scene, frame: &Frame) -> Picture {
     let [width, height] = frame.pixels;
     let samples = super::shade::SAMPLES;
     let camera = Camera::afar(frame.middle, frame.azimuth, frame.half, [width * samples, height * samples]);
-    let projected: Vec<Vec3> = scene.points.par_iter().map(|&p| camera.project(p)).collect();
-    let buffer = DepthBuffer::draw(width * samples, height * samples, &projected, &scene.triangles);
+    let seen = |corner| camera.project(scene.point(corner));
+    let buffer = DepthBuffer::draw(width * samples, height * samples, seen, &scene.triangles);
     let settings = PreviewSettings {
         width,
         height,

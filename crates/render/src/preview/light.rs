@@ -1,6 +1,7 @@
 //! The sun and its shadows.
 
 use super::raster::DepthBuffer;
+use super::scene::Scene;
 use glam::{Vec3, vec3};
 
 /// What the sun sees: a depth buffer along its rays.
@@ -17,13 +18,13 @@ pub(crate) struct Sun {
 }
 
 impl Sun {
-    /// The sun in direction `towards` over a mesh, with about `texels` texels across it.
-    pub(crate) fn new(towards: Vec3, points: &[Vec3], triangles: &[[u32; 3]], texels: u32) -> Self {
+    /// The sun in direction `towards` over a scene, with about `texels` texels across it.
+    pub(super) fn new(towards: Vec3, scene: &Scene, texels: u32) -> Self {
         let right = Vec3::Z.cross(towards).try_normalize().unwrap_or(Vec3::X);
         let up = towards.cross(right);
-        let seen = |p: &Vec3| vec3(p.dot(right), p.dot(up), p.dot(towards));
-        let (low, high) = points
-            .iter()
+        let seen = |p: Vec3| vec3(p.dot(right), p.dot(up), p.dot(towards));
+        let (low, high) = scene
+            .points()
             .map(seen)
             .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(l, h), p| (l.min(p), h.max(p)));
         let extent = (high - low).max(Vec3::splat(1e-3));
@@ -37,8 +38,7 @@ impl Sun {
             buffer: DepthBuffer { width: 0, height: 0, near: Vec::new(), triangle: Vec::new() },
         };
         let [width, height] = [extent.x, extent.y].map(|e| (e * scale).ceil() as u32 + 1);
-        let placed: Vec<Vec3> = points.iter().map(|&p| sun.place(p)).collect();
-        sun.buffer = DepthBuffer::draw(width, height, &placed, triangles);
+        sun.buffer = DepthBuffer::draw(width, height, |i| sun.place(scene.point(i)), &scene.triangles);
         sun
     }
 

@@ -51,15 +51,14 @@ impl Preview {
 
     /// The smallest and largest coordinates of what is drawn, in metres.
     pub(crate) fn bounds(&self) -> (Vec3, Vec3) {
-        let points = self.scene.points.iter().copied();
         let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        let (low, high) = points.fold(start, |(low, high), p| (low.min(p), high.max(p)));
+        let (low, high) = self.scene.points().fold(start, |(low, high), p| (low.min(p), high.max(p)));
         if low.is_finite() { (low, high) } else { (Vec3::ZERO, Vec3::ZERO) }
     }
 
     /// How far the tree reaches from the vertical axis along `right` or against it, in metres.
     pub(crate) fn reach(&self, right: Vec3) -> f32 {
-        self.scene.points.iter().map(|p| p.dot(right).abs()).fold(0.0, f32::max)
+        self.scene.points().map(|p| p.dot(right).abs()).fold(0.0, f32::max)
     }
 
     /// Takes a picture from afar, in even light.

@@ -21,40 +21,47 @@ pub(crate) struct DepthBuffer {
 const BAND: usize = 64;
 
 impl DepthBuffer {
-    /// Draws triangles by corners in samples, x right, y down, z the nearness. Where two are equally
-    /// near, the first wins, whatever the number of threads.
-    pub(crate) fn draw(width: u32, height: u32, points: &[Vec3], triangles: &[[u32; 3]]) -> Self {
+    /// Draws triangles. `place` says where a corner is, in samples: x right, y down, z the nearness; it is asked
+    /// again and again, since a list of places would take as much memory as the mesh. Where two are equally near, the
+    /// first wins, whatever the number of threads.
+    pub(crate) fn draw(
+        width: u32,
+        height: u32,
+        place: impl Fn(u32) -> Vec3 + Sync,
+        triangles: &[[u32; 3]],
+    ) -> Self {
         let size = width as usize * height as usize;
         let mut buffer = Self { width, height, near: vec![0.0; size], triangle: vec![NONE; size] };
         let bands = (height as usize).div_ceil(BAND);
-        let bins = bins(height, bands, points, triangles);
+        let bins = bins(height, bands, &place, triangles);
         let rows = BAND * width as usize;
-        buffer
-            .near
-            .par_chunks_mut(rows)
-            .zip(buffer.triangle.par_chunks_mut(rows))
-            .zip(&bins)
-            .enumerate()
-            .for_each(|(band, ((near, triangle), bin))| {
+        buffer.near.par_chunks_mut(rows).zip(buffer.triangle.par_chunks_mut(rows)).enumerate().for_each(
+            |(band, (near, triangle))| {
                 let mut target = Band { width: width as i32, first: (band * BAND) as i32, near, triangle };
-                for &number in bin {
-                    let corners = triangles[number as usize].map(|i| points[i as usize]);
+                for &number in bins.iter().flat_map(|chunk| &chunk[band]) {
+                    let corners = triangles[number as usize].map(&place);
                     target.fill(number, corners);
                 }
-            });
+            },
+        );
         buffer
     }
 }
 
-/// The triangles that reach into each band of rows, in their order.
-fn bins(height: u32, bands: usize, points: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
-    let chunks: Vec<Vec<Vec<u32>>> = triangles
+/// The triangles that reach into each band of rows, chunk by chunk of all triangles, in their order.
+fn bins(
+    height: u32,
+    bands: usize,
+    place: &(impl Fn(u32) -> Vec3 + Sync),
+    triangles: &[[u32; 3]],
+) -> Vec<Vec<Vec<u32>>> {
+    triangles
         .par_chunks(1 << 16)
         .enumerate()
         .map(|(chunk, triangles)| {
             let mut bins = vec![Vec::new(); bands];
             for (i, t) in triangles.iter().enumerate() {
-                let [a, b, c] = t.map(|i| points[i as usize]);
+                let [a, b, c] = t.map(place);
                 let (top, bottom) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
                 // Written so that what is not a number is left out.
                 if !(bottom > 0.0 && top < height as f32) || a.z.min(b.z).min(c.z) <= 0.0 {
@@ -68,8 +75,7 @@ fn bins(height: u32, bands: usize, points: &[Vec3], triangles: &[[u32; 3]]) -> V
             }
             bins
         })
-        .collect();
-    (0..bands).map(|b| chunks.iter().flat_map(|c| c[b].iter().copied()).collect()).collect()
+        .collect()
 }
 
 struct Band<'a> {
@@ -150,7 +156,7 @@ mod tests {
             vec3(0.0, 4.0, 2.0),
             vec3(4.0, 0.0, 2.0),
         ];
-        let buffer = DepthBuffer::draw(8, 8, &points, &[[0, 1, 2], [3, 4, 5]]);
+        let buffer = DepthBuffer::draw(8, 8, |i| points[i as usize], &[[0, 1, 2], [3, 4, 5]]);
         let at = |x: usize, y: usize| buffer.triangle[y * 8 + x];
         assert_eq!((at(0, 0), at(5, 1), at(7, 7)), (1, 0, NONE));
         let seen = buffer.triangle.iter().filter(|t| **t != NONE).count();
@@ -166,7 +172,7 @@ mod tests {
         };
         let points: Vec<Vec3> = std::iter::once(vec3(50.3, 49.8, 1.0)).chain((0..9).map(rim)).collect();
         let triangles: Vec<[u32; 3]> = (1..10).map(|i| [0, i, i % 9 + 1]).collect();
-        let buffer = DepthBuffer::draw(100, 100, &points, &triangles);
+        let buffer = DepthBuffer::draw(100, 100, |i| points[i as usize], &triangles);
         let holes = (30..70).flat_map(|y| (30..70).map(move |x| (x, y)));
         assert_eq!(holes.filter(|(x, y)| buffer.triangle[y * 100 + x] == NONE).count(), 0);
     }

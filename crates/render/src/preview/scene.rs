@@ -14,7 +14,6 @@ use std::ops::Range;
 pub(super) struct Scene {
     pub(super) palette: Palette,
     pub(super) vertices: Vec<Vertex>,
-    pub(super) points: Vec<Vec3>,
     pub(super) triangles: Vec<[u32; 3]>,
     /// First triangle of each part, what it is, and how many triangles each of its leaves has.
     pub(super) parts: Vec<(u32, Material, u32)>,
@@ -51,12 +50,11 @@ impl Scene {
         let mut scene = Self {
             palette: *palette,
             vertices: run.vertices,
-            points: Vec::new(),
             triangles: run.triangles,
             parts: Vec::new(),
             blobs: 0..0,
             stems: stems(tree, &mesher),
-            crown: Crown::new(low, high, &areas(tree)),
+            crown: Crown::new(low, high, areas(tree)),
             low,
             high,
             has_roots: parts.contains(Parts::ROOTS),
@@ -75,7 +73,6 @@ impl Scene {
             }
             scene.parts.push((first, part.material, each.max(1) as u32));
         }
-        scene.points = scene.vertices.iter().map(|v| v.position).collect();
         if !tree.leaves.is_empty() {
             let n = tree.leaves.len() as f32;
             scene.heart = tree.leaves.iter().map(|l| l.position).sum::<Vec3>() / n;
@@ -83,6 +80,17 @@ impl Scene {
             scene.reach = (tree.leaves.iter().map(distance).sum::<f32>() / n).max(1e-3);
         }
         scene
+    }
+
+    /// Where a corner is.
+    #[inline]
+    pub(super) fn point(&self, corner: u32) -> Vec3 {
+        self.vertices[corner as usize].position
+    }
+
+    /// Where all corners are.
+    pub(super) fn points(&self) -> impl Iterator<Item = Vec3> + Clone {
+        self.vertices.iter().map(|vertex| vertex.position)
     }
 
     /// Part of a triangle: what it is, and the number of its leaf.
@@ -152,17 +160,14 @@ fn stems(tree: &Tree, mesher: &Mesher<'_>) -> Vec<(u32, f32, u16)> {
 }
 
 /// Where area hangs: leaves and blossoms at their middles, stems along their knots.
-fn areas(tree: &Tree) -> Vec<(Vec3, f32)> {
+fn areas(tree: &Tree) -> impl Iterator<Item = (Vec3, f32)> {
     let leaf = |l: &pleach_tree::Leaf, unit: f32| (l.position + l.along * 0.5, l.unit_area() * unit);
-    let mut areas: Vec<(Vec3, f32)> =
-        tree.leaves.iter().map(|l| leaf(l, tree.outline_of(l).area())).collect();
-    areas.extend(tree.blossoms.iter().map(|l| leaf(l, 1.5)));
-    for stem in &tree.stems {
-        for pair in tree.knots_of(stem).windows(2) {
-            let length = pair[0].point.distance(pair[1].point);
-            let middle = (pair[0].point + pair[1].point) / 2.0;
-            areas.push((middle.as_vec3(), (length * (pair[0].radius + pair[1].radius)) as f32));
-        }
-    }
-    areas
+    let leaves = tree.leaves.iter().map(move |l| leaf(l, tree.outline_of(l).area()));
+    let blossoms = tree.blossoms.iter().map(move |l| leaf(l, 1.5));
+    let pieces = tree.stems.iter().flat_map(|stem| tree.knots_of(stem).windows(2)).map(|pair| {
+        let length = pair[0].point.distance(pair[1].point);
+        let middle = (pair[0].point + pair[1].point) / 2.0;
+        (middle.as_vec3(), (length * (pair[0].radius + pair[1].radius)) as f32)
+    });
+    leaves.chain(blossoms).chain(pieces)
 }

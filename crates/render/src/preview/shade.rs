@@ -25,21 +25,20 @@ pub(super) fn picture(scene: &Scene, settings: &PreviewSettings) -> Picture {
     let (width, height) = (settings.width * SAMPLES, settings.height * SAMPLES);
     let (azimuth, elevation) = (settings.azimuth as f32, settings.elevation as f32);
     let camera = Camera::around(&outline(scene, settings.all_around), azimuth, elevation, width, height);
-    let projected: Vec<Vec3> = scene.points.par_iter().map(|&p| camera.project(p)).collect();
-    let buffer = DepthBuffer::draw(width, height, &projected, &scene.triangles);
-    drop(projected);
+    let seen = |corner| camera.project(scene.point(corner));
+    let buffer = DepthBuffer::draw(width, height, seen, &scene.triangles);
     // From the viewer's upper left, three quarters to the front.
     let (turn, rise) = (azimuth - 0.75, 0.87_f32);
     let towards = vec3(turn.sin() * rise.cos(), -turn.cos() * rise.cos(), rise.sin());
     let texels = (settings.width.max(settings.height) * 2).clamp(256, 4096);
-    let sun = Sun::new(towards, &scene.points, &scene.triangles, texels);
+    let sun = Sun::new(towards, scene, texels);
     View { scene, settings, camera, sun: Some(sun), buffer }.picture()
 }
 
 /// Points that a picture must show: some of the tree's own, or the rim of all its turns.
 fn outline(scene: &Scene, all_around: bool) -> Vec<Vec3> {
-    let step = (scene.points.len() / 6000).max(1);
-    let some: Vec<Vec3> = scene.points.iter().copied().step_by(step).collect();
+    let step = (scene.vertices.len() / 6000).max(1);
+    let some: Vec<Vec3> = scene.points().step_by(step).collect();
     if some.is_empty() {
         return vec![scene.low, scene.high];
     }
@@ -116,7 +115,7 @@ impl View<'_> {
             return self.ground(ray) * self.margin(x, y);
         }
         let corners = self.scene.triangles[triangle as usize];
-        let [a, b, c] = corners.map(|i| self.scene.points[i as usize]);
+        let [a, b, c] = corners.map(|i| self.scene.point(i));
         let plane = (b - a).cross(c - a);
         let slope = ray.dot(plane);
         let distance = if slope.abs() > 1e-12 { (a - self.camera.eye).dot(plane) / slope } else { 0.0 };

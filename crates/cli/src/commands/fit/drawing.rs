@@ -30,8 +30,8 @@ fn scored(goals: &Goals) -> Duration {
 
 /// A shaded picture whatever the tree, and how many times as long as to grow and score it in a search it takes to
 /// paint one: measured over the fifteen species.
-const PAINTED: Duration = Duration::from_millis(150);
-const PAINTED_TREES: f64 = 20.0;
+const PAINTED: Duration = Duration::from_millis(200);
+const PAINTED_TREES: f64 = 13.0;
 const FURTHER_TREES: f64 = 6.0;
 /// A score card and the silhouettes of a million pixels.
 const A_MEGAPIXEL: Duration = Duration::from_millis(500);
