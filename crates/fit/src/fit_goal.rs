@@ -31,8 +31,9 @@ pub struct GoalSettings {
     pub guess: Guessing,
     /// The known species: a first guess is one of them, and a result's likeness stands beside theirs.
     pub candidates: Vec<Candidate>,
-    /// Whether the result is the one of the last bests of the search of which other seeds are best as well, where the
-    /// objective looks at likeness, and not the last best whatever its other seeds are.
+    /// Whether the result is the one of the last bests of the search of which other seeds are best as well, and not
+    /// the last best whatever its other seeds are. Not where the objective does not look at likeness, and not after
+    /// the dissertation's algorithm and random lists, which are as they were published.
     pub validates: bool,
     /// How the result is judged; none leaves it as the search has found it.
     pub judging: Option<Judging>,
@@ -176,6 +177,11 @@ pub fn fit_goal_with(
     conclude(begun, outcome, settings, library, control)
 }
 
+/// Whether the last bests of such a search may be asked for other seeds.
+fn validates(search: &FitSettings) -> bool {
+    search.objective.looks() && search.rules.is_none() && search.optimizer.keeps_to_plausible()
+}
+
 /// Judges what a search has found, unless the flag of `control` is raised, and looks for this very tree.
 pub(crate) fn conclude(
     mut begun: Begun,
@@ -202,7 +208,7 @@ pub(crate) fn conclude(
         Ok(())
     };
     let rest = Rest::new(settings, outcome.elapsed, control.clock, evaluate)?;
-    if settings.validates && begun.settings.rules.is_none() && begun.settings.objective.looks() {
+    if settings.validates && validates(&begun.settings) {
         let mut finalists = outcome.finalists.clone();
         finalists.push(best.clone());
         let share = settings.judging.and_then(|judging| rest.for_judging(judging.time));

@@ -240,15 +240,17 @@ impl<M: Method> AskTell for Search<M> {
         let told: Vec<Score> = (scores.iter().zip(&*batch))
             .map(|(score, member)| Score { cost: self.cost(member, score), ..*score })
             .collect();
-        let top = told.iter().enumerate().min_by(|a, b| a.1.cost.total_cmp(&b.1.cost)).map(|(at, told)| {
-            let top = Scored { genome: batch[at].clone(), score: scores[at] };
+        let scored = |at: usize| Scored { genome: batch[at].clone(), score: scores[at] };
+        // One by one: which were the best for a while must not depend on how many are told at once.
+        for (at, told) in told.iter().enumerate() {
             if self.best_cost().is_none_or(|best| told.cost < best)
-                && let Some(former) = self.state.best.replace(top.clone())
+                && let Some(former) = self.state.best.replace(scored(at))
             {
                 self.state.finalists.add(former);
             }
-            top
-        });
+        }
+        let top =
+            (told.iter().enumerate()).min_by(|a, b| a.1.cost.total_cmp(&b.1.cost)).map(|(at, _)| scored(at));
         self.state.scores.extend(told);
         if self.state.scores.len() == members.len() {
             self.end_brood(&members);

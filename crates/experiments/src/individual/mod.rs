@@ -191,6 +191,7 @@ impl IndividualSpec {
         let budget = Budget { timeout: Some(whole * 2 / 3), ..Budget::default() };
         let settings = GoalSettings {
             search: FitSettings { budget, ..FitSettings::default() },
+            validates: false,
             judging: None,
             individual: Some(IndividualSettings::time(whole / 3)),
             ..GoalSettings::new(candidates.to_vec())

@@ -279,6 +279,9 @@ pub(super) struct MethodSpec {
     /// Whether the tree's seed is searched; fixed if not said.
     #[serde(default)]
     pub(super) any_seed: bool,
+    /// Whether the result is the one of the last bests whose other seeds are best too; the last best if not said.
+    #[serde(default)]
+    pub(super) validates: bool,
     /// Fits of each goal, seeded 1, 2, …; one if it is not said.
     pub(super) repetitions: Option<Repetitions>,
     /// Kinds of goals that it fits; all if it is not said.
