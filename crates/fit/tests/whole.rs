@@ -206,3 +206,27 @@ fn a_resumed_fit_ends_as_one_that_was_not_interrupted() {
     let elapsed = last.outcome.elapsed.as_secs();
     assert!((1000..1900).contains(&elapsed), "{elapsed}");
 }
+
+/// The search is the same; only which of its last bests is taken differs, and not of the dissertation's algorithm.
+#[test]
+fn other_seeds_choose_among_the_last_bests() {
+    let problem = goal_of("palm", 4, 64);
+    let fitted = |optimizer: &str, seed, validates| {
+        let plain = settings(200);
+        let optimizer = optimizer.parse().unwrap();
+        let search = FitSettings { optimizer, seed, start: Start::Random, ..plain.search.clone() };
+        run(&problem, &GoalSettings { search, validates, guess: Guessing::Off, judging: None, ..plain })
+    };
+    let mut others = 0;
+    for seed in 1..5 {
+        let (last, kind) = (fitted("evolution", seed, false), fitted("evolution", seed, true));
+        assert_eq!(last.outcome, kind.outcome);
+        assert_eq!(Some(&last.best), last.outcome.best.as_ref());
+        assert!(kind.best == last.best || kind.outcome.finalists.contains(&kind.best));
+        others += u32::from(kind.best != last.best);
+    }
+    assert!(others > 0, "it is always the last");
+    let published = fitted("hewitt", 1, true);
+    assert!(!published.outcome.finalists.is_empty());
+    assert_eq!(Some(published.best), published.outcome.best);
+}

@@ -9,11 +9,13 @@ use crate::species::Species;
 use crate::told::{Teller, Told};
 use crate::view::{Direction, view};
 use numpy::PyArray2;
-use pleach::plan::{Effort, Origin, Shares, USUAL_TIME, has_individuals, library, plan, usual_start};
+use pleach::plan::{
+    DRAWING, Effort, Origin, Shares, USUAL_TIME, has_individuals, library, plan, usual_start,
+};
 use pleach::{
-    Aftermath, Bitmap, Budget, COLUMNS, Control, FitProblem, FitSettings, Fitted, Foliage, Freedom,
-    GeneratorChoice, Goal, GoalOptions, GoalSettings, GoalView, Growth, Identifiability, IndividualSettings,
-    Profile, Rasterizer, ScoreCard, TreeSeed, View, fit_goal_with,
+    Bitmap, Budget, COLUMNS, Control, FitProblem, FitSettings, Fitted, Foliage, Freedom, GeneratorChoice,
+    Goal, GoalOptions, GoalSettings, GoalView, Growth, Identifiability, IndividualSettings, Profile,
+    Rasterizer, ScoreCard, TreeSeed, View, fit_goal_with,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -259,11 +261,7 @@ fn settings(
     let planned = plan(origin, generator, &problem.start, search).map_err(of_fit)?;
     let settings = GoalSettings { individual, ..planned };
     Ok(match shares {
-        // A tree that is found is drawn and scored once more; what takes long of it is made where it is asked for.
-        Some(shares) => {
-            let drawing = Aftermath { fixed: Duration::from_millis(100), trees: 3.0, spread: 0.0 };
-            shares.bound(settings, drawing, drawing)
-        }
+        Some(shares) => shares.bound(settings, DRAWING, DRAWING),
         None => settings,
     })
 }

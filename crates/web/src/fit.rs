@@ -5,11 +5,10 @@ use crate::goal::Goal;
 use crate::tree::ink;
 use crate::{message, report};
 use js_sys::{Array, Function, Uint8Array};
-use pleach::plan::{Origin, Shares, plan, usual_start};
+use pleach::plan::{DRAWING, Origin, Shares, plan, usual_start};
 use pleach::{
-    Aftermath, Bitmap, Budget, Control, Drawings, FitProblem, FitSettings, Foliage, GeneratorChoice,
-    GoalView, Growth, GuessLibrary, Observer, Rasterizer, Scored, Species, Stepwise, StopReason, TreeSeed,
-    View,
+    Bitmap, Budget, Control, Drawings, FitProblem, FitSettings, Foliage, GeneratorChoice, GoalView, Growth,
+    GuessLibrary, Observer, Rasterizer, Scored, Species, Stepwise, StopReason, TreeSeed, View,
 };
 use serde::Deserialize;
 use serde_json::json;
@@ -104,8 +103,7 @@ impl Fit {
         };
         let mut settings = plan(origin, generator, &start, search).map_err(thrown)?;
         if let Some(shares) = shares {
-            let drawing = Aftermath { fixed: Duration::from_millis(100), trees: 3.0, spread: 0.0 };
-            settings = shares.bound(settings, drawing, drawing);
+            settings = shares.bound(settings, DRAWING, DRAWING);
         }
         let working = goal.working()?;
         let view = GoalView::new(working.bitmap.clone(), View::FRONT, working.frame(height));

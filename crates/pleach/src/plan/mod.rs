@@ -10,7 +10,7 @@ mod shares;
 pub use effort::{Effort, TooLong};
 pub use known::{draw, library};
 pub use origin::{Origin, has_individuals, plan, usual_start};
-pub use shares::Shares;
+pub use shares::{DRAWING, Shares};
 
 use std::time::Duration;
 

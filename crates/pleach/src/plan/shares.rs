@@ -26,6 +26,9 @@ const MOST_OF_LITTLE: u32 = 8;
 /// Trees that judging grows, for most species.
 const JUDGED: f64 = 300.0;
 
+/// What callers that paint no pictures do with a tree that is found: draw and score it once more.
+pub const DRAWING: Aftermath = Aftermath { fixed: Duration::from_millis(100), trees: 3.0, spread: 0.0 };
+
 impl Shares {
     /// Of a fit that is to take `whole`.
     #[must_use]
