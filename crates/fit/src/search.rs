@@ -10,6 +10,14 @@ use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+/// Individuals that are bred at once.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Brood {
+    members: Vec<Genome>,
+    /// The largest trees that are tried of them: of what was known when they were bred.
+    most: Size,
+}
+
 /// Everything that a search knows and that a checkpoint holds.
 ///
 /// A generation may be evaluated in several batches. How many does not matter to the result: the
@@ -33,11 +41,12 @@ pub struct SearchState<M> {
     /// The best of the broods of the present generation that have been told.
     best_so_far: Option<Score>,
     /// Broods that have been bred and not told, oldest first.
-    pending: VecDeque<Vec<Genome>>,
+    pending: VecDeque<Brood>,
     /// Scores of the first members of the oldest.
     scores: Vec<Score>,
     /// Largest trees that are tried.
     most: Size,
+    follows: bool,
 }
 
 /// How much larger than the best tree of the first generation another may be.
@@ -76,6 +85,7 @@ impl<M> SearchState<M> {
             pending: VecDeque::new(),
             scores: Vec::new(),
             most: if matches!(start, Start::Random) { ALWAYS } else { Size::ANY },
+            follows: matches!(start, Start::Random),
         }
     }
 
@@ -90,15 +100,23 @@ impl<M> SearchState<M> {
         self.most
     }
 
+    fn bound(&self) -> Size {
+        let Some(best) = self.best.as_ref().filter(|_| self.follows) else { return self.most };
+        let v: Vec<f64> = std::env::var("PL_B").ok().map(|s| s.split(',').map(|x| x.parse().unwrap()).collect()).unwrap_or_default();
+        if v.is_empty() || self.generation == 0 { return self.most }
+        let f = |a: usize, b: usize, m: usize| ((a as f64 / v[0]).max(b as f64 * v[1]) as usize).min(m);
+        Size { stems: f(ALWAYS.stems, best.score.size.stems, self.most.stems), leaves: f(ALWAYS.leaves, best.score.size.leaves, self.most.leaves), knots: f(ALWAYS.knots, best.score.size.knots, self.most.knots) }
+    }
+
     /// Whether this can be the state of a search in `space`: what was read from a file may be anything.
     pub(crate) fn suits(&self, space: &SearchSpace) -> bool
     where
         M: Method,
     {
-        let sizes: Vec<usize> = self.pending.iter().map(Vec::len).collect();
+        let sizes: Vec<usize> = self.pending.iter().map(|brood| brood.members.len()).collect();
         sizes.first().map_or(self.scores.is_empty(), |&first| self.scores.len() < first)
             && sizes.iter().all(|&size| size > 0)
-            && (self.pending.iter().flatten())
+            && (self.pending.iter().flat_map(|brood| &brood.members))
                 .chain(self.best.iter().map(|best| &best.genome))
                 .all(|g| is_individual(g, space))
             && self.finalists.suit(space)
@@ -153,7 +171,7 @@ impl<M> Search<M> {
     /// Individuals of the oldest brood that have been handed out and not told.
     #[must_use]
     pub fn awaited(&self) -> usize {
-        let untold = self.state.pending.front().map_or(0, Vec::len) - self.state.scores.len();
+        let untold = self.state.pending.front().map_or(0, |brood| brood.members.len()) - self.state.scores.len();
         untold.min(self.out)
     }
 
@@ -175,7 +193,8 @@ impl<M: Method> Search<M> {
             if state.generation > 0 || !state.pending.is_empty() {
                 members.iter_mut().for_each(|member| self.space.settle(member));
             }
-            state.pending.push_back(members);
+            let most = state.bound();
+            state.pending.push_back(Brood { members, most });
         }
     }
 
@@ -214,24 +233,24 @@ impl<M: Method> AskTell for Search<M> {
         let most = usize::try_from(room).unwrap_or(usize::MAX).min(self.batch.max(1));
         // What is out are the first without a score, maybe of several broods.
         let mut before = told + self.out;
-        let mut left: &[Genome] = &[];
+        let (mut left, mut bound): (&[Genome], Size) = (&[], Size::ANY);
         for brood in &self.state.pending {
-            left = brood.get(before..).unwrap_or_default();
-            before = before.saturating_sub(brood.len());
+            (left, bound) = (brood.members.get(before..).unwrap_or_default(), brood.most);
+            before = before.saturating_sub(brood.members.len());
             if !left.is_empty() {
                 break;
             }
         }
         let count = left.len().min(most);
         self.out += count;
-        Batch { genomes: &left[..count], most: self.state.most }
+        Batch { genomes: &left[..count], most: bound }
     }
 
     fn tell(&mut self, scores: &[Score]) -> Option<Scored> {
         let first = self.state.scores.len();
         self.out = self.out.saturating_sub(scores.len());
         self.state.evaluations += scores.len() as u64;
-        let mut members = self.state.pending.pop_front()?;
+        let Brood { mut members, most } = self.state.pending.pop_front()?;
         let batch = &mut members[first..first + scores.len()];
         for (member, score) in batch.iter_mut().zip(scores) {
             self.space.resize(member, score.resized);
@@ -255,7 +274,7 @@ impl<M: Method> AskTell for Search<M> {
         if self.state.scores.len() == members.len() {
             self.end_brood(&members);
         } else {
-            self.state.pending.push_front(members);
+            self.state.pending.push_front(Brood { members, most });
         }
         top
     }

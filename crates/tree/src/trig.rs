@@ -16,9 +16,20 @@ const ROUNDER: f64 = 6_755_399_441_055_744.0;
 #[inline]
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    if x.is_nan() || x.abs() > 1e5 {
-        return crate::math::sin_cos(x);
-    }
+    if is_near(x) { near_sin_cos(x) } else { crate::math::sin_cos(x) }
+}
+
+/// Whether |x| is at most 10⁵: what [`near_sin_cos`] is for.
+#[inline]
+#[must_use]
+pub fn is_near(x: f64) -> bool {
+    x.abs() <= 1e5
+}
+
+/// [`sin_cos`] of an angle that [`is_near`], without a branch; some numbers elsewhere.
+#[inline]
+#[must_use]
+pub fn near_sin_cos(x: f64) -> (f64, f64) {
     let shifted = x * FRAC_2_PI + ROUNDER;
     let quarter = shifted.to_bits();
     let turns = shifted - ROUNDER;
@@ -54,9 +65,6 @@ pub fn atan2(y: f64, x: f64) -> f64 {
     let (ax, ay) = (x.abs(), y.abs());
     let steep = ax < ay;
     let (low, high) = (if steep { ax } else { ay }, if steep { ay } else { ax });
-    if high == 0.0 {
-        return 0.0;
-    }
     // tan(π/8) and above: atan(q) = π/4 + atan((q − 1)/(q + 1)).
     let far = low > 0.414_213_562_373_095 * high;
     let above = if far { high } else { 0.0 };
@@ -76,7 +84,8 @@ pub fn atan2(y: f64, x: f64) -> f64 {
     let angle = base + q * p;
     let angle = if steep { FRAC_PI_2 - angle } else { angle };
     let angle = if x < 0.0 { PI - angle } else { angle };
-    angle.copysign(y)
+    // Chosen at the end, so that there is no branch.
+    if high == 0.0 { 0.0 } else { angle.copysign(y) }
 }
 
 #[cfg(test)]

@@ -6,9 +6,10 @@ use crate::budget::{Cause, Exceeded};
 use crate::children::relative_length;
 use crate::grow::{Buffers, GrowContext};
 use crate::leaf_batch::{LANES, LeafBatch, LeafSite};
+use crate::leaf_fan::{self, LeafFan};
 use crate::model::Model;
 use crate::purpose;
-use crate::spacing::{ChildFrame, Spacing};
+use crate::spacing::Spacing;
 use crate::stem::StemSpec;
 use glam::Vec3;
 use pleach_tree::{Leaf, Tree};
@@ -38,22 +39,19 @@ pub(crate) fn grow(
 
     let Buffers { tree, path, budget, .. } = buffers;
     let path = &path[first_point..];
+    if spacing.count < 0.0 {
+        budget.work(Cause::Leaves, stem.level, spacing.members().into())?;
+        budget.leaves(spacing.members() as usize)?;
+        let radius = profile.at(1.0);
+        kinds.fan(tree, &spacing, LeafFan::new(spacing.tip(path), radius, model.leaf_bend));
+        return Ok(());
+    }
     let mut batch = LeafBatch::default();
     let mut numbers = [0; LANES];
     spacing.sites(path, (budget, Cause::Leaves), |budget, site| {
         budget.leaf()?;
         let radius = profile.at(site.offset / stem.length);
-        if site.fan.is_some() {
-            let ChildFrame { mut turtle, outward } = spacing.child_frame(path, &site);
-            turtle.position += outward * radius;
-            if model.leaf_bend > 0.0 {
-                turtle.face_the_light(model.leaf_bend);
-            }
-            let (position, along, across) = (turtle.position, turtle.direction, turtle.right);
-            kinds.push(tree, site.number, (position.as_vec3(), along.as_vec3(), across.as_vec3()));
-            return Ok(());
-        }
-        let down_angle = spacing.down_angle(&site);
+        let down_angle = spacing.down_angle(site.number, site.offset);
         numbers[batch.len()] = site.number;
         let leaf = LeafSite { piece: site.piece, t: site.t, rotation: site.rotation, down_angle, radius };
         batch.push(path, helix, &leaf);
@@ -97,6 +95,20 @@ impl Kinds<'_> {
             self.push(tree, number, batch.leaf(lane));
         }
         batch.clear();
+    }
+
+    fn fan(&self, tree: &mut Tree, spacing: &Spacing<'_>, mut fan: LeafFan) {
+        let mut numbers = (0..spacing.members()).peekable();
+        while let Some(&first) = numbers.peek() {
+            for number in numbers.by_ref().take(leaf_fan::LANES) {
+                fan.push(spacing.fan_turn(number), spacing.down_angle(number, self.stem.0.length));
+            }
+            fan.site();
+            for (lane, number) in (first..).take(fan.len()).enumerate() {
+                self.push(tree, number, fan.leaf(lane));
+            }
+            fan.clear();
+        }
     }
 
     fn push(&self, tree: &mut Tree, number: u32, (position, along, across): (Vec3, Vec3, Vec3)) {

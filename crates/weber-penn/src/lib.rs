@@ -22,6 +22,7 @@ mod family;
 mod generator;
 mod grow;
 mod leaf_batch;
+mod leaf_fan;
 mod leaves;
 mod model;
 mod params;

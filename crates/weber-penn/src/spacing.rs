@@ -107,55 +107,70 @@ impl Spacing<'_> {
     }
 
     fn fan<E>(&self, path: &[PathPoint], mut each: impl FnMut(ChildSite) -> Result<(), E>) -> Result<(), E> {
-        let Self { stem, next, .. } = *self;
-        let members = self.members();
-        let offset = stem.length;
-        for number in 0..members {
-            let part = if members > 1 { f64::from(number) / f64::from(members - 1) - 0.5 } else { 0.0 };
-            let varied = next.rotate_v * stem.key.signed(purpose::ROTATE, number);
-            let fan = next.rotate * part + varied;
-            each(ChildSite { number, piece: path.len() - 2, t: 1.0, offset, rotation: 0.0, fan: Some(fan) })?;
+        let offset = self.stem.length;
+        for number in 0..self.members() {
+            let fan = Some(self.fan_turn(number));
+            each(ChildSite { number, piece: path.len() - 2, t: 1.0, offset, rotation: 0.0, fan })?;
         }
         Ok(())
     }
 
-    /// Angle between a child at `offset` metres and the stem, radians.
-    pub(crate) fn down_angle(&self, site: &ChildSite) -> f64 {
+    /// How far member `number` of a fan is turned to the right, radians.
+    pub(crate) fn fan_turn(&self, number: u32) -> f64 {
+        let Self { stem, next, .. } = *self;
+        let members = self.members();
+        let part = if members > 1 { f64::from(number) / f64::from(members - 1) - 0.5 } else { 0.0 };
+        let varied = next.rotate_v * stem.key.signed(purpose::ROTATE, number);
+        next.rotate * part + varied
+    }
+
+    /// Angle between child `number` at `offset` metres and the stem, radians.
+    pub(crate) fn down_angle(&self, number: u32, offset: f64) -> f64 {
         let Self { stem, level, next, .. } = *self;
-        let draw = || stem.key.signed(purpose::DOWN_ANGLE, site.number);
+        let draw = || stem.key.signed(purpose::DOWN_ANGLE, number);
         if next.down_angle_v == 0.0 {
             next.down_angle
         } else if next.down_angle_v > 0.0 {
             next.down_angle + draw() * next.down_angle_v
         } else {
             let free = stem.length * (1.0 - level.base_size);
-            let q = ((stem.length - site.offset) / free).clamp(0.0, 1.0);
+            let q = ((stem.length - offset) / free).clamp(0.0, 1.0);
             let angle = next.down_angle + next.down_angle_v * (1.0 - 2.0 * (0.2 + 0.8 * q));
             angle + 0.1 * draw() * angle.abs()
         }
     }
 
-    /// A child or leaf at `site`: still on the axis of the stem, turned the way that it will grow.
-    pub(crate) fn child_frame(&self, path: &[PathPoint], site: &ChildSite) -> ChildFrame {
-        let (from, to) = (&path[site.piece], &path[site.piece + 1]);
+    /// The end of the stem.
+    pub(crate) fn tip(&self, path: &[PathPoint]) -> Turtle {
+        self.axis(path, path.len() - 2, 1.0)
+    }
+
+    /// Where a piece of the stem is at `t`, along the stem, with the axis that a rotation of 0 has on its right.
+    fn axis(&self, path: &[PathPoint], piece: usize, t: f64) -> Turtle {
+        let (from, to) = (&path[piece], &path[piece + 1]);
         let cubic = Cubic::new(from.point, from.handle_out, to.handle_in, to.point);
-        let position = cubic.at(site.t);
-        let tangent = cubic.tangent(site.t, to.direction);
+        let position = cubic.at(t);
+        let tangent = cubic.tangent(t, to.direction);
         let right = if self.level.is_helix() {
             // t × t′ for a tangent t′ a little further on, in the limit: the same side of the coil
             // all along it.
-            tangent.cross(cubic.second_derivative(site.t)).try_normalize()
+            tangent.cross(cubic.second_derivative(t)).try_normalize()
         } else {
             to.direction.cross(to.right).cross(tangent).try_normalize()
         };
         let right = right.unwrap_or_else(|| tangent.any_orthonormal_vector());
-        let mut turtle = Turtle { position, direction: tangent, right };
+        Turtle { position, direction: tangent, right }
+    }
+
+    /// A child or leaf at `site`: still on the axis of the stem, turned the way that it will grow.
+    pub(crate) fn child_frame(&self, path: &[PathPoint], site: &ChildSite) -> ChildFrame {
+        let mut turtle = self.axis(path, site.piece, site.t);
         match site.fan {
             None => turtle.roll_right(site.rotation),
             Some(angle) => turtle.turn_right(angle),
         }
         let outward = turtle.down();
-        turtle.pitch_down(self.down_angle(site));
+        turtle.pitch_down(self.down_angle(site.number, site.offset));
         ChildFrame { turtle, outward }
     }
 }

@@ -14,7 +14,8 @@ use std::ops::Range;
 /// Samples across a pixel, one byte of them.
 pub(crate) const ACROSS: u32 = 8;
 
-/// Rows of samples.
+/// Columns of words: a word is eight pixels across, and those below it follow it in memory, so that small shapes stay
+/// within a line or two of the cache.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Grid {
     /// Pixels across and down.
@@ -23,9 +24,12 @@ pub(crate) struct Grid {
     /// Samples down a pixel.
     down: u32,
     words_per_row: usize,
+    /// Rows of samples.
+    rows: usize,
     words: Vec<u64>,
     /// Where rows of a wide shape change between outside and inside; kept for its memory.
     flips: Vec<u64>,
+    entering: Vec<u64>,
 }
 
 /// A corner of a polygon in samples: x to the right, y down.
@@ -38,9 +42,9 @@ impl Grid {
         self.height = height;
         self.down = down;
         self.words_per_row = (width as usize * ACROSS as usize).div_ceil(64);
-        let words = self.words_per_row * (height * down) as usize;
+        self.rows = (height * down) as usize;
         self.words.clear();
-        self.words.resize(words, 0);
+        self.words.resize(self.words_per_row * self.rows, 0);
     }
 
     /// Samples of a pixel, at most 128.
@@ -57,13 +61,8 @@ impl Grid {
     pub(crate) fn resolve(&self, out: &mut Bitmap) {
         out.reset(self.width, self.height);
         let half = Half::of(self.down);
-        for y in 0..self.height {
-            let samples = self.pixel_rows(y);
-            let row = out.row_mut(y);
-            for word in 0..self.words_per_row {
-                let byte = half.black(y, counts(samples, self.words_per_row, word));
-                row[word / 8] |= byte << (word % 8 * 8);
-            }
+        for word in 0..self.words_per_row {
+            self.resolve_column(word, half, out);
         }
         mask_beyond(out);
     }
@@ -72,35 +71,35 @@ impl Grid {
     pub(crate) fn coverage(&self, out: &mut Vec<u8>) {
         out.clear();
         for y in 0..self.height {
-            let samples = self.pixel_rows(y);
-            let row = (0..self.words_per_row)
-                .flat_map(|word| counts(samples, self.words_per_row, word).to_le_bytes());
+            let row = (0..self.words_per_row).flat_map(|word| counts(self.pixels(word, y)).to_le_bytes());
             out.extend(row.take(self.width as usize));
         }
     }
 
-    /// Moves the samples of a box, in words and rows of samples, to the end of `out`; the grid has none there after.
+    /// Moves the samples of a box, in words and rows of samples, to the end of `out`, row by row; the grid has none
+    /// there after.
     pub(super) fn take(&mut self, across: Range<usize>, down: Range<usize>, out: &mut Vec<u64>) {
         for row in down {
-            let line = &mut self.words[row * self.words_per_row..][across.clone()];
-            out.extend_from_slice(line);
-            line.fill(0);
+            out.extend(
+                across.clone().map(|word| std::mem::take(&mut self.words[word * self.rows + row])),
+            );
         }
     }
 
-    /// Words of a row of samples.
-    pub(super) fn line_mut(&mut self, row: usize, across: Range<usize>) -> &mut [u64] {
-        &mut self.words[row * self.words_per_row..][across]
+    /// Sets the words of a row of samples from `first` on.
+    pub(super) fn set_line(&mut self, row: usize, first: usize, line: &[u64]) {
+        for (word, &samples) in (first..).zip(line) {
+            self.words[word * self.rows + row] = samples;
+        }
     }
 
     /// Sets all samples of the pixels of row `y` that are black already: no more can be seen of them.
     pub(super) fn saturate(&mut self, y: u32, across: Range<usize>, half: Half) {
         for word in across {
-            let full = spread(half.black(y, counts(self.pixel_rows(y), self.words_per_row, word)));
+            let samples = self.pixels_mut(word, y);
+            let full = spread(half.black(y, counts(samples)));
             if full != 0 {
-                for row in y * self.down..(y + 1) * self.down {
-                    self.words[row as usize * self.words_per_row + word] |= full;
-                }
+                samples.iter_mut().for_each(|row| *row |= full);
             }
         }
     }
@@ -114,32 +113,41 @@ impl Grid {
     pub(super) fn sweep(&mut self, black: &mut Bitmap) {
         black.reset(self.width, self.height);
         let half = Half::of(self.down);
-        for y in 0..self.height {
-            self.saturate(y, 0..self.words_per_row, half);
-            let samples = self.pixel_rows(y);
-            let row = black.row_mut(y);
-            for word in 0..self.words_per_row {
-                row[word / 8] |= half.black(y, counts(samples, self.words_per_row, word)) << (word % 8 * 8);
+        for word in 0..self.words_per_row {
+            for y in 0..self.height {
+                self.saturate(y, word..word + 1, half);
             }
+            self.resolve_column(word, half, black);
         }
         mask_beyond(black);
     }
 
     /// Writes the pixels of a part of row `y` to `out`, a row of pixels, and clears their samples.
     pub(super) fn resolve_and_clear(&mut self, y: u32, across: Range<usize>, half: Half, out: &mut [u64]) {
-        for word in across.clone() {
+        for word in across {
             let shift = word % 8 * 8;
-            let black = half.black(y, counts(self.pixel_rows(y), self.words_per_row, word));
+            let samples = self.pixels_mut(word, y);
+            let black = half.black(y, counts(samples));
             out[word / 8] = out[word / 8] & !(0xff << shift) | black << shift;
-        }
-        for row in (y * self.down) as usize..((y + 1) * self.down) as usize {
-            self.line_mut(row, across.clone()).fill(0);
+            samples.fill(0);
         }
     }
 
-    fn pixel_rows(&self, y: u32) -> &[u64] {
-        let start = (y * self.down) as usize * self.words_per_row;
-        &self.words[start..start + self.down as usize * self.words_per_row]
+    /// Writes eight columns of pixels to `out`, which has none there.
+    fn resolve_column(&self, word: usize, half: Half, out: &mut Bitmap) {
+        let column = self.words[word * self.rows..][..self.rows].chunks_exact(self.down as usize);
+        for (y, samples) in (0..self.height).zip(column) {
+            out.row_mut(y)[word / 8] |= half.black(y, counts(samples)) << (word % 8 * 8);
+        }
+    }
+
+    /// The samples of eight pixels of row `y`.
+    fn pixels(&self, word: usize, y: u32) -> &[u64] {
+        &self.words[word * self.rows + (y * self.down) as usize..][..self.down as usize]
+    }
+
+    fn pixels_mut(&mut self, word: usize, y: u32) -> &mut [u64] {
+        &mut self.words[word * self.rows + (y * self.down) as usize..][..self.down as usize]
     }
 }
 
@@ -179,13 +187,9 @@ const EVERY_OTHER: u64 = 0x0001_0001_0001_0001;
 const LOW_BITS: u64 = 0x0101_0101_0101_0101;
 const HIGH_BITS: u64 = 0x8080_8080_8080_8080;
 
-/// Set samples in each of eight pixels, in the bytes of a word.
-fn counts(samples: &[u64], words_per_row: usize, word: usize) -> u64 {
-    let mut sum = 0;
-    for row in samples.chunks_exact(words_per_row) {
-        sum += count(row[word]);
-    }
-    sum
+/// Set samples in each of eight pixels, whose rows these are, in the bytes of a word.
+fn counts(samples: &[u64]) -> u64 {
+    samples.iter().map(|&row| count(row)).sum()
 }
 
 /// Set samples of one row in each of eight pixels, in the bytes of a word.

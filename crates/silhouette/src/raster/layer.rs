@@ -86,10 +86,11 @@ impl LayerPainter {
         let (words, rows) = self.extent(tree, parts);
         let across = join(words, old.across.clone());
         let rows = join(rows, old.rows.clone());
+        let mut rest = vec![0; across.len()];
         for y in rows.clone() {
             for row in (y * self.down) as usize..((y + 1) * self.down) as usize {
-                let rest = self.rasterizer.grid.line_mut(row, across.clone());
-                stack.without(old, row, &across, rest);
+                stack.without(old, row, &across, &mut rest);
+                self.rasterizer.grid.set_line(row, across.start, &rest);
             }
             self.rasterizer.grid.saturate(y, across.clone(), stack.half);
         }

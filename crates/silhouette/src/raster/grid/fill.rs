@@ -16,19 +16,9 @@ impl Grid {
     /// Fills a polygon, convex or not (even-odd). Corners that are not finite draw nothing.
     #[inline]
     pub(crate) fn fill(&mut self, corners: &[Corner]) {
-        let (mut left, mut right) = (f32::INFINITY, f32::NEG_INFINITY);
-        let (mut top, mut bottom) = (f32::INFINITY, f32::NEG_INFINITY);
-        let mut sum = 0.0;
-        for &[x, y] in corners {
-            left = if x < left { x } else { left };
-            right = if x > right { x } else { right };
-            top = if y < top { y } else { top };
-            bottom = if y > bottom { y } else { bottom };
-            sum += x + y;
-        }
         let (wide, high) = self.extent();
-        // A sum is finite only where every corner is.
-        if !(sum.is_finite() && right > 0.0 && left < wide && bottom > 0.0 && top < high) {
+        let Some([left, right, top, bottom]) = bounds(corners) else { return };
+        if !(right > 0.0 && left < wide && bottom > 0.0 && top < high) {
             return;
         }
         let first = ceil_half(top).max(0);
@@ -68,10 +58,11 @@ impl Grid {
         let (word, shift) = (origin / 64, origin % 64);
         let mask = u64::MAX >> (64 - (end - origin));
         let (low, high) = (mask << shift, if shift == 0 { 0 } else { mask >> (64 - shift) });
-        let stride = self.words_per_row;
-        self.words[first * stride..last * stride]
-            .chunks_exact(stride)
-            .all(|line| line[word] & low == low && (high == 0 || line[word + 1] & high == high))
+        let has = |word: usize, mask: u64| {
+            let column = &self.words[word * self.rows..][first..last];
+            column.iter().fold(mask, |both, row| both & row) == mask
+        };
+        has(word, low) && (high == 0 || has(word + 1, high))
     }
 
     /// Rows `first..last`, at most `ROWS`, of a polygon at most a word wide and inside the grid from
@@ -108,23 +99,17 @@ impl Grid {
             }
             (p, p_row) = (q, q_row);
         }
-        let stride = self.words_per_row;
         let (word, shift) = (origin as usize / 64, origin % 64);
-        let rows = &rows[..count];
-        let lines = self.words[first * stride..last * stride].chunks_exact_mut(stride);
-        if shift == 0 {
-            for (line, bits) in lines.zip(rows) {
-                line[word] |= bits;
-            }
-        } else if word + 1 < stride {
-            for (line, bits) in lines.zip(rows) {
-                let pair = &mut line[word..word + 2];
-                pair[0] |= bits << shift;
-                pair[1] |= bits >> (64 - shift);
-            }
-        } else {
-            for (line, bits) in lines.zip(rows) {
-                line[word] |= bits << shift;
+        let place = word * self.rows + first;
+        for (word, bits) in self.words[place..][..count].iter_mut().zip(&rows) {
+            *word |= bits << shift;
+        }
+        // What lies beyond the last word is no part of the picture.
+        if shift > 0
+            && let Some(next) = self.words.get_mut(place + self.rows..place + self.rows + count)
+        {
+            for (word, bits) in next.iter_mut().zip(&rows) {
+                *word |= bits >> (64 - shift);
             }
         }
     }
@@ -155,22 +140,50 @@ impl Grid {
                 let column = ceil_half((x - skew).clamp(0.0, wide)) as usize;
                 let column = column.max(from_word * 64) - from_word * 64;
                 if column < across * 64 {
-                    flips[(row - first) * across + column / 64] ^= 1 << (column % 64);
+                    flips[column / 64 * (last - first) + row - first] ^= 1 << (column % 64);
                 }
             }
             p = q;
         }
-        let lines = self.words[first * self.words_per_row..].chunks_exact_mut(self.words_per_row);
-        for (line, flips) in lines.zip(flips.chunks_exact(across)) {
-            let mut is_inside = 0;
-            for (word, &flips) in line[from_word..to_word].iter_mut().zip(flips) {
-                let inside = parities(flips) ^ is_inside;
+        // Whether the last sample of each row is inside, one word before.
+        let mut entering = std::mem::take(&mut self.entering);
+        entering.clear();
+        entering.resize(last - first, 0);
+        for (word, flips) in (from_word..to_word).zip(flips.chunks_exact(last - first)) {
+            let column = &mut self.words[word * self.rows..][first..last];
+            for ((word, &flips), entering) in column.iter_mut().zip(flips).zip(&mut entering) {
+                let inside = parities(flips) ^ *entering;
                 *word |= inside;
-                is_inside = 0_u64.wrapping_sub(inside >> 63);
+                *entering = 0_u64.wrapping_sub(inside >> 63);
             }
         }
+        self.entering = entering;
         self.flips = flips;
     }
+}
+
+/// Left, right, top and bottom of `corners`; none unless all are finite.
+#[inline]
+fn bounds(corners: &[Corner]) -> Option<[f32; 4]> {
+    // Two corners at a time, which are the four lanes of a register.
+    let (mut low, mut high, mut sum) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4], [0.0; 4]);
+    let mut add = |pair: [f32; 4]| {
+        for (k, v) in pair.into_iter().enumerate() {
+            low[k] = if v < low[k] { v } else { low[k] };
+            high[k] = if v > high[k] { v } else { high[k] };
+            sum[k] += v;
+        }
+    };
+    let pairs = corners.chunks_exact(2);
+    let odd = pairs.remainder();
+    pairs.for_each(|pair| add([pair[0][0], pair[0][1], pair[1][0], pair[1][1]]));
+    if let [[x, y]] = *odd {
+        add([x, y, x, y]);
+    }
+    // A sum is finite only where every number is.
+    (sum[0] + sum[1] + sum[2] + sum[3]).is_finite().then(|| {
+        [low[0].min(low[2]), high[0].max(high[2]), low[1].min(low[3]), high[1].max(high[3])]
+    })
 }
 
 /// The first row (or column) whose samples, which lie in its middle, are at or beyond `v`: the
