@@ -26,6 +26,7 @@ pub(crate) struct Grid {
     words_per_row: usize,
     /// Rows of samples.
     rows: usize,
+    /// A column more than there are, and some, so that shapes at the edge need no thought.
     words: Vec<u64>,
     /// Where rows of a wide shape change between outside and inside; kept for its memory.
     flips: Vec<u64>,
@@ -44,7 +45,7 @@ impl Grid {
         self.words_per_row = (width as usize * ACROSS as usize).div_ceil(64);
         self.rows = (height * down) as usize;
         self.words.clear();
-        self.words.resize(self.words_per_row * self.rows, 0);
+        self.words.resize((self.words_per_row + 1) * self.rows + fill::ROOM, 0);
     }
 
     /// Samples of a pixel, at most 128.

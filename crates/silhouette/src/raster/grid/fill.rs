@@ -1,6 +1,7 @@
 //! Polygons into samples: narrow ones a word for each row, wide ones edge by edge.
 
 use super::{Corner, Grid};
+use glam::{Vec4, Vec4Swizzles as _};
 
 /// Columns that the narrow path holds in one word.
 const NARROW: f32 = 63.0;
@@ -11,6 +12,19 @@ const HIGH: usize = 64;
 /// column: other places in each row, so that upright edges are seen eight times as finely. The mean is
 /// 0.
 const SKEW: [i32; 8] = [-28_672, 4_096, -12_288, 20_480, -20_480, 12_288, -4_096, 28_672];
+
+/// [`SKEW`] of as many rows as are filled at once, from any row on.
+const SKEWS: [i32; HIGH + SKEW.len()] = {
+    let mut skews = [0; HIGH + SKEW.len()];
+    let mut row = 0;
+    while row < skews.len() {
+        skews[row] = SKEW[row % SKEW.len()];
+        row += 1;
+    }
+    skews
+};
+/// Words beyond the last column that may be written to, beside a column.
+pub(super) const ROOM: usize = HIGH;
 
 impl Grid {
     /// Fills a polygon, convex or not (even-odd). Corners that are not finite draw nothing.
@@ -73,44 +87,22 @@ impl Grid {
     #[inline]
     fn fill_narrow<const ROWS: usize>(&mut self, corners: &[Corner], origin: u32, first: usize, last: usize) {
         let mut rows = [0_u64; ROWS];
-        let (base_x, base_y) = (origin as f32 - 0.5, first as f32);
-        let count = last - first;
-        // The first row whose samples are at or below `y`, 0 to `count`.
-        let row_of = |y: f32| {
-            let y = (y - base_y).clamp(0.0, count as f32);
-            ((fixed(y + (0.5 - 1.0 / 65536.0)) >> 16) as usize).min(count)
-        };
-        let mut p = corners[corners.len() - 1];
-        let mut p_row = row_of(p[1]);
-        for &q in corners {
-            let q_row = row_of(q[1]);
-            let (from, to) = if p_row < q_row { (p_row, q_row) } else { (q_row, p_row) };
-            if from < to {
-                let slope = (q[0] - p[0]) / (q[1] - p[1]);
-                let x = p[0] - base_x + (from as f32 + 0.5 + base_y - p[1]) * slope;
-                // An edge steeper than the clamp crosses a single row.
-                let (mut x, slope) = (fixed(x.clamp(0.0, 63.0)), fixed(slope.clamp(-63.0, 63.0)));
-                for (row, i) in rows[from..to].iter_mut().zip(first + from..) {
-                    // First sample at or right of the crossing.
-                    let column = (x - SKEW[i % SKEW.len()]).max(0) >> 16;
-                    *row ^= u64::MAX << (column & 63);
-                    x = x.wrapping_add(slope).clamp(0, 63 << 16);
-                }
-            }
-            (p, p_row) = (q, q_row);
+        let band = Band { origin: origin as f32 - 0.5, first: first as f32, count: (last - first) as f32 };
+        let skew = &SKEWS[first % SKEW.len()..][..ROWS];
+        let mut before = corners[corners.len() - 1];
+        for some in corners.chunks(4) {
+            band.flip(before, some, &mut rows, skew);
+            before = some[some.len() - 1];
         }
         let (word, shift) = (origin as usize / 64, origin % 64);
         let place = word * self.rows + first;
+        // All of few rows, empty ones too: how many there are is not to be guessed. Beyond the last word is room.
+        let count = if ROWS == LOW { ROWS } else { last - first };
         for (word, bits) in self.words[place..][..count].iter_mut().zip(&rows) {
             *word |= bits << shift;
         }
-        // What lies beyond the last word is no part of the picture.
-        if shift > 0
-            && let Some(next) = self.words.get_mut(place + self.rows..place + self.rows + count)
-        {
-            for (word, bits) in next.iter_mut().zip(&rows) {
-                *word |= bits >> (64 - shift);
-            }
+        for (word, bits) in self.words[place + self.rows..][..count].iter_mut().zip(&rows) {
+            *word |= bits >> 1 >> (63 - shift);
         }
     }
 
@@ -162,6 +154,53 @@ impl Grid {
     }
 }
 
+/// Rows of samples that are filled at once.
+struct Band {
+    /// Half a column left of the first.
+    origin: f32,
+    /// The first row, and how many there are.
+    first: f32,
+    count: f32,
+}
+
+impl Band {
+    /// Flips the rows of the edges that lead from `before` to each of `corners`, one to four, in step.
+    #[inline(always)]
+    fn flip<const ROWS: usize>(&self, before: Corner, corners: &[Corner], rows: &mut [u64; ROWS], skew: &[i32]) {
+        // An edge from a corner to itself crosses no row.
+        let corner = |k: usize| corners[k.min(corners.len() - 1)];
+        let q: [Corner; 4] = [corner(0), corner(1), corner(2), corner(3)];
+        let (qx, qy) = (Vec4::new(q[0][0], q[1][0], q[2][0], q[3][0]), Vec4::new(q[0][1], q[1][1], q[2][1], q[3][1]));
+        let (px, py) = (qx.xxyz().with_x(before[0]), qy.xxyz().with_x(before[1]));
+        let (from, to) = (self.row_of(py.min(qy)), self.row_of(py.max(qy)));
+        let start = Vec4::from_array(from.map(|row| row as f32));
+        let slope = (qx - px) / (qy - py);
+        let x = px - self.origin + (start + 0.5 + self.first - py) * slope;
+        // An edge steeper than the clamp crosses a single row.
+        let slope = fixed(slope.max(Vec4::splat(-63.0)).min(Vec4::splat(63.0)));
+        let x = fixed(x.max(Vec4::ZERO).min(Vec4::splat(63.0)));
+        for k in 0..4 {
+            let range = from[k] as usize..to[k] as usize;
+            let Some(rows) = rows.get_mut(range.clone()) else { continue };
+            let (mut x, slope) = (x[k], slope[k]);
+            for (row, skew) in rows.iter_mut().zip(&skew[range]) {
+                // First sample at or right of the crossing.
+                let column = (x - skew).max(0) >> 16;
+                *row ^= u64::MAX << (column & 63);
+                x = x.wrapping_add(slope).clamp(0, 63 << 16);
+            }
+        }
+    }
+
+    /// The first rows whose samples are at or below `y`.
+    #[inline(always)]
+    fn row_of(&self, y: Vec4) -> [i32; 4] {
+        let y = (y - self.first).max(Vec4::ZERO).min(Vec4::splat(self.count));
+        let [a, b, c, d] = fixed(y + (0.5 - 1.0 / 65536.0));
+        [a >> 16, b >> 16, c >> 16, d >> 16]
+    }
+}
+
 /// Left, right, top and bottom of `corners`; none unless all are finite.
 #[inline]
 fn bounds(corners: &[Corner]) -> Option<[f32; 4]> {
@@ -195,14 +234,16 @@ fn ceil_half(v: f32) -> i32 {
     whole + i32::from(whole as f32 != v && v > 0.0)
 }
 
-/// `v`, from −64 to below 64, times 65,536 as an integer.
+/// Numbers from −64 to below 64, times 65,536 as integers.
 ///
 /// Numbers from 128 to 256 have their last bit at 2⁻¹⁶, so that adding 192 leaves the fixed-point
 /// number in the low bits: two instructions, where a checked conversion takes ten.
-#[inline]
-fn fixed(v: f32) -> i32 {
+#[inline(always)]
+fn fixed(v: Vec4) -> [i32; 4] {
     const SHIFT: f32 = 192.0;
-    (v + SHIFT).to_bits().wrapping_sub(SHIFT.to_bits()) as i32
+    let whole = |v: f32| v.to_bits().wrapping_sub(SHIFT.to_bits()) as i32;
+    let [a, b, c, d] = (v + SHIFT).to_array();
+    [whole(a), whole(b), whole(c), whole(d)]
 }
 
 /// Of each bit whether an odd number is set of it and those below.
