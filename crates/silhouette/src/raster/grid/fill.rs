@@ -5,6 +5,8 @@ use glam::{Vec4, Vec4Swizzles as _};
 
 /// Columns that the narrow path holds in one word.
 const NARROW: f32 = 63.0;
+/// Columns of quadrilaterals whose edges cannot leave the word.
+const SLIM: f32 = 61.0;
 /// Rows that it does at a time: few for leaves, whose masks then need little clearing, or many.
 const LOW: usize = 16;
 const HIGH: usize = 64;
@@ -52,7 +54,11 @@ impl Grid {
                     return;
                 }
             }
-            self.fill_narrow::<LOW>(corners, origin, start, last);
+            if corners.len() == 4 && right - left < SLIM {
+                self.fill_quad(corners, origin, start, last);
+            } else {
+                self.fill_narrow::<LOW>(corners, origin, start, last);
+            }
         } else {
             self.fill_wide(corners, (left, right), first, last);
         }
@@ -87,21 +93,34 @@ impl Grid {
     #[inline]
     fn fill_narrow<const ROWS: usize>(&mut self, corners: &[Corner], origin: u32, first: usize, last: usize) {
         let mut rows = [0_u64; ROWS];
-        let band = Band { origin: origin as f32 - 0.5, first: first as f32, count: (last - first) as f32 };
-        let skew = &SKEWS[first % SKEW.len()..][..ROWS];
+        let band = Band::new(origin, first, last);
         let mut before = corners[corners.len() - 1];
         for some in corners.chunks(4) {
-            band.flip(before, some, &mut rows, skew);
+            band.edges(before, some).flip_edge_by_edge(&mut rows, skews(first));
             before = some[some.len() - 1];
         }
+        self.write(&rows, origin, first, if ROWS == LOW { ROWS } else { last - first });
+    }
+
+    /// [`Grid::fill_narrow`] of few rows of what most shapes are, pieces of stems.
+    #[inline]
+    fn fill_quad(&mut self, corners: &[Corner], origin: u32, first: usize, last: usize) {
+        let mut rows = [0_u64; LOW];
+        let edges = Band::new(origin, first, last).edges(corners[3], corners);
+        edges.flip_row_by_row(&mut rows[..last - first], skews(first));
+        self.write(&rows, origin, first, LOW);
+    }
+
+    /// Sets the samples of `rows`, the first of which is row `first`, from column `origin` on. All of few rows are
+    /// written, empty ones too, since how many there are is not to be guessed; beyond the last word there is room.
+    #[inline]
+    fn write<const ROWS: usize>(&mut self, rows: &[u64; ROWS], origin: u32, first: usize, count: usize) {
         let (word, shift) = (origin as usize / 64, origin % 64);
         let place = word * self.rows + first;
-        // All of few rows, empty ones too: how many there are is not to be guessed. Beyond the last word is room.
-        let count = if ROWS == LOW { ROWS } else { last - first };
-        for (word, bits) in self.words[place..][..count].iter_mut().zip(&rows) {
+        for (word, bits) in self.words[place..][..count].iter_mut().zip(rows) {
             *word |= bits << shift;
         }
-        for (word, bits) in self.words[place + self.rows..][..count].iter_mut().zip(&rows) {
+        for (word, bits) in self.words[place + self.rows..][..count].iter_mut().zip(rows) {
             *word |= bits >> 1 >> (63 - shift);
         }
     }
@@ -154,6 +173,13 @@ impl Grid {
     }
 }
 
+/// [`SKEW`] of the rows from `first` on.
+#[inline]
+fn skews(first: usize) -> &'static [i32; HIGH] {
+    let skews = SKEWS[first % SKEW.len()..].first_chunk();
+    skews.unwrap_or(&[0; HIGH])
+}
+
 /// Rows of samples that are filled at once.
 struct Band {
     /// Half a column left of the first.
@@ -164,13 +190,17 @@ struct Band {
 }
 
 impl Band {
-    /// Flips the rows of the edges that lead from `before` to each of `corners`, one to four, in step.
+    const fn new(origin: u32, first: usize, last: usize) -> Self {
+        Self { origin: origin as f32 - 0.5, first: first as f32, count: (last - first) as f32 }
+    }
+
+    /// The edges that lead from `before` to the first of `corners`, from there to the next, and so on: one to four.
     #[inline(always)]
-    fn flip<const ROWS: usize>(&self, before: Corner, corners: &[Corner], rows: &mut [u64; ROWS], skew: &[i32]) {
+    fn edges(&self, before: Corner, corners: &[Corner]) -> Edges {
         // An edge from a corner to itself crosses no row.
         let corner = |k: usize| corners[k.min(corners.len() - 1)];
-        let q: [Corner; 4] = [corner(0), corner(1), corner(2), corner(3)];
-        let (qx, qy) = (Vec4::new(q[0][0], q[1][0], q[2][0], q[3][0]), Vec4::new(q[0][1], q[1][1], q[2][1], q[3][1]));
+        let [a, b, c, d] = [corner(0), corner(1), corner(2), corner(3)];
+        let (qx, qy) = (Vec4::new(a[0], b[0], c[0], d[0]), Vec4::new(a[1], b[1], c[1], d[1]));
         let (px, py) = (qx.xxyz().with_x(before[0]), qy.xxyz().with_x(before[1]));
         let (from, to) = (self.row_of(py.min(qy)), self.row_of(py.max(qy)));
         let start = Vec4::from_array(from.map(|row| row as f32));
@@ -178,12 +208,36 @@ impl Band {
         let x = px - self.origin + (start + 0.5 + self.first - py) * slope;
         // An edge steeper than the clamp crosses a single row.
         let slope = fixed(slope.max(Vec4::splat(-63.0)).min(Vec4::splat(63.0)));
-        let x = fixed(x.max(Vec4::ZERO).min(Vec4::splat(63.0)));
+        Edges { from, to, x: fixed(x.max(Vec4::ZERO).min(Vec4::splat(63.0))), slope }
+    }
+
+    /// The first rows, 0 to `count`, whose samples are at or below `y`.
+    #[inline(always)]
+    fn row_of(&self, y: Vec4) -> [i32; 4] {
+        let y = (y - self.first).max(Vec4::ZERO).min(Vec4::splat(self.count));
+        let [a, b, c, d] = fixed(y + (0.5 - 1.0 / 65536.0));
+        [a >> 16, b >> 16, c >> 16, d >> 16]
+    }
+}
+
+/// Four edges of a polygon: the rows that each crosses, where it crosses the first of them and how far it goes from one
+/// to the next, in 65,536ths of a column.
+struct Edges {
+    from: [i32; 4],
+    to: [i32; 4],
+    x: [i32; 4],
+    slope: [i32; 4],
+}
+
+impl Edges {
+    /// Flips what is to the right of each edge.
+    #[inline(always)]
+    fn flip_edge_by_edge(&self, rows: &mut [u64], skews: &[i32; HIGH]) {
         for k in 0..4 {
-            let range = from[k] as usize..to[k] as usize;
+            let range = self.from[k] as usize..self.to[k] as usize;
             let Some(rows) = rows.get_mut(range.clone()) else { continue };
-            let (mut x, slope) = (x[k], slope[k]);
-            for (row, skew) in rows.iter_mut().zip(&skew[range]) {
+            let (mut x, slope) = (self.x[k], self.slope[k]);
+            for (row, skew) in rows.iter_mut().zip(&skews[range]) {
                 // First sample at or right of the crossing.
                 let column = (x - skew).max(0) >> 16;
                 *row ^= u64::MAX << (column & 63);
@@ -192,12 +246,30 @@ impl Band {
         }
     }
 
-    /// The first rows whose samples are at or below `y`.
+    /// The same, of edges that stay within the word: in one loop, since each that ends somewhere costs a wrong guess.
     #[inline(always)]
-    fn row_of(&self, y: Vec4) -> [i32; 4] {
-        let y = (y - self.first).max(Vec4::ZERO).min(Vec4::splat(self.count));
-        let [a, b, c, d] = fixed(y + (0.5 - 1.0 / 65536.0));
-        [a >> 16, b >> 16, c >> 16, d >> 16]
+    fn flip_row_by_row(&self, rows: &mut [u64], skews: &[i32; HIGH]) {
+        /// Set from a column on; from 64 on, none.
+        const FROM: [u64; 128] = {
+            let mut masks = [0; 128];
+            let mut column = 0;
+            while column < 64 {
+                masks[column] = u64::MAX << column;
+                column += 1;
+            }
+            masks
+        };
+        let Self { from, to, x, slope } = self;
+        // Where each edge would cross the first row.
+        let mut at = [0, 1, 2, 3].map(|k: usize| x[k].wrapping_sub(slope[k].wrapping_mul(from[k])));
+        for ((i, row), skew) in (0..).zip(rows).zip(skews) {
+            for k in 0..4 {
+                let column = at[k].wrapping_sub(*skew).max(0) >> 16;
+                let outside = if i < from[k] || i >= to[k] { 64 } else { 0 };
+                *row ^= FROM[(column | outside) as usize % FROM.len()];
+                at[k] = at[k].wrapping_add(slope[k]);
+            }
+        }
     }
 }
 
