@@ -14,7 +14,8 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Brood {
     members: Vec<Genome>,
-    /// The largest trees that are tried of them: of what was known when they were bred.
+    /// The largest trees that are tried of them: from what was known when they were bred, since what is known when
+    /// they are asked for depends on threads.
     most: Size,
 }
 
@@ -44,9 +45,10 @@ pub struct SearchState<M> {
     pending: VecDeque<Brood>,
     /// Scores of the first members of the oldest.
     scores: Vec<Score>,
-    /// Largest trees that are tried.
+    /// Largest trees that are tried at all.
     most: Size,
-    follows: bool,
+    /// Whether the search began with random lists.
+    is_random: bool,
 }
 
 /// How much larger than the best tree of the first generation another may be.
@@ -56,7 +58,8 @@ pub struct SearchState<M> {
 /// long and makes a tenth of the trials.
 const MAX_GROWTH: usize = 2;
 
-/// Trees up to this size are never given up: some three milliseconds.
+/// Trees up to this size are not given up in the first generation of random lists, and never if the search starts from
+/// others: some three milliseconds.
 const ALWAYS: Size = Size { stems: 2_000, leaves: 12_000, knots: 12_000 };
 
 /// The largest trees of a search, once the first generation has shown how large its start is.
@@ -65,6 +68,22 @@ fn largest_after(first: Size) -> Size {
         stems: ALWAYS.stems.max(MAX_GROWTH.saturating_mul(first.stems)),
         leaves: ALWAYS.leaves.max(MAX_GROWTH.saturating_mul(first.leaves)),
         knots: ALWAYS.knots.max(MAX_GROWTH.saturating_mul(first.knots)),
+    }
+}
+
+/// Trees up to this size are never given up. With an eighth of [`ALWAYS`] bamboos and acers are not found.
+const NEVER_TOO_LARGE: Size = Size { stems: 500, leaves: 3_000, knots: 3_000 };
+
+/// The largest trees of a brood that is bred when the best tree has size `best`, at most `most`.
+///
+/// Random lists begin with trees of any size, and most time of a search goes into the largest.
+fn largest_beside(best: Size, most: Size) -> Size {
+    let within =
+        |least: usize, best: usize, most: usize| least.max(MAX_GROWTH.saturating_mul(best)).min(most);
+    Size {
+        stems: within(NEVER_TOO_LARGE.stems, best.stems, most.stems),
+        leaves: within(NEVER_TOO_LARGE.leaves, best.leaves, most.leaves),
+        knots: within(NEVER_TOO_LARGE.knots, best.knots, most.knots),
     }
 }
 
@@ -85,7 +104,7 @@ impl<M> SearchState<M> {
             pending: VecDeque::new(),
             scores: Vec::new(),
             most: if matches!(start, Start::Random) { ALWAYS } else { Size::ANY },
-            follows: matches!(start, Start::Random),
+            is_random: matches!(start, Start::Random),
         }
     }
 
@@ -93,19 +112,6 @@ impl<M> SearchState<M> {
     #[must_use]
     pub const fn is_between_generations(&self) -> bool {
         self.scores.is_empty() && self.best_so_far.is_none()
-    }
-
-    /// Largest trees that are tried.
-    pub(crate) const fn most(&self) -> Size {
-        self.most
-    }
-
-    fn bound(&self) -> Size {
-        let Some(best) = self.best.as_ref().filter(|_| self.follows) else { return self.most };
-        let v: Vec<f64> = std::env::var("PL_B").ok().map(|s| s.split(',').map(|x| x.parse().unwrap()).collect()).unwrap_or_default();
-        if v.is_empty() || self.generation == 0 { return self.most }
-        let f = |a: usize, b: usize, m: usize| ((a as f64 / v[0]).max(b as f64 * v[1]) as usize).min(m);
-        Size { stems: f(ALWAYS.stems, best.score.size.stems, self.most.stems), leaves: f(ALWAYS.leaves, best.score.size.leaves, self.most.leaves), knots: f(ALWAYS.knots, best.score.size.knots, self.most.knots) }
     }
 
     /// Whether this can be the state of a search in `space`: what was read from a file may be anything.
@@ -171,7 +177,8 @@ impl<M> Search<M> {
     /// Individuals of the oldest brood that have been handed out and not told.
     #[must_use]
     pub fn awaited(&self) -> usize {
-        let untold = self.state.pending.front().map_or(0, |brood| brood.members.len()) - self.state.scores.len();
+        let untold =
+            self.state.pending.front().map_or(0, |brood| brood.members.len()) - self.state.scores.len();
         untold.min(self.out)
     }
 
@@ -193,7 +200,11 @@ impl<M: Method> Search<M> {
             if state.generation > 0 || !state.pending.is_empty() {
                 members.iter_mut().for_each(|member| self.space.settle(member));
             }
-            let most = state.bound();
+            let follows = state.is_random && state.generation > 0 && state.method.follows_size();
+            let most = match &state.best {
+                Some(best) if follows => largest_beside(best.score.size, state.most),
+                _ => state.most,
+            };
             state.pending.push_back(Brood { members, most });
         }
     }
@@ -337,7 +348,11 @@ mod tests {
 
     #[test]
     fn when_children_are_asked_for_and_told_changes_nothing() {
-        let sphere = |genome: &Genome| Score::from_cost(genome.values.iter().map(|v| v * v).sum());
+        // The nearer to the middle, the smaller the tree.
+        let sphere = |genome: &Genome| {
+            let size = Size { leaves: (genome.values[0].abs() * 60_000.0) as usize, stems: 1, knots: 1 };
+            Score { size, ..Score::from_cost(genome.values.iter().map(|v| v * v).sum()) }
+        };
         let mut whole = lagging();
         while whole.ended().is_none() {
             let scores: Vec<Score> = whole.ask().genomes.iter().map(sphere).collect();
@@ -361,5 +376,38 @@ mod tests {
             assert_eq!(search.state, whole.state, "asked by {batch}, told by {told}");
             assert!(out.is_empty() && most_out > 10, "{most_out} were out at most");
         }
+    }
+    #[test]
+    fn trees_much_larger_than_the_best_are_given_up_after_random_lists_only() {
+        let given_up = |search: Search<Evolution>| {
+            let mut search = Search { evaluation_limit: 300, ..search };
+            let mut least = Size::ANY.leaves;
+            while search.ended().is_none() {
+                let Batch { genomes, most } = search.ask();
+                least = least.min(most.leaves);
+                let score = |genome: &Genome| {
+                    let leaves = (genome.values[0].abs() * 60_000.0) as usize;
+                    let score = Score {
+                        size: Size { leaves, stems: 1, knots: 1 },
+                        ..Score::from_cost(leaves as f64)
+                    };
+                    if leaves > most.leaves { Score::INVALID } else { score }
+                };
+                let scores: Vec<Score> = genomes.iter().map(score).collect();
+                let _ = search.tell(&scores);
+            }
+            (least, search.state.best.unwrap().score.size.leaves)
+        };
+        let (least, best) = given_up(lagging());
+        assert!(best < 1_500 && least == NEVER_TOO_LARGE.leaves, "{least} beside {best}");
+        let start = Start::Lists(vec![vec![0.5; 3]]);
+        let mut from_lists = lagging();
+        from_lists.state =
+            SearchState::new(Evolution::new(EvolutionSettings::default(), 1, start.clone()), &start);
+        let (least, _) = given_up(from_lists);
+        assert!(least >= ALWAYS.leaves, "{least}");
+        let (small, large) = (Size { stems: 10, leaves: 2_000, knots: 9 }, Size { leaves: 9_000, ..ALWAYS });
+        assert_eq!(largest_beside(small, ALWAYS).leaves, 4_000);
+        assert_eq!(largest_beside(large, ALWAYS), ALWAYS);
     }
 }

@@ -14,7 +14,7 @@ use crate::optimizer::AnyMethod;
 use crate::problem::FitProblem;
 use crate::run::{evaluator_in, search_space};
 use crate::search::{Search, SearchState};
-use crate::solver::AskTell as _;
+use crate::solver::{AskTell as _, Batch};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -59,6 +59,8 @@ pub struct Stepwise {
     begun: Begun,
     settings: GoalSettings,
     library: GuessLibrary,
+    /// Asked of the search and not handed out, since their trees may be of another size.
+    held: Option<Asked>,
     /// For what scores do not tell.
     objective: Evaluator,
     course: Course<AnyMethod>,
@@ -94,7 +96,15 @@ impl Stepwise {
         let state = SearchState::new(method, &search.start);
         let now = control.clock.elapsed();
         let course = Course::new(Search::resume(state, Arc::new(space)), search.budget, Vec::new(), now);
-        Ok(Self { begun, settings: settings.clone(), library, objective, course, before_search: now })
+        Ok(Self {
+            begun,
+            settings: settings.clone(),
+            library,
+            held: None,
+            objective,
+            course,
+            before_search: now,
+        })
     }
 
     /// Where the search began.
@@ -109,22 +119,28 @@ impl Stepwise {
         self.course.verdict(&self.course.spent(now, false))
     }
 
-    /// The next individuals: about a third of a second's for so many workers, or as many as there are.
+    /// The next individuals: about a third of a second's for so many workers, or as many as there are with trees
+    /// of one size at most.
     ///
     /// May be asked again before the last ones are told; with many untold it gives none.
     pub fn ask(&mut self, workers: usize) -> Asked {
-        let most = self.course.search.state.most();
-        let mut genomes = Vec::new();
+        let mut asked = self.held.take().unwrap_or(Asked { genomes: Vec::new(), most: Size::ANY });
         let wanted = self.course.batch_size(workers);
-        while genomes.len() < wanted {
-            self.course.search.batch = wanted - genomes.len();
-            let some = self.course.search.ask().genomes;
-            if some.is_empty() {
+        while asked.genomes.len() < wanted {
+            self.course.search.batch = wanted - asked.genomes.len();
+            let Batch { genomes, most } = self.course.search.ask();
+            if genomes.is_empty() {
                 break;
             }
-            genomes.extend_from_slice(some);
+            if asked.genomes.is_empty() {
+                asked.most = most;
+            } else if asked.most != most {
+                self.held = Some(Asked { genomes: genomes.to_vec(), most });
+                break;
+            }
+            asked.genomes.extend_from_slice(genomes);
         }
-        Asked { genomes, most }
+        asked
     }
 
     /// Takes the scores of the oldest individuals that were asked for and not told, in their order; the rows of the

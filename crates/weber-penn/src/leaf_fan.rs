@@ -185,8 +185,11 @@ mod tests {
             let key = Key::root(u64::from(case));
             let vector = |i: u32| DVec3::new(key.signed(i, 0), key.signed(i, 1), key.signed(i, 2));
             // Some stand exactly upright on the axis, where there is no way outwards.
-            let (position, direction) =
-                if case % 50 == 0 { (DVec3::ZERO, DVec3::Z) } else { (vector(0) * 5.0, vector(1).normalize()) };
+            let (position, direction) = if case % 50 == 0 {
+                (DVec3::ZERO, DVec3::Z)
+            } else {
+                (vector(0) * 5.0, vector(1).normalize())
+            };
             let right = direction.cross(vector(2)).normalize();
             let bend = [0.0, 0.4, 1.0][case as usize % 3];
             let mut fan = LeafFan::new(Turtle { position, direction, right }, 0.02, bend);
@@ -205,7 +208,10 @@ mod tests {
                 };
                 assert_eq!(bits(&batch), bits(&fan), "case {case}, leaf {lane}");
                 for (one, other) in [(&batch.along, &fan.along), (&batch.across, &fan.across)] {
-                    assert!((0..3).all(|k| one[k][lane].to_bits() == other[k][lane].to_bits()), "case {case}");
+                    assert!(
+                        (0..3).all(|k| one[k][lane].to_bits() == other[k][lane].to_bits()),
+                        "case {case}"
+                    );
                 }
             }
         }

@@ -81,9 +81,7 @@ impl Grid {
     /// there after.
     pub(super) fn take(&mut self, across: Range<usize>, down: Range<usize>, out: &mut Vec<u64>) {
         for row in down {
-            out.extend(
-                across.clone().map(|word| std::mem::take(&mut self.words[word * self.rows + row])),
-            );
+            out.extend(across.clone().map(|word| std::mem::take(&mut self.words[word * self.rows + row])));
         }
     }
 

@@ -292,9 +292,9 @@ fn bounds(corners: &[Corner]) -> Option<[f32; 4]> {
         add([x, y, x, y]);
     }
     // A sum is finite only where every number is.
-    (sum[0] + sum[1] + sum[2] + sum[3]).is_finite().then(|| {
-        [low[0].min(low[2]), high[0].max(high[2]), low[1].min(low[3]), high[1].max(high[3])]
-    })
+    (sum[0] + sum[1] + sum[2] + sum[3])
+        .is_finite()
+        .then(|| [low[0].min(low[2]), high[0].max(high[2]), low[1].min(low[3]), high[1].max(high[3])])
 }
 
 /// The first row (or column) whose samples, which lie in its middle, are at or beyond `v`: the
