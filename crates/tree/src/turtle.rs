@@ -87,8 +87,9 @@ pub fn rotate(v: DVec3, axis: DVec3, angle: f64) -> DVec3 {
     turn_about(axis, angle)(v)
 }
 
+/// Turns vectors about the unit vector `axis` by `angle` radians, as [`rotate`] does.
 #[inline]
-fn turn_about(axis: DVec3, angle: f64) -> impl Fn(DVec3) -> DVec3 {
+pub fn turn_about(axis: DVec3, angle: f64) -> impl Fn(DVec3) -> DVec3 {
     let (sin, cos) = sin_cos(angle);
     move |v| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos))
 }

@@ -8,7 +8,7 @@ use crate::purpose;
 use crate::stem::{ForkStart, ForkState, StemSpec};
 use glam::DVec3;
 use pleach_tree::math;
-use pleach_tree::turtle::{Turtle, rotate};
+use pleach_tree::turtle::{Turtle, rotate, turn_about};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// A point of a path and what later steps need to know there.
@@ -311,9 +311,9 @@ fn helix(model: &Model, level: &Level, stem: &StemSpec, length: f64, path: &mut 
         keep: 1.0,
     });
     for i in 1..=segments {
-        let half_turns = PI * f64::from(i - 1);
-        let handle_in = at + rotate(to_b2, axis, half_turns);
-        at += rotate(to_b3, axis, half_turns);
+        let turn = turn_about(axis, PI * f64::from(i - 1));
+        let handle_in = at + turn(to_b2);
+        at += turn(to_b3);
         path.push(PathPoint {
             point: at,
             handle_in,

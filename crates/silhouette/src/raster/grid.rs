@@ -315,6 +315,42 @@ mod tests {
     }
 
     #[test]
+    fn quadrilaterals_and_other_shapes_are_filled_alike() {
+        // A corner twice is no corner, but makes a pentagon, which is filled edge by edge.
+        for i in 0..20_000_u32 {
+            let unit = |k: u32| (f64::from(i * 8 + k) * 0.618_034).fract() as f32;
+            let (left, top) = (10.0 + 200.0 * unit(0), 20.0 * unit(1) - 4.0);
+            let [a, b, c, d]: [Corner; 4] = std::array::from_fn(|k| {
+                let k = k as u32 * 2 + 2;
+                [left + 60.0 * unit(k), top + 14.0 * unit(k + 1)]
+            });
+            let mut grids = [Grid::default(), Grid::default()];
+            grids.iter_mut().for_each(|grid| grid.reset(40, 8, 4));
+            grids[0].fill(&[a, b, c, d]);
+            grids[1].fill(&[a, b, c, d, d]);
+            assert!(grids[0].words == grids[1].words, "shape {i}: {a:?} {b:?} {c:?} {d:?}");
+        }
+    }
+
+    #[test]
+    fn shapes_without_a_row_draw_nothing() {
+        let mut without = 0;
+        for i in 0..4000_u16 {
+            let (top, high) = (f32::from(i % 97) * 0.37 - 3.0, f32::from(i % 41) * 0.05);
+            let mut grid = Grid::default();
+            grid.reset(8, 8, 4);
+            grid.fill(&[[3.0, top], [40.0, top], [40.0, top + high], [3.0, top + high]]);
+            let is_empty = grid.words.iter().all(|&word| word == 0);
+            if !Grid::has_row(top, top + high) {
+                without += 1;
+                assert!(is_empty, "from {top} to {}", top + high);
+            }
+        }
+        assert!(without > 800, "{without}");
+        assert!(Grid::has_row(-1e30, 1e30) && !Grid::has_row(1e30, 1e31) && !Grid::has_row(f32::NAN, 1.0));
+    }
+
+    #[test]
     fn nonsense_draws_nothing() {
         let bitmap = drawn(
             8,

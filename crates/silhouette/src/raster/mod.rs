@@ -182,7 +182,11 @@ impl Rasterizer {
                     let side = across[axis].abs() * half_width;
                     (at[axis] + low.min(high) - side, at[axis] + low.max(high) + side)
                 };
-                let ((left, right), (top, bottom)) = (reach(0), reach(1));
+                let (top, bottom) = reach(1);
+                if !Grid::has_row(top, bottom) {
+                    continue;
+                }
+                let (left, right) = reach(0);
                 let is_hidden = if is_swept {
                     is_black(
                         &self.black,

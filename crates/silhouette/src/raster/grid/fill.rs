@@ -64,6 +64,16 @@ impl Grid {
         }
     }
 
+    /// Whether a shape from `top` to `bottom` may cover samples: most of a crown of tiny leaves lies between their rows.
+    #[inline]
+    pub(crate) fn has_row(top: f32, bottom: f32) -> bool {
+        // More than its corners may be off by rounding, wherever in a picture they are.
+        const MARGIN: f32 = 0.01;
+        // Further down than any picture goes.
+        const FAR: f32 = 1e6;
+        ceil_half((top - MARGIN).min(FAR)) < ceil_half((bottom + MARGIN).min(FAR))
+    }
+
     /// Whether every sample of the box from `left`, `top` to `right`, `bottom` is set, so that nothing
     /// inside it needs drawing. Boxes wider than a word or across an edge of the grid count as not.
     #[inline]
