@@ -126,12 +126,6 @@ macro_rules! optimizers {
                 }
             }
 
-            fn follows_size(&self) -> bool {
-                match self {
-                    $(Self::$variant(method) => method.follows_size(),)*
-                }
-            }
-
             fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
                 match self {
                     $(Self::$variant(method) => method.suits(space, generations, pending),)*

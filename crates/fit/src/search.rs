@@ -10,15 +10,6 @@ use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Individuals that are bred at once.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Brood {
-    members: Vec<Genome>,
-    /// The largest trees that are tried of them: from what was known when they were bred, since what is known when
-    /// they are asked for depends on threads.
-    most: Size,
-}
-
 /// Everything that a search knows and that a checkpoint holds.
 ///
 /// A generation may be evaluated in several batches. How many does not matter to the result: the
@@ -42,13 +33,11 @@ pub struct SearchState<M> {
     /// The best of the broods of the present generation that have been told.
     best_so_far: Option<Score>,
     /// Broods that have been bred and not told, oldest first.
-    pending: VecDeque<Brood>,
+    pending: VecDeque<Vec<Genome>>,
     /// Scores of the first members of the oldest.
     scores: Vec<Score>,
-    /// Largest trees that are tried at all.
+    /// Largest trees that are tried.
     most: Size,
-    /// Whether the search began with random lists.
-    is_random: bool,
 }
 
 /// How much larger than the best tree of the first generation another may be.
@@ -58,8 +47,7 @@ pub struct SearchState<M> {
 /// long and makes a tenth of the trials.
 const MAX_GROWTH: usize = 2;
 
-/// Trees up to this size are not given up in the first generation of random lists, and never if the search starts from
-/// others: some three milliseconds.
+/// Trees up to this size are never given up: some three milliseconds.
 const ALWAYS: Size = Size { stems: 2_000, leaves: 12_000, knots: 12_000 };
 
 /// The largest trees of a search, once the first generation has shown how large its start is.
@@ -68,22 +56,6 @@ fn largest_after(first: Size) -> Size {
         stems: ALWAYS.stems.max(MAX_GROWTH.saturating_mul(first.stems)),
         leaves: ALWAYS.leaves.max(MAX_GROWTH.saturating_mul(first.leaves)),
         knots: ALWAYS.knots.max(MAX_GROWTH.saturating_mul(first.knots)),
-    }
-}
-
-/// Trees up to this size are never given up. With an eighth of [`ALWAYS`] bamboos and acers are not found.
-const NEVER_TOO_LARGE: Size = Size { stems: 500, leaves: 3_000, knots: 3_000 };
-
-/// The largest trees of a brood that is bred when the best tree has size `best`, at most `most`.
-///
-/// Random lists begin with trees of any size, and most time of a search goes into the largest.
-fn largest_beside(best: Size, most: Size) -> Size {
-    let within =
-        |least: usize, best: usize, most: usize| least.max(MAX_GROWTH.saturating_mul(best)).min(most);
-    Size {
-        stems: within(NEVER_TOO_LARGE.stems, best.stems, most.stems),
-        leaves: within(NEVER_TOO_LARGE.leaves, best.leaves, most.leaves),
-        knots: within(NEVER_TOO_LARGE.knots, best.knots, most.knots),
     }
 }
 
@@ -104,7 +76,6 @@ impl<M> SearchState<M> {
             pending: VecDeque::new(),
             scores: Vec::new(),
             most: if matches!(start, Start::Random) { ALWAYS } else { Size::ANY },
-            is_random: matches!(start, Start::Random),
         }
     }
 
@@ -114,15 +85,20 @@ impl<M> SearchState<M> {
         self.scores.is_empty() && self.best_so_far.is_none()
     }
 
+    /// Largest trees that are tried.
+    pub(crate) const fn most(&self) -> Size {
+        self.most
+    }
+
     /// Whether this can be the state of a search in `space`: what was read from a file may be anything.
     pub(crate) fn suits(&self, space: &SearchSpace) -> bool
     where
         M: Method,
     {
-        let sizes: Vec<usize> = self.pending.iter().map(|brood| brood.members.len()).collect();
+        let sizes: Vec<usize> = self.pending.iter().map(Vec::len).collect();
         sizes.first().map_or(self.scores.is_empty(), |&first| self.scores.len() < first)
             && sizes.iter().all(|&size| size > 0)
-            && (self.pending.iter().flat_map(|brood| &brood.members))
+            && (self.pending.iter().flatten())
                 .chain(self.best.iter().map(|best| &best.genome))
                 .all(|g| is_individual(g, space))
             && self.finalists.suit(space)
@@ -177,8 +153,7 @@ impl<M> Search<M> {
     /// Individuals of the oldest brood that have been handed out and not told.
     #[must_use]
     pub fn awaited(&self) -> usize {
-        let untold =
-            self.state.pending.front().map_or(0, |brood| brood.members.len()) - self.state.scores.len();
+        let untold = self.state.pending.front().map_or(0, Vec::len) - self.state.scores.len();
         untold.min(self.out)
     }
 
@@ -200,12 +175,7 @@ impl<M: Method> Search<M> {
             if state.generation > 0 || !state.pending.is_empty() {
                 members.iter_mut().for_each(|member| self.space.settle(member));
             }
-            let follows = state.is_random && state.generation > 0 && state.method.follows_size();
-            let most = match &state.best {
-                Some(best) if follows => largest_beside(best.score.size, state.most),
-                _ => state.most,
-            };
-            state.pending.push_back(Brood { members, most });
+            state.pending.push_back(members);
         }
     }
 
@@ -244,24 +214,24 @@ impl<M: Method> AskTell for Search<M> {
         let most = usize::try_from(room).unwrap_or(usize::MAX).min(self.batch.max(1));
         // What is out are the first without a score, maybe of several broods.
         let mut before = told + self.out;
-        let (mut left, mut bound): (&[Genome], Size) = (&[], Size::ANY);
+        let mut left: &[Genome] = &[];
         for brood in &self.state.pending {
-            (left, bound) = (brood.members.get(before..).unwrap_or_default(), brood.most);
-            before = before.saturating_sub(brood.members.len());
+            left = brood.get(before..).unwrap_or_default();
+            before = before.saturating_sub(brood.len());
             if !left.is_empty() {
                 break;
             }
         }
         let count = left.len().min(most);
         self.out += count;
-        Batch { genomes: &left[..count], most: bound }
+        Batch { genomes: &left[..count], most: self.state.most }
     }
 
     fn tell(&mut self, scores: &[Score]) -> Option<Scored> {
         let first = self.state.scores.len();
         self.out = self.out.saturating_sub(scores.len());
         self.state.evaluations += scores.len() as u64;
-        let Brood { mut members, most } = self.state.pending.pop_front()?;
+        let mut members = self.state.pending.pop_front()?;
         let batch = &mut members[first..first + scores.len()];
         for (member, score) in batch.iter_mut().zip(scores) {
             self.space.resize(member, score.resized);
@@ -285,7 +255,7 @@ impl<M: Method> AskTell for Search<M> {
         if self.state.scores.len() == members.len() {
             self.end_brood(&members);
         } else {
-            self.state.pending.push_front(Brood { members, most });
+            self.state.pending.push_front(members);
         }
         top
     }
@@ -348,11 +318,7 @@ mod tests {
 
     #[test]
     fn when_children_are_asked_for_and_told_changes_nothing() {
-        // The nearer to the middle, the smaller the tree.
-        let sphere = |genome: &Genome| {
-            let size = Size { leaves: (genome.values[0].abs() * 60_000.0) as usize, stems: 1, knots: 1 };
-            Score { size, ..Score::from_cost(genome.values.iter().map(|v| v * v).sum()) }
-        };
+        let sphere = |genome: &Genome| Score::from_cost(genome.values.iter().map(|v| v * v).sum());
         let mut whole = lagging();
         while whole.ended().is_none() {
             let scores: Vec<Score> = whole.ask().genomes.iter().map(sphere).collect();
@@ -376,38 +342,5 @@ mod tests {
             assert_eq!(search.state, whole.state, "asked by {batch}, told by {told}");
             assert!(out.is_empty() && most_out > 10, "{most_out} were out at most");
         }
-    }
-    #[test]
-    fn trees_much_larger_than_the_best_are_given_up_after_random_lists_only() {
-        let given_up = |search: Search<Evolution>| {
-            let mut search = Search { evaluation_limit: 300, ..search };
-            let mut least = Size::ANY.leaves;
-            while search.ended().is_none() {
-                let Batch { genomes, most } = search.ask();
-                least = least.min(most.leaves);
-                let score = |genome: &Genome| {
-                    let leaves = (genome.values[0].abs() * 60_000.0) as usize;
-                    let score = Score {
-                        size: Size { leaves, stems: 1, knots: 1 },
-                        ..Score::from_cost(leaves as f64)
-                    };
-                    if leaves > most.leaves { Score::INVALID } else { score }
-                };
-                let scores: Vec<Score> = genomes.iter().map(score).collect();
-                let _ = search.tell(&scores);
-            }
-            (least, search.state.best.unwrap().score.size.leaves)
-        };
-        let (least, best) = given_up(lagging());
-        assert!(best < 1_500 && least == NEVER_TOO_LARGE.leaves, "{least} beside {best}");
-        let start = Start::Lists(vec![vec![0.5; 3]]);
-        let mut from_lists = lagging();
-        from_lists.state =
-            SearchState::new(Evolution::new(EvolutionSettings::default(), 1, start.clone()), &start);
-        let (least, _) = given_up(from_lists);
-        assert!(least >= ALWAYS.leaves, "{least}");
-        let (small, large) = (Size { stems: 10, leaves: 2_000, knots: 9 }, Size { leaves: 9_000, ..ALWAYS });
-        assert_eq!(largest_beside(small, ALWAYS).leaves, 4_000);
-        assert_eq!(largest_beside(large, ALWAYS), ALWAYS);
     }
 }

@@ -14,7 +14,7 @@ use crate::optimizer::AnyMethod;
 use crate::problem::FitProblem;
 use crate::run::{evaluator_in, search_space};
 use crate::search::{Search, SearchState};
-use crate::solver::{AskTell as _, Batch};
+use crate::solver::AskTell as _;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -59,8 +59,6 @@ pub struct Stepwise {
     begun: Begun,
     settings: GoalSettings,
     library: GuessLibrary,
-    /// Asked of the search and not handed out, since their trees may be of another size.
-    held: Option<Asked>,
     /// For what scores do not tell.
     objective: Evaluator,
     course: Course<AnyMethod>,
@@ -96,15 +94,7 @@ impl Stepwise {
         let state = SearchState::new(method, &search.start);
         let now = control.clock.elapsed();
         let course = Course::new(Search::resume(state, Arc::new(space)), search.budget, Vec::new(), now);
-        Ok(Self {
-            begun,
-            settings: settings.clone(),
-            library,
-            held: None,
-            objective,
-            course,
-            before_search: now,
-        })
+        Ok(Self { begun, settings: settings.clone(), library, objective, course, before_search: now })
     }
 
     /// Where the search began.
@@ -119,28 +109,22 @@ impl Stepwise {
         self.course.verdict(&self.course.spent(now, false))
     }
 
-    /// The next individuals: about a third of a second's for so many workers, or as many as there are with trees
-    /// of one size at most.
+    /// The next individuals: about a third of a second's for so many workers, or as many as there are.
     ///
     /// May be asked again before the last ones are told; with many untold it gives none.
     pub fn ask(&mut self, workers: usize) -> Asked {
-        let mut asked = self.held.take().unwrap_or(Asked { genomes: Vec::new(), most: Size::ANY });
+        let most = self.course.search.state.most();
+        let mut genomes = Vec::new();
         let wanted = self.course.batch_size(workers);
-        while asked.genomes.len() < wanted {
-            self.course.search.batch = wanted - asked.genomes.len();
-            let Batch { genomes, most } = self.course.search.ask();
-            if genomes.is_empty() {
+        while genomes.len() < wanted {
+            self.course.search.batch = wanted - genomes.len();
+            let some = self.course.search.ask().genomes;
+            if some.is_empty() {
                 break;
             }
-            if asked.genomes.is_empty() {
-                asked.most = most;
-            } else if asked.most != most {
-                self.held = Some(Asked { genomes: genomes.to_vec(), most });
-                break;
-            }
-            asked.genomes.extend_from_slice(genomes);
+            genomes.extend_from_slice(some);
         }
-        asked
+        Asked { genomes, most }
     }
 
     /// Takes the scores of the oldest individuals that were asked for and not told, in their order; the rows of the

@@ -4,7 +4,7 @@ use super::error::CheckpointError;
 use std::path::Path;
 
 /// The number in the header; files of other formats are refused.
-const FORMAT: u32 = 7;
+const FORMAT: u32 = 6;
 const MAGIC: &str = "pleach-checkpoint";
 /// Longest header in bytes: names of generators and optimisers are short.
 const MAX_HEADER: usize = 200;

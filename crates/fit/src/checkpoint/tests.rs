@@ -124,7 +124,7 @@ fn other_runs_versions_and_missing_files_say_so() {
         let error = Checkpoint::<Hewitt>::read(&path, &sample.fingerprint).unwrap_err();
         assert!(matches!(&error, CheckpointError::OtherFormat { found, .. } if found == format), "{error}");
         let error = error.to_string();
-        assert!(error.contains("reads format 7") && error.contains("or start over"), "{error}");
+        assert!(error.contains("reads format 6") && error.contains("or start over"), "{error}");
     }
     let nowhere = folder.path().join("no/such/folder");
     assert!(matches!(sample.write(&nowhere), Err(CheckpointError::Io { .. })));
@@ -138,7 +138,7 @@ fn the_header_says_what_it_is() {
     let bytes = fs::read(&path).unwrap();
     let header = bytes.split(|&byte| byte == b'\n').next().unwrap();
     let header = std::str::from_utf8(header).unwrap();
-    assert!(header.starts_with("pleach-checkpoint 7 palm-trees/hewitt "), "{header}");
+    assert!(header.starts_with("pleach-checkpoint 6 palm-trees/hewitt "), "{header}");
 }
 
 /// Bodies that were forged, checksum and all: errors or states, never panics and never much memory.

@@ -62,12 +62,6 @@ pub trait Method {
         true
     }
 
-    /// Whether a search from random lists gives up trees that are much larger than its best one. Methods that
-    /// others are compared with are left as they are published.
-    fn follows_size(&self) -> bool {
-        false
-    }
-
     /// Whether this can be the state of a search in `space` that has finished `generations` and waits for
     /// the scores of broods as many and as large as `pending` says, oldest first.
     ///

@@ -235,10 +235,6 @@ impl Method for Cma {
         self.round += 1;
     }
 
-    fn follows_size(&self) -> bool {
-        true
-    }
-
     fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
         let Some(pending) = alone(pending) else { return false };
         let n = space.genes().len();

@@ -182,10 +182,6 @@ impl Method for Evolution {
         self.ended
     }
 
-    fn follows_size(&self) -> bool {
-        true
-    }
-
     fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
         let broods = (generations + 1).saturating_mul(self.broods_a_generation());
         let children = (generations + 1).saturating_mul(self.settings.children.max(1) as u64);

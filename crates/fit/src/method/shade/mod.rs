@@ -287,10 +287,6 @@ impl Method for Shade {
         self.round += 1;
     }
 
-    fn follows_size(&self) -> bool {
-        true
-    }
-
     fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
         let Some(pending) = alone(pending) else { return false };
         let population = self.population.iter().map(|scored| &scored.genome);
