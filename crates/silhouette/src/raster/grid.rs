@@ -7,6 +7,7 @@
 //! at once in the bytes of a word.
 
 mod fill;
+mod wide;
 
 use crate::bitmap::Bitmap;
 use std::ops::Range;
@@ -30,7 +31,6 @@ pub(crate) struct Grid {
     words: Vec<u64>,
     /// Where rows of a wide shape change between outside and inside; kept for its memory.
     flips: Vec<u64>,
-    entering: Vec<u64>,
 }
 
 /// A corner of a polygon in samples: x to the right, y down.
@@ -330,6 +330,37 @@ mod tests {
             grids[1].fill(&[a, b, c, d, d]);
             assert!(grids[0].words == grids[1].words, "shape {i}: {a:?} {b:?} {c:?} {d:?}");
         }
+    }
+
+    #[test]
+    fn wide_shapes_are_filled_alike_whether_their_corners_turn_one_way_or_not() {
+        // The middle of a side pushed in by nothing that can be seen makes a shape that is filled by flips.
+        let mut wide = 0;
+        for i in 0..2000_u32 {
+            let unit = |k: u32| (f64::from(i * 16 + k) * 0.618_034).fract() as f32;
+            let (reach, high) = ([90.0, 400.0, 900.0][i as usize % 3], 30.0 + 200.0 * unit(9));
+            let (left, top) = (700.0 * unit(0) - 100.0, 200.0 * unit(1) - 40.0);
+            let corner = |k: u32| [left + reach * unit(k), top + high * unit(k + 1)];
+            let [a, b, c] = [corner(2), corner(4), corner(6)];
+            let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            let inwards = [1e-3_f32.copysign(-turn) * (b[1] - a[1]).signum(), 0.0];
+            let dent = [(a[0] + b[0]) / 2.0 + inwards[0], f32::midpoint(a[1], b[1])];
+            let mut grids = [Grid::default(), Grid::default()];
+            grids.iter_mut().for_each(|grid| grid.reset(100, 64, 4));
+            grids[0].fill(&[a, b, c]);
+            grids[1].fill(&[a, dent, b, c]);
+            let off: u32 = grids[0]
+                .words
+                .iter()
+                .zip(&grids[1].words)
+                .map(|(one, other)| (one ^ other).count_ones())
+                .sum();
+            let ink: u32 = grids[0].words.iter().map(|word| word.count_ones()).sum();
+            wide += u32::from(ink > 2000);
+            // A sample here and there lies as near to the side as the dent.
+            assert!(off <= 2, "shape {i}: {off} of {ink}: {a:?} {b:?} {c:?}");
+        }
+        assert!(wide > 500, "{wide}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Polygons into samples: narrow ones a word for each row, wide ones edge by edge.
+//! Polygons into samples, a word for each row.
 
 use super::{Corner, Grid};
 use glam::{Vec4, Vec4Swizzles as _};
@@ -13,7 +13,7 @@ const HIGH: usize = 64;
 /// How far the samples of a row lie to the right of the middle of their columns, in 65,536ths of a
 /// column: other places in each row, so that upright edges are seen eight times as finely. The mean is
 /// 0.
-const SKEW: [i32; 8] = [-28_672, 4_096, -12_288, 20_480, -20_480, 12_288, -4_096, 28_672];
+pub(super) const SKEW: [i32; 8] = [-28_672, 4_096, -12_288, 20_480, -20_480, 12_288, -4_096, 28_672];
 
 /// [`SKEW`] of as many rows as are filled at once, from any row on.
 const SKEWS: [i32; HIGH + SKEW.len()] = {
@@ -134,54 +134,18 @@ impl Grid {
             *word |= bits >> 1 >> (63 - shift);
         }
     }
-
-    /// Any polygon, edge by edge: each crossing with a row flips all samples to its right, of which only the first
-    /// is marked at first.
-    fn fill_wide(&mut self, corners: &[Corner], (left, right): (f32, f32), first: usize, last: usize) {
-        let (wide, _) = self.extent();
-        let from_word = left.clamp(0.0, wide) as usize / 64;
-        let to_word = (right.clamp(0.0, wide) as usize / 64 + 1).min(self.words_per_row);
-        if from_word >= to_word {
-            return;
-        }
-        let across = to_word - from_word;
-        let mut flips = std::mem::take(&mut self.flips);
-        flips.clear();
-        flips.resize(across * (last - first), 0);
-        let mut p = corners[corners.len() - 1];
-        for &q in corners {
-            let (upper, lower) = if p[1] < q[1] { (p[1], q[1]) } else { (q[1], p[1]) };
-            // Rows whose samples are at or below the upper end and above the lower one.
-            let start = ceil_half(upper.clamp(first as f32, last as f32 + 1.0)) as usize;
-            let end = ceil_half(lower.min(last as f32)).max(0) as usize;
-            for row in start.max(first)..end.min(last) {
-                let x = p[0] + (row as f32 + 0.5 - p[1]) * (q[0] - p[0]) / (q[1] - p[1]);
-                let skew = SKEW[row % SKEW.len()] as f32 / 65536.0;
-                // First sample at or right of the crossing.
-                let column = ceil_half((x - skew).clamp(0.0, wide)) as usize;
-                let column = column.max(from_word * 64) - from_word * 64;
-                if column < across * 64 {
-                    flips[column / 64 * (last - first) + row - first] ^= 1 << (column % 64);
-                }
-            }
-            p = q;
-        }
-        // Whether the last sample of each row is inside, one word before.
-        let mut entering = std::mem::take(&mut self.entering);
-        entering.clear();
-        entering.resize(last - first, 0);
-        for (word, flips) in (from_word..to_word).zip(flips.chunks_exact(last - first)) {
-            let column = &mut self.words[word * self.rows..][first..last];
-            for ((word, &flips), entering) in column.iter_mut().zip(flips).zip(&mut entering) {
-                let inside = parities(flips) ^ *entering;
-                *word |= inside;
-                *entering = 0_u64.wrapping_sub(inside >> 63);
-            }
-        }
-        self.entering = entering;
-        self.flips = flips;
-    }
 }
+
+/// Set from a column on; from 64 on, none.
+pub(super) const FROM: [u64; 128] = {
+    let mut masks = [0; 128];
+    let mut column = 0;
+    while column < 64 {
+        masks[column] = u64::MAX << column;
+        column += 1;
+    }
+    masks
+};
 
 /// [`SKEW`] of the rows from `first` on.
 #[inline]
@@ -259,16 +223,6 @@ impl Edges {
     /// The same, of edges that stay within the word: in one loop, since each that ends somewhere costs a wrong guess.
     #[inline(always)]
     fn flip_row_by_row(&self, rows: &mut [u64], skews: &[i32; HIGH]) {
-        /// Set from a column on; from 64 on, none.
-        const FROM: [u64; 128] = {
-            let mut masks = [0; 128];
-            let mut column = 0;
-            while column < 64 {
-                masks[column] = u64::MAX << column;
-                column += 1;
-            }
-            masks
-        };
         let Self { from, to, x, slope } = self;
         // Where each edge would cross the first row.
         let mut at = [0, 1, 2, 3].map(|k: usize| x[k].wrapping_sub(slope[k].wrapping_mul(from[k])));
@@ -310,7 +264,7 @@ fn bounds(corners: &[Corner]) -> Option<[f32; 4]> {
 /// The first row (or column) whose samples, which lie in its middle, are at or beyond `v`: the
 /// ceiling of v − 1/2. For |v| below 2³⁰; without the call that the ceiling itself would be.
 #[inline]
-fn ceil_half(v: f32) -> i32 {
+pub(super) fn ceil_half(v: f32) -> i32 {
     let v = v - 0.5;
     let whole = v as i32;
     whole + i32::from(whole as f32 != v && v > 0.0)
@@ -326,15 +280,4 @@ fn fixed(v: Vec4) -> [i32; 4] {
     let whole = |v: f32| v.to_bits().wrapping_sub(SHIFT.to_bits()) as i32;
     let [a, b, c, d] = (v + SHIFT).to_array();
     [whole(a), whole(b), whole(c), whole(d)]
-}
-
-/// Of each bit whether an odd number is set of it and those below.
-#[inline]
-const fn parities(bits: u64) -> u64 {
-    let bits = bits ^ bits << 1;
-    let bits = bits ^ bits << 2;
-    let bits = bits ^ bits << 4;
-    let bits = bits ^ bits << 8;
-    let bits = bits ^ bits << 16;
-    bits ^ bits << 32
 }
