@@ -71,6 +71,8 @@ pub struct Rasterizer {
     /// Pixels that are black, of trees with many leaves.
     black: Bitmap,
     outlines: Outlines,
+    /// How many leaves in a row look alike; kept for its memory.
+    runs: Vec<usize>,
 }
 
 impl Rasterizer {
@@ -144,6 +146,9 @@ impl Rasterizer {
         let placer = Placer::new(camera, scale);
         let area = self.grid.area();
         let passes = if self.saturates && tree.leaves.len() > area / LEAVES_TO_SWEEP { PASSES } else { 1 };
+        // To look for them takes as long as to place the leaves, and each pass wants them.
+        self.runs.clear();
+        self.runs.extend(tree.leaves.chunk_by(outline::look_alike).map(<[Leaf]>::len));
         let mut drawn = 0;
         let mut is_swept = false;
         for pass in 0..passes {
@@ -168,7 +173,10 @@ impl Rasterizer {
         let down = 1.0 / placer.scale.y;
         let mut corners = [[0.0; 2]; Outline::MAX_CORNERS];
         let mut drawn = 0;
-        for run in tree.leaves.chunk_by(outline::look_alike) {
+        let mut rest = &tree.leaves[..];
+        for &count in &self.runs {
+            let run;
+            (run, rest) = rest.split_at(count);
             let leaf = &run[0];
             let size = [leaf.across.length() * pixels, leaf.along.length() * pixels];
             let Blade { outline, half_width, lowest, highest } =
