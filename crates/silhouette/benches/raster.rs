@@ -10,7 +10,6 @@ use pleach_silhouette::score::likeness::{self, Descriptor};
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::Parts;
 use std::hint::black_box;
-use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
 
 fn raster(c: &mut Criterion) {
     let species = pleach_generators::species("quaking_aspen").expect("a built-in species");
@@ -26,21 +25,7 @@ fn raster(c: &mut Criterion) {
         }
         // The same polygons, once a pixel and without anti-aliasing, as tiny-skia fills them.
         c.bench_function(&format!("aspen/{size}/tiny-skia without anti-aliasing"), |b| {
-            b.iter(|| {
-                let mut mask = Mask::new(size, size).expect("a small mask");
-                referee::shapes(&tree, &View::FRONT, &frame, Parts::LEAFY, |corners| {
-                    let mut path = PathBuilder::new();
-                    for (i, p) in corners.iter().enumerate() {
-                        let (x, y) = (p.x as f32, p.y as f32);
-                        if i == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
-                    }
-                    path.close();
-                    if let Some(path) = path.finish() {
-                        mask.fill_path(&path, FillRule::EvenOdd, false, Transform::identity());
-                    }
-                });
-                mask
-            });
+            b.iter(|| referee::filled(&tree, &View::FRONT, &frame, Parts::LEAFY));
         });
     }
 }

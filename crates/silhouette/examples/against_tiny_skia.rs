@@ -12,7 +12,6 @@ mod referee;
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
 use pleach_tree::Parts;
 use std::time::Instant;
-use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
 
 const SPECIES: [&str; 15] = [
     "acer",
@@ -54,7 +53,7 @@ fn main() {
                     let draw = || drawer.draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut picture);
                     *best = best.min(milliseconds(draw));
                 }
-                let fill = || drop(by_tiny_skia(&tree, &frame, size));
+                let fill = || drop(referee::filled(&tree, &View::FRONT, &frame, Parts::LEAFY));
                 best[2] = best[2].min(milliseconds(fill));
             }
             let [search, full, skia] = best;
@@ -73,20 +72,4 @@ fn milliseconds(work: impl FnOnce()) -> f64 {
     let start = Instant::now();
     work();
     start.elapsed().as_secs_f64() * 1e3
-}
-
-fn by_tiny_skia(tree: &pleach_tree::Tree, frame: &Frame, size: u32) -> Mask {
-    let mut mask = Mask::new(size, size).expect("a small mask");
-    referee::shapes(tree, &View::FRONT, frame, Parts::LEAFY, |corners| {
-        let mut path = PathBuilder::new();
-        for (i, p) in corners.iter().enumerate() {
-            let (x, y) = (p.x as f32, p.y as f32);
-            if i == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
-        }
-        path.close();
-        if let Some(path) = path.finish() {
-            mask.fill_path(&path, FillRule::EvenOdd, false, Transform::identity());
-        }
-    });
-    mask
 }

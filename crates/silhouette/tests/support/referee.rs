@@ -187,3 +187,21 @@ fn disc(eye: &Eye, piece: &Cubic, t: f64, radius: f64, fill: &mut impl FnMut(&[D
     });
     fill(&corners);
 }
+
+/// The polygons of [`shapes`], once a pixel and without anti-aliasing, as somebody in a hurry would have tiny-skia fill
+/// them: what our own drawing is timed against. Empty if the frame is.
+pub fn filled(tree: &Tree, view: &View, frame: &Frame, parts: Parts) -> Option<Mask> {
+    let mut mask = Mask::new(frame.width, frame.height)?;
+    shapes(tree, view, frame, parts, |corners| {
+        let mut path = PathBuilder::new();
+        for (i, p) in corners.iter().enumerate() {
+            let (x, y) = (p.x as f32, p.y as f32);
+            if i == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+        }
+        path.close();
+        if let Some(path) = path.finish() {
+            mask.fill_path(&path, FillRule::EvenOdd, false, Transform::identity());
+        }
+    });
+    Some(mask)
+}
