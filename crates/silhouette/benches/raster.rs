@@ -25,7 +25,7 @@ fn raster(c: &mut Criterion) {
         }
         // The same polygons, once a pixel and without anti-aliasing, as tiny-skia fills them.
         c.bench_function(&format!("aspen/{size}/tiny-skia without anti-aliasing"), |b| {
-            b.iter(|| referee::filled(&tree, &View::FRONT, &frame, Parts::LEAFY));
+            b.iter(|| referee::filled(&tree, &View::FRONT, &frame, Parts::LEAFY, 1));
         });
     }
 }

@@ -53,7 +53,7 @@ fn main() {
                     let draw = || drawer.draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut picture);
                     *best = best.min(milliseconds(draw));
                 }
-                let fill = || drop(referee::filled(&tree, &View::FRONT, &frame, Parts::LEAFY));
+                let fill = || drop(referee::filled(&tree, &View::FRONT, &frame, Parts::LEAFY, 1));
                 best[2] = best[2].min(milliseconds(fill));
             }
             let [search, full, skia] = best;

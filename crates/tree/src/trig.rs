@@ -19,14 +19,14 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     if is_near(x) { near_sin_cos(x) } else { crate::math::sin_cos(x) }
 }
 
-/// Whether |x| is at most 10⁵: what [`near_sin_cos`] is for.
+/// Whether |x|, in radians, is at most 10⁵: what [`near_sin_cos`] is for.
 #[inline]
 #[must_use]
 pub fn is_near(x: f64) -> bool {
     x.abs() <= 1e5
 }
 
-/// [`sin_cos`] of an angle that [`is_near`], without a branch; some numbers elsewhere.
+/// [`sin_cos`] of `x` radians that are [near](is_near), to the same bits and without a branch; some numbers elsewhere.
 #[inline]
 #[must_use]
 pub fn near_sin_cos(x: f64) -> (f64, f64) {

@@ -56,20 +56,7 @@ pub fn draw(
     if wide.max(high) > MAX_SIDE {
         return Err(too_fine);
     }
-    let mut mask = Mask::new(wide, high).ok_or(too_fine)?;
-    let scale = Transform::from_scale(fineness as f32, fineness as f32);
-    shapes(tree, view, frame, parts, |corners| {
-        let mut path = PathBuilder::new();
-        for (i, p) in corners.iter().enumerate() {
-            let (x, y) = (p.x as f32, p.y as f32);
-            if i == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
-        }
-        path.close();
-        if let Some(path) = path.finish() {
-            mask.fill_path(&path, FillRule::EvenOdd, false, scale);
-        }
-    });
-
+    let mask = filled(tree, view, frame, parts, fineness).ok_or(too_fine)?;
     let mut counts = vec![0_u32; width as usize * height as usize];
     for (y, row) in mask.data().chunks_exact(wide as usize).enumerate() {
         let first = y / fineness as usize * width as usize;
@@ -188,10 +175,11 @@ fn disc(eye: &Eye, piece: &Cubic, t: f64, radius: f64, fill: &mut impl FnMut(&[D
     fill(&corners);
 }
 
-/// The polygons of [`shapes`], once a pixel and without anti-aliasing, as somebody in a hurry would have tiny-skia fill
-/// them: what our own drawing is timed against. Empty if the frame is.
-pub fn filled(tree: &Tree, view: &View, frame: &Frame, parts: Parts) -> Option<Mask> {
-    let mut mask = Mask::new(frame.width, frame.height)?;
+/// The polygons of [`shapes`], filled by tiny-skia with `fineness` × `fineness` samples per pixel and without
+/// anti-aliasing; with one it is what our own drawing is timed against. None if the frame is empty or too large.
+pub fn filled(tree: &Tree, view: &View, frame: &Frame, parts: Parts, fineness: u32) -> Option<Mask> {
+    let mut mask = Mask::new(frame.width.checked_mul(fineness)?, frame.height.checked_mul(fineness)?)?;
+    let scale = Transform::from_scale(fineness as f32, fineness as f32);
     shapes(tree, view, frame, parts, |corners| {
         let mut path = PathBuilder::new();
         for (i, p) in corners.iter().enumerate() {
@@ -200,7 +188,7 @@ pub fn filled(tree: &Tree, view: &View, frame: &Frame, parts: Parts) -> Option<M
         }
         path.close();
         if let Some(path) = path.finish() {
-            mask.fill_path(&path, FillRule::EvenOdd, false, Transform::identity());
+            mask.fill_path(&path, FillRule::EvenOdd, false, scale);
         }
     });
     Some(mask)

@@ -113,7 +113,7 @@ fn inside(from: u32, to: u32, word: usize) -> u64 {
     of_word(from) ^ of_word(to)
 }
 
-/// Whether all corners turn the same way: then a row is crossed twice at most.
+/// Whether all corners turn the same way: then a row is crossed twice at most, but for stars.
 fn is_convex(corners: &[Corner]) -> bool {
     let [.., mut o, mut p] = *corners else { return false };
     let (mut turns_left, mut turns_right) = (false, false);
