@@ -18,6 +18,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
+use std::time::{Duration, Instant};
 
 /// The root of the repository.
 #[must_use]
@@ -46,6 +47,38 @@ pub fn program() -> &'static Path {
 #[must_use]
 pub fn target(name: &str) -> String {
     root().join("targets").join(name).to_str().expect("a path of UTF-8").to_owned()
+}
+
+/// How long a test waits for what a program is to do soon.
+const SOON: Duration = Duration::from_secs(60);
+
+/// Waits until there is such a file or folder.
+///
+/// # Panics
+/// If it does not come within a minute.
+#[track_caller]
+pub fn wait_for(what: &Path) {
+    let started = Instant::now();
+    while !what.exists() {
+        assert!(started.elapsed() < SOON, "no {} within a minute", what.display());
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// Waits until a checkpoint has been written over at least once. The first is written before the search has
+/// tried a tree, so that a fit that is stopped then has no result to write.
+///
+/// # Panics
+/// If that does not happen within a minute.
+#[track_caller]
+pub fn wait_for_progress(checkpoint: &Path) {
+    wait_for(checkpoint);
+    let written = || std::fs::metadata(checkpoint).and_then(|file| file.modified()).ok();
+    let (started, first) = (Instant::now(), written());
+    while written() <= first {
+        assert!(started.elapsed() < SOON, "{} is not written over within a minute", checkpoint.display());
+        std::thread::sleep(Duration::from_millis(5));
+    }
 }
 
 /// The bytes of a file.

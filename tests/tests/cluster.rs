@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_tests::{Dir, Run, read, results, root};
+use pleach_tests::{Dir, Run, read, results, root, wait_for};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 const FIT: [&str; 9] =
     ["fit", "--size", "48", "--from", "palm", "--evaluations", "12", "--individual", "off"];
@@ -34,14 +34,6 @@ fn spawn(dir: &Dir, args: &[&str]) -> Child {
 fn ended(child: Child) -> Run {
     let output: Output = child.wait_with_output().unwrap();
     Run::of("a worker".to_owned(), output)
-}
-
-fn wait_for(what: &Path) {
-    let started = Instant::now();
-    while !what.exists() {
-        assert!(started.elapsed() < Duration::from_secs(60), "no {} within a minute", what.display());
-        std::thread::sleep(Duration::from_millis(5));
-    }
 }
 
 /// A table without the columns that depend on the clock, which come last.

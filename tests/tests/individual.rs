@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_tests::{Dir, read, target};
+use pleach_tests::{Dir, read, target, wait_for};
 
 fn fit<'a>(goal: &'a str, out: &'a str, evaluations: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let start = ["--size", "64", "--from", "acer", "--tree-seed", "5", "--evaluations", evaluations];
@@ -148,9 +148,7 @@ fn a_killed_run_ends_in_the_same_tree() {
     let _ = dir.run(fit(&goal, "whole", "40", &more)).ok();
     let mut killed = dir.command(fit(&goal, "parts", "40", &more)).spawn().unwrap();
     // The search of 40 trees is over long before; what is killed is what comes after it.
-    while !dir.path("parts/checkpoint").exists() {
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
+    wait_for(&dir.path("parts/checkpoint"));
     std::thread::sleep(std::time::Duration::from_millis(300));
     killed.kill().unwrap();
     let _ = killed.wait();

@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_tests::{Dir, read, results, small, target};
+use pleach_tests::{Dir, read, results, small, target, wait_for_progress};
 use std::io::{BufRead as _, BufReader, Read as _};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
@@ -14,22 +14,6 @@ const SOON: Duration = Duration::from_secs(60);
 
 fn spawn(dir: &Dir, args: &[&str]) -> Child {
     dir.command(args).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
-}
-
-/// Waits until the checkpoint has been written over at least once.
-fn wait_for_progress(checkpoint: &Path) {
-    let started = Instant::now();
-    let stamp = |p: &Path| std::fs::metadata(p).and_then(|m| m.modified()).ok();
-    let mut first: Option<std::time::SystemTime> = None;
-    loop {
-        assert!(started.elapsed() < Duration::from_secs(60), "no checkpoint within a minute");
-        match (first, stamp(checkpoint)) {
-            (None, Some(now)) => first = Some(now),
-            (Some(then), Some(now)) if now > then => return,
-            _ => {}
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
 }
 
 const LONG: &[&str] = &["--evaluations", "2500", "--seed", "3", "--size", "96"];

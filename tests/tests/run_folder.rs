@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_tests::Dir;
+use pleach_tests::{Dir, wait_for, wait_for_progress};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader};
@@ -61,14 +61,6 @@ fn spawn(dir: &Dir, args: &[&str]) -> Child {
 fn signal(child: &Child, name: &str) {
     let status = std::process::Command::new("kill").args([name, &child.id().to_string()]).status().unwrap();
     assert!(status.success());
-}
-
-fn wait_for(what: &Path) {
-    let started = Instant::now();
-    while !what.exists() {
-        assert!(started.elapsed() < Duration::from_secs(60), "no {} within a minute", what.display());
-        std::thread::sleep(Duration::from_millis(5));
-    }
 }
 
 #[test]
@@ -154,8 +146,9 @@ fn files_of_two_fits_never_stand_side_by_side() {
     let _ = dir.run(fit("acer.png", &["--evaluations", "30", "--out", "run"])).ok();
     let before = files(&dir.path("run"));
     let long = ["--evaluations", "4000", "--out", "run", "--size", "96", "--overwrite"];
-    let stopped = spawn(&dir, &fit("b/tree.png", &long));
-    wait_for(&dir.path("run/unfinished/checkpoint"));
+    let often = ["--checkpoint-every", "10ms"];
+    let stopped = spawn(&dir, &fit("b/tree.png", &[&long[..], &often].concat()));
+    wait_for_progress(&dir.path("run/unfinished/checkpoint"));
     signal(&stopped, "-TERM");
     let output = stopped.wait_with_output().unwrap();
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -219,10 +212,9 @@ fn two_signals_at_once_are_one_request() {
     goals(&dir);
     for (round, second) in ["-TERM", "-INT", "-TERM"].into_iter().enumerate() {
         let out = format!("run{round}");
-        let args = ["--evaluations", "100000", "--out", &out, "--size", "96"];
+        let args = ["--evaluations", "100000", "--out", &out, "--size", "96", "--checkpoint-every", "10ms"];
         let stopped = spawn(&dir, &fit("b/tree.png", &args));
-        wait_for(&dir.path(&out).join("checkpoint"));
-        std::thread::sleep(Duration::from_millis(300));
+        wait_for_progress(&dir.path(&out).join("checkpoint"));
         signal(&stopped, "-TERM");
         std::thread::sleep(Duration::from_millis(10));
         signal(&stopped, second);
