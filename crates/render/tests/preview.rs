@@ -8,12 +8,12 @@ use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_tree::Tree;
 use pleach_tree::species::{Color, Season};
 
-fn preview(name: &str, season: Option<Season>) -> Preview {
+fn picture(name: &str, season: Option<Season>, settings: &PreviewSettings) -> Picture {
     let species = pleach_generators::preset(name).unwrap();
     let mut tree = species.grow(1).unwrap();
     let palette = Palette::new(&species, season);
     palette.apply_season(&mut tree);
-    Preview::new(&tree, &palette, 96)
+    Preview::new(&tree, &palette, 96).picture(settings)
 }
 
 fn small() -> PreviewSettings {
@@ -33,7 +33,7 @@ fn mean(picture: &Picture) -> [f64; 4] {
 
 #[test]
 fn a_transparent_picture_shows_the_tree_alone() {
-    let picture = preview("acer", None).picture(&small());
+    let picture = picture("acer", None, &small());
     assert_eq!(picture.rgba.len(), 96 * 96 * 4);
     let edge = (0..96).flat_map(|i| [(i, 0), (i, 95), (0, i), (95, i)]);
     assert!(edge.into_iter().all(|(x, y)| picture.rgba[(y * 96 + x) * 4 + 3] == 0), "the tree is inside");
@@ -46,22 +46,21 @@ fn a_transparent_picture_shows_the_tree_alone() {
 
 #[test]
 fn leaves_are_green_in_summer_and_not_in_autumn() {
-    let [r, g, b, _] = mean(&preview("quaking_aspen", None).picture(&small()));
+    let [r, g, b, _] = mean(&picture("quaking_aspen", None, &small()));
     assert!(g > r && g > b, "{r} {g} {b}");
-    let [r, g, b, _] = mean(&preview("quaking_aspen", Some(Season::Autumn)).picture(&small()));
+    let [r, g, b, _] = mean(&picture("quaking_aspen", Some(Season::Autumn), &small()));
     assert!(r > g && g > b, "{r} {g} {b}");
-    let winter = mean(&preview("quaking_aspen", Some(Season::Winter)).picture(&small()));
-    let summer = mean(&preview("quaking_aspen", None).picture(&small()));
+    let winter = mean(&picture("quaking_aspen", Some(Season::Winter), &small()));
+    let summer = mean(&picture("quaking_aspen", None, &small()));
     assert!(winter[3] < 0.6 * summer[3], "winter is bare");
 }
 
 #[test]
 fn the_sun_stands_at_the_upper_left_and_the_ground_takes_the_shadow() {
-    let preview = preview("black_tupelo", None);
-    let picture = preview.picture(&small());
+    let bare = picture("black_tupelo", None, &small());
     let light = |left: bool| {
         let mut sum = (0.0, 0.0);
-        for (i, pixel) in picture.rgba.chunks_exact(4).enumerate() {
+        for (i, pixel) in bare.rgba.chunks_exact(4).enumerate() {
             if (i % 96 < 48) == left && pixel[3] == 255 {
                 sum = (sum.0 + f64::from(pixel[1]), sum.1 + 1.0);
             }
@@ -69,7 +68,7 @@ fn the_sun_stands_at_the_upper_left_and_the_ground_takes_the_shadow() {
         sum.0 / sum.1
     };
     assert!(light(true) > light(false), "{} {}", light(true), light(false));
-    let shadow = preview.picture(&PreviewSettings { ground: Ground::Shadow, ..small() });
+    let shadow = picture("black_tupelo", None, &PreviewSettings { ground: Ground::Shadow, ..small() });
     let half: usize = shadow.rgba.chunks_exact(4).filter(|p| (20..200).contains(&p[3])).count();
     assert!(half > 200, "a shadow is there and can be seen through: {half}");
 }
@@ -77,7 +76,7 @@ fn the_sun_stands_at_the_upper_left_and_the_ground_takes_the_shadow() {
 #[test]
 fn a_plain_background_is_exactly_its_colour() {
     let background = Background::Plain(Color([10, 200, 30]));
-    let picture = preview("palm", None).picture(&PreviewSettings { background, ..small() });
+    let picture = picture("palm", None, &PreviewSettings { background, ..small() });
     assert_eq!(picture.rgba[..4], [10, 200, 30, 255]);
     assert!(picture.rgba.chunks_exact(4).all(|p| p[3] == 255));
 }
@@ -86,17 +85,16 @@ fn a_plain_background_is_exactly_its_colour() {
 fn the_same_picture_whatever_the_number_of_threads() {
     let [one, three] = [1, 3].map(|n| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
-        pool.install(|| preview("palm", None).picture(&PreviewSettings { ground: Ground::Grass, ..small() }))
+        pool.install(|| picture("palm", None, &PreviewSettings { ground: Ground::Grass, ..small() }))
     });
     assert!(one == three);
 }
 
 #[test]
 fn a_turn_table_keeps_the_tree_inside_and_nothing_is_no_panic() {
-    let preview = preview("acer", None);
     for i in 0..6 {
         let settings = PreviewSettings { azimuth: f64::from(i), all_around: true, ..small() };
-        let picture = preview.picture(&settings);
+        let picture = picture("acer", None, &settings);
         let edge = (0..96).flat_map(|i| [(i, 0), (i, 95), (0, i), (95, i)]);
         assert!(edge.into_iter().all(|(x, y)| picture.rgba[(y * 96 + x) * 4 + 3] == 0), "turn {i}");
     }
@@ -122,7 +120,7 @@ fn pasting_stays_inside() {
 
 #[test]
 fn png_files_hold_one_picture_or_an_animation() {
-    let picture = preview("palm", None).picture(&small());
+    let picture = picture("palm", None, &small());
     let mut file = Vec::new();
     png_file::write(&mut file, &vec![picture.clone(); 3], 100).unwrap();
     let reader = png::Decoder::new(std::io::Cursor::new(&file)).read_info().unwrap();

@@ -1,8 +1,8 @@
 //! Pictures for the cards of a last level of detail: seen from afar, in even light.
 
 use super::camera::Camera;
-use super::raster::DepthBuffer;
 use super::scene::Scene;
+use super::seen::Seen;
 use super::settings::{Background, Ground, PreviewSettings};
 use super::shade::View;
 use crate::picture::Picture;
@@ -22,12 +22,11 @@ pub(crate) struct Frame {
 
 /// The tree in this frame on nothing, in its own colours and with the crown's own shade, as an engine
 /// that lights it wants it.
-pub(super) fn picture(scene: &Scene, frame: &Frame) -> Picture {
+pub(super) fn picture(scene: &Scene<'_>, frame: &Frame) -> Picture {
     let [width, height] = frame.pixels;
     let samples = super::shade::SAMPLES;
     let camera = Camera::afar(frame.middle, frame.azimuth, frame.half, [width * samples, height * samples]);
-    let seen = |corner| camera.project(scene.point(corner));
-    let buffer = DepthBuffer::draw(width * samples, height * samples, seen, &scene.triangles);
+    let seen = Seen::new(scene, width * samples, height * samples, |point| camera.project(point));
     let settings = PreviewSettings {
         width,
         height,
@@ -35,5 +34,5 @@ pub(super) fn picture(scene: &Scene, frame: &Frame) -> Picture {
         ground: Ground::None,
         ..PreviewSettings::default()
     };
-    View { scene, settings: &settings, camera, sun: None, buffer }.picture()
+    View { scene, settings: &settings, camera, sun: None, seen }.picture()
 }

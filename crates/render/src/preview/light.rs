@@ -1,6 +1,5 @@
 //! The sun and its shadows.
 
-use super::raster::DepthBuffer;
 use super::scene::Scene;
 use glam::{Vec3, vec3};
 
@@ -14,31 +13,27 @@ pub(crate) struct Sun {
     low: Vec3,
     /// Texels a metre.
     scale: f32,
-    buffer: DepthBuffer,
+    width: u32,
+    height: u32,
+    /// For each texel how far towards the sun the mesh reaches, as [`Sun::place`] measures it.
+    near: Vec<f32>,
 }
 
 impl Sun {
     /// The sun in direction `towards` over a scene, with about `texels` texels across it.
-    pub(super) fn new(towards: Vec3, scene: &Scene, texels: u32) -> Self {
+    pub(super) fn new(towards: Vec3, scene: &Scene<'_>, texels: u32) -> Self {
         let right = Vec3::Z.cross(towards).try_normalize().unwrap_or(Vec3::X);
         let up = towards.cross(right);
-        let seen = |p: Vec3| vec3(p.dot(right), p.dot(up), p.dot(towards));
-        let (low, high) = scene
-            .points()
-            .map(seen)
-            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(l, h), p| (l.min(p), h.max(p)));
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        scene.each_point(|p| {
+            let seen = vec3(p.dot(right), p.dot(up), p.dot(towards));
+            (low, high) = (low.min(seen), high.max(seen));
+        });
         let extent = (high - low).max(Vec3::splat(1e-3));
         let scale = texels as f32 / extent.x.max(extent.y);
-        let mut sun = Self {
-            towards,
-            right,
-            up,
-            low,
-            scale,
-            buffer: DepthBuffer { width: 0, height: 0, near: Vec::new(), triangle: Vec::new() },
-        };
         let [width, height] = [extent.x, extent.y].map(|e| (e * scale).ceil() as u32 + 1);
-        sun.buffer = DepthBuffer::draw(width, height, |i| sun.place(scene.point(i)), &scene.triangles);
+        let mut sun = Self { towards, right, up, low, scale, width, height, near: Vec::new() };
+        sun.near = scene.draw(width, height, |point| sun.place(point)).near;
         sun
     }
 
@@ -66,11 +61,11 @@ impl Sun {
     }
 
     fn lit(&self, x: f32, y: f32, near: f32) -> f32 {
-        let inside = x >= 0.0 && y >= 0.0 && x < self.buffer.width as f32 && y < self.buffer.height as f32;
+        let inside = x >= 0.0 && y >= 0.0 && x < self.width as f32 && y < self.height as f32;
         if !inside {
             return 1.0;
         }
-        let nearest = self.buffer.near[y as usize * self.buffer.width as usize + x as usize];
+        let nearest = self.near[y as usize * self.width as usize + x as usize];
         // Nothing is 0, which lies behind everything only where the mesh itself is.
         if nearest > near && nearest > 0.0 { 0.0 } else { 1.0 }
     }

@@ -11,6 +11,7 @@ mod flat;
 mod light;
 mod raster;
 mod scene;
+mod seen;
 mod settings;
 mod shade;
 
@@ -32,33 +33,35 @@ pub fn render(tree: &Tree, palette: &Palette, size: u32) -> Picture {
 
 /// A tree ready to be looked at from many sides.
 #[derive(Debug)]
-pub struct Preview {
-    scene: Scene,
+pub struct Preview<'a> {
+    scene: Scene<'a>,
 }
 
-impl Preview {
-    /// Meshes `tree`, roots left out, for pictures of about `size` pixels in height.
+impl<'a> Preview<'a> {
+    /// Prepares `tree`, roots left out, for pictures of about `size` pixels in height.
     #[must_use]
-    pub fn new(tree: &Tree, palette: &Palette, size: u32) -> Self {
+    pub fn new(tree: &'a Tree, palette: &Palette, size: u32) -> Self {
         Self::with_parts(tree, palette, size, Parts::LEAFY)
     }
 
-    /// Meshes `parts` of `tree` for pictures of about `size` pixels in height.
+    /// Prepares `parts` of `tree` for pictures of about `size` pixels in height.
     #[must_use]
-    pub fn with_parts(tree: &Tree, palette: &Palette, size: u32, parts: Parts) -> Self {
+    pub fn with_parts(tree: &'a Tree, palette: &Palette, size: u32, parts: Parts) -> Self {
         Self { scene: Scene::new(tree, palette, size, parts) }
     }
 
     /// The smallest and largest coordinates of what is drawn, in metres.
     pub(crate) fn bounds(&self) -> (Vec3, Vec3) {
-        let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        let (low, high) = self.scene.points().fold(start, |(low, high), p| (low.min(p), high.max(p)));
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        self.scene.each_point(|p| (low, high) = (low.min(p), high.max(p)));
         if low.is_finite() { (low, high) } else { (Vec3::ZERO, Vec3::ZERO) }
     }
 
     /// How far the tree reaches from the vertical axis along `right` or against it, in metres.
     pub(crate) fn reach(&self, right: Vec3) -> f32 {
-        self.scene.points().map(|p| p.dot(right).abs()).fold(0.0, f32::max)
+        let mut reach = 0.0_f32;
+        self.scene.each_point(|p| reach = reach.max(p.dot(right).abs()));
+        reach
     }
 
     /// Takes a picture from afar, in even light.

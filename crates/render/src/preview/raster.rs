@@ -15,67 +15,60 @@ pub(crate) struct DepthBuffer {
     pub(crate) near: Vec<f32>,
     /// [`NONE`] is nothing.
     pub(crate) triangle: Vec<u32>,
+    /// For each band of rows the triangles that reach into it, from the block that was drawn last.
+    bins: Vec<Vec<u32>>,
 }
 
 /// Rows that one thread draws at a time.
 const BAND: usize = 64;
 
 impl DepthBuffer {
-    /// Draws triangles. `place` says where a corner is, in samples: x right, y down, z the nearness; it is asked
-    /// again and again, since a list of places would take as much memory as the mesh. Where two are equally near, the
-    /// first wins, whatever the number of threads.
-    pub(crate) fn draw(
-        width: u32,
-        height: u32,
-        place: impl Fn(u32) -> Vec3 + Sync,
-        triangles: &[[u32; 3]],
-    ) -> Self {
+    /// An empty buffer of so many samples.
+    pub(crate) fn new(width: u32, height: u32) -> Self {
         let size = width as usize * height as usize;
-        let mut buffer = Self { width, height, near: vec![0.0; size], triangle: vec![NONE; size] };
         let bands = (height as usize).div_ceil(BAND);
-        let bins = bins(height, bands, &place, triangles);
-        let rows = BAND * width as usize;
-        buffer.near.par_chunks_mut(rows).zip(buffer.triangle.par_chunks_mut(rows)).enumerate().for_each(
-            |(band, (near, triangle))| {
-                let mut target = Band { width: width as i32, first: (band * BAND) as i32, near, triangle };
-                for &number in bins.iter().flat_map(|chunk| &chunk[band]) {
-                    let corners = triangles[number as usize].map(&place);
-                    target.fill(number, corners);
+        Self {
+            width,
+            height,
+            near: vec![0.0; size],
+            triangle: vec![NONE; size],
+            bins: vec![Vec::new(); bands],
+        }
+    }
+
+    /// Draws triangles, numbered from `first`, between `corners`: in samples, x right, y down, z the nearness. Where
+    /// two are equally near, the one that was drawn first stays, whatever the number of threads.
+    pub(crate) fn draw(&mut self, corners: &[Vec3], triangles: &[[u32; 3]], first: u32) {
+        self.sort(corners, triangles);
+        let Self { width, near, triangle, bins, .. } = self;
+        let rows = BAND * *width as usize;
+        near.par_chunks_mut(rows).zip(triangle.par_chunks_mut(rows)).zip(bins).enumerate().for_each(
+            |(band, ((near, triangle), bin))| {
+                let mut target = Band { width: *width as i32, first: (band * BAND) as i32, near, triangle };
+                for i in bin.drain(..) {
+                    target.fill(first + i, triangles[i as usize].map(|corner| corners[corner as usize]));
                 }
             },
         );
-        buffer
     }
-}
 
-/// The triangles that reach into each band of rows, chunk by chunk of all triangles, in their order.
-fn bins(
-    height: u32,
-    bands: usize,
-    place: &(impl Fn(u32) -> Vec3 + Sync),
-    triangles: &[[u32; 3]],
-) -> Vec<Vec<Vec<u32>>> {
-    triangles
-        .par_chunks(1 << 16)
-        .enumerate()
-        .map(|(chunk, triangles)| {
-            let mut bins = vec![Vec::new(); bands];
-            for (i, t) in triangles.iter().enumerate() {
-                let [a, b, c] = t.map(place);
-                let (top, bottom) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
-                // Written so that what is not a number is left out.
-                if !(bottom > 0.0 && top < height as f32) || a.z.min(b.z).min(c.z) <= 0.0 {
-                    continue;
-                }
-                let first = top.max(0.0) as usize / BAND;
-                let last = (bottom as usize).min(height as usize - 1) / BAND;
-                for bin in &mut bins[first..=last] {
-                    bin.push((chunk << 16) as u32 + i as u32);
-                }
+    /// Sorts triangles into the bands that they reach into.
+    fn sort(&mut self, corners: &[Vec3], triangles: &[[u32; 3]]) {
+        let height = self.height as usize;
+        for (i, triangle) in triangles.iter().enumerate() {
+            let [a, b, c] = triangle.map(|corner| corners[corner as usize]);
+            let (top, bottom) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
+            // Written so that what is not a number is left out.
+            if !(bottom > 0.0 && top < height as f32) || a.z.min(b.z).min(c.z) <= 0.0 {
+                continue;
             }
-            bins
-        })
-        .collect()
+            let first = top.max(0.0) as usize / BAND;
+            let last = (bottom as usize).min(height - 1) / BAND;
+            for bin in &mut self.bins[first..=last] {
+                bin.push(i as u32);
+            }
+        }
+    }
 }
 
 struct Band<'a> {
@@ -156,11 +149,22 @@ mod tests {
             vec3(0.0, 4.0, 2.0),
             vec3(4.0, 0.0, 2.0),
         ];
-        let buffer = DepthBuffer::draw(8, 8, |i| points[i as usize], &[[0, 1, 2], [3, 4, 5]]);
+        let mut buffer = DepthBuffer::new(8, 8);
+        buffer.draw(&points, &[[0, 1, 2], [3, 4, 5]], 0);
         let at = |x: usize, y: usize| buffer.triangle[y * 8 + x];
         assert_eq!((at(0, 0), at(5, 1), at(7, 7)), (1, 0, NONE));
         let seen = buffer.triangle.iter().filter(|t| **t != NONE).count();
         assert!((28..=36).contains(&seen), "half of 64 samples: {seen}");
+    }
+
+    #[test]
+    fn of_two_that_are_equally_near_the_first_stays() {
+        let points = [vec3(0.0, 0.0, 1.0), vec3(8.0, 0.0, 1.0), vec3(0.0, 8.0, 1.0)];
+        let mut buffer = DepthBuffer::new(8, 8);
+        buffer.draw(&points, &[[0, 1, 2], [0, 1, 2]], 4);
+        buffer.draw(&points, &[[2, 1, 0]], 6);
+        assert!(buffer.triangle.iter().all(|number| [4, NONE].contains(number)));
+        assert_eq!(buffer.triangle[0], 4);
     }
 
     #[test]
@@ -172,7 +176,8 @@ mod tests {
         };
         let points: Vec<Vec3> = std::iter::once(vec3(50.3, 49.8, 1.0)).chain((0..9).map(rim)).collect();
         let triangles: Vec<[u32; 3]> = (1..10).map(|i| [0, i, i % 9 + 1]).collect();
-        let buffer = DepthBuffer::draw(100, 100, |i| points[i as usize], &triangles);
+        let mut buffer = DepthBuffer::new(100, 100);
+        buffer.draw(&points, &triangles, 0);
         let holes = (30..70).flat_map(|y| (30..70).map(move |x| (x, y)));
         assert_eq!(holes.filter(|(x, y)| buffer.triangle[y * 100 + x] == NONE).count(), 0);
     }

@@ -1,26 +1,28 @@
 //! A meshed tree as shading wants it.
 
 use super::crown::Crown;
+use super::raster::DepthBuffer;
 use glam::Vec3;
 use pleach_mesh::{
-    Block, LeafStyle, Material, MeshError, MeshSettings, Mesher, Palette, Part, Sink, Vertex, send,
+    Block, Count, LeafStyle, Material, MeshError, MeshSettings, Mesher, Palette, Part, Sink, Source as _,
+    Vertex, send,
 };
 use pleach_tree::stats::Bounds;
 use pleach_tree::{Parts, Tree};
 use std::ops::Range;
 
-/// All parts in one run of corners and triangles.
+/// A tree about to be looked at. Its triangles are made again for each pass over them, block by block: all of them
+/// would take several times as much memory as the tree.
 #[derive(Debug)]
-pub(super) struct Scene {
+pub(super) struct Scene<'a> {
     pub(super) palette: Palette,
-    pub(super) vertices: Vec<Vertex>,
-    pub(super) triangles: Vec<[u32; 3]>,
+    mesher: Mesher<'a>,
     /// First triangle of each part, what it is, and how many triangles each of its leaves has.
-    pub(super) parts: Vec<(u32, Material, u32)>,
+    parts: Vec<(u32, Material, u32)>,
     /// The triangles of closed surfaces of foliage.
     pub(super) blobs: Range<u32>,
     /// First corner of each stem, its radius at the base in metres, its level.
-    pub(super) stems: Vec<(u32, f32, u16)>,
+    stems: Vec<(u32, f32, u16)>,
     pub(super) crown: Crown,
     pub(super) low: Vec3,
     pub(super) high: Vec3,
@@ -31,8 +33,8 @@ pub(super) struct Scene {
     pub(super) reach: f32,
 }
 
-impl Scene {
-    pub(super) fn new(tree: &Tree, palette: &Palette, size: u32, parts: Parts) -> Self {
+impl<'a> Scene<'a> {
+    pub(super) fn new(tree: &'a Tree, palette: &Palette, size: u32, parts: Parts) -> Self {
         let bounds = Bounds::new(tree, parts);
         let (low, high) = bounds.map_or((Vec3::ZERO, Vec3::ONE), |b| (b.min.as_vec3(), b.max.as_vec3()));
         let pixel = f64::from((high - low).max_element().max(1e-3)) / f64::from(size.max(1));
@@ -44,13 +46,8 @@ impl Scene {
             ..MeshSettings::default()
         };
         let mesher = Mesher::new(tree, settings);
-        let mut run = Run::default();
-        // This sink never fails, and a tree without triangles is an empty picture.
-        let _ = send(std::slice::from_ref(&mesher), &mut run);
         let mut scene = Self {
             palette: *palette,
-            vertices: run.vertices,
-            triangles: run.triangles,
             parts: Vec::new(),
             blobs: 0..0,
             stems: stems(tree, &mesher),
@@ -60,8 +57,10 @@ impl Scene {
             has_roots: parts.contains(Parts::ROOTS),
             heart: (low + high) / 2.0,
             reach: 1.0,
+            mesher,
         };
-        for (part, first) in run.parts {
+        let mut first = 0;
+        for part in scene.mesher.parts(0) {
             let placed = if part.material == Material::Blossom { &tree.blossoms } else { &tree.leaves };
             // Blobs follow the leaves.
             let of_blobs = if part.material == Material::Leaf { tree.blob_triangles.len() } else { 0 };
@@ -72,6 +71,7 @@ impl Scene {
                 scene.blobs = first..first + of_blobs as u32;
             }
             scene.parts.push((first, part.material, each.max(1) as u32));
+            first += part.count.triangles as u32;
         }
         if !tree.leaves.is_empty() {
             let n = tree.leaves.len() as f32;
@@ -82,15 +82,33 @@ impl Scene {
         scene
     }
 
-    /// Where a corner is.
-    #[inline]
-    pub(super) fn point(&self, corner: u32) -> Vec3 {
-        self.vertices[corner as usize].position
+    /// Meshes the tree and shows it to `see`, block by block.
+    pub(super) fn each_block(&self, see: impl FnMut(Shown<'_>)) {
+        let mut pass = Pass { see, parts: Vec::new(), corners: 0, triangles: 0 };
+        // This sink never fails, and a tree without triangles is an empty picture.
+        let _ = send(std::slice::from_ref(&self.mesher), &mut pass);
     }
 
-    /// Where all corners are.
-    pub(super) fn points(&self) -> impl Iterator<Item = Vec3> + Clone {
-        self.vertices.iter().map(|vertex| vertex.position)
+    /// Shows all corners to `see`, in their order.
+    pub(super) fn each_point(&self, mut see: impl FnMut(Vec3)) {
+        self.each_block(|block| block.vertices.iter().for_each(|vertex| see(vertex.position)));
+    }
+
+    /// Draws all triangles into a buffer of so many samples; `place` says where in it a point is.
+    pub(super) fn draw(&self, width: u32, height: u32, place: impl Fn(Vec3) -> Vec3) -> DepthBuffer {
+        let mut buffer = DepthBuffer::new(width, height);
+        let mut corners = Vec::new();
+        self.each_block(|block| {
+            corners.clear();
+            corners.extend(block.vertices.iter().map(|vertex| place(vertex.position)));
+            buffer.draw(&corners, block.triangles, block.first_triangle);
+        });
+        buffer
+    }
+
+    /// How many corners and triangles there are.
+    pub(super) fn count(&self) -> Count {
+        self.mesher.count()
     }
 
     /// Part of a triangle: what it is, and the number of its leaf.
@@ -117,35 +135,49 @@ fn leaf_style(tree: &Tree, pixel: f64) -> LeafStyle {
     if mean < SMALL * pixel { LeafStyle::Simple } else { LeafStyle::Outline }
 }
 
-/// The sink that puts all parts into one run.
-#[derive(Debug, Default)]
-struct Run {
-    vertices: Vec<Vertex>,
-    triangles: Vec<[u32; 3]>,
-    /// Each with the number of its first triangle.
-    parts: Vec<(Part, u32)>,
-    /// The number of each part's first corner.
-    first: Vec<u32>,
+/// Part of a scene's triangles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shown<'a> {
+    pub(super) vertices: &'a [Vertex],
+    /// By their corners' places in `vertices`.
+    pub(super) triangles: &'a [[u32; 3]],
+    /// Number in the whole scene of the first of `vertices`.
+    pub(super) first_corner: u32,
+    /// Number in the whole scene of the first of `triangles`.
+    pub(super) first_triangle: u32,
 }
 
-impl Sink for Run {
+/// The sink that shows what comes and keeps nothing.
+struct Pass<F> {
+    see: F,
+    /// The number of each part's first corner.
+    parts: Vec<u32>,
+    /// What has come.
+    corners: u32,
+    triangles: u32,
+}
+
+impl<F: FnMut(Shown<'_>)> Sink for Pass<F> {
     fn begin(&mut self, parts: &[Part]) -> Result<(), MeshError> {
-        let (mut vertices, mut triangles) = (0, 0);
+        let mut corners = 0;
         for part in parts {
-            self.parts.push((*part, triangles as u32));
-            self.first.push(vertices as u32);
-            vertices += part.count.vertices;
-            triangles += part.count.triangles;
+            self.parts.push(corners);
+            corners += part.count.vertices as u32;
         }
-        self.vertices.reserve_exact(vertices as usize);
-        self.triangles.reserve_exact(triangles as usize);
         Ok(())
     }
 
     fn block(&mut self, part: usize, block: &mut Block) -> Result<(), MeshError> {
-        let first = self.first[part];
-        self.vertices.append(&mut block.vertices);
-        self.triangles.extend(block.triangles.drain(..).map(|corners| corners.map(|corner| corner + first)));
+        let before = self.corners - self.parts[part];
+        block.triangles.iter_mut().flatten().for_each(|corner| *corner -= before);
+        (self.see)(Shown {
+            vertices: &block.vertices,
+            triangles: &block.triangles,
+            first_corner: self.corners,
+            first_triangle: self.triangles,
+        });
+        self.corners += block.vertices.len() as u32;
+        self.triangles += block.triangles.len() as u32;
         Ok(())
     }
 

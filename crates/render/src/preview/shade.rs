@@ -3,13 +3,13 @@
 use super::bark::{self, smooth};
 use super::camera::Camera;
 use super::light::Sun;
-use super::raster::{DepthBuffer, NONE};
 use super::scene::Scene;
+use super::seen::{Seen, Triangle};
 use super::settings::{Background, Ground, PreviewSettings};
 use crate::picture::Picture;
 use glam::{Vec3, Vec4, vec3};
-use pleach_mesh::Material;
 use pleach_mesh::palette::{BarkPattern, linear};
+use pleach_mesh::{Material, Vertex};
 use rayon::prelude::*;
 
 /// Samples across and down a pixel.
@@ -21,24 +21,29 @@ const BOUNCE: Vec3 = vec3(0.30, 0.29, 0.22);
 /// Everything is divided by this before it is shown.
 const WHITE: f32 = 2.6;
 
-pub(super) fn picture(scene: &Scene, settings: &PreviewSettings) -> Picture {
+pub(super) fn picture(scene: &Scene<'_>, settings: &PreviewSettings) -> Picture {
     let (width, height) = (settings.width * SAMPLES, settings.height * SAMPLES);
     let (azimuth, elevation) = (settings.azimuth as f32, settings.elevation as f32);
     let camera = Camera::around(&outline(scene, settings.all_around), azimuth, elevation, width, height);
-    let seen = |corner| camera.project(scene.point(corner));
-    let buffer = DepthBuffer::draw(width, height, seen, &scene.triangles);
     // From the viewer's upper left, three quarters to the front.
     let (turn, rise) = (azimuth - 0.75, 0.87_f32);
     let towards = vec3(turn.sin() * rise.cos(), -turn.cos() * rise.cos(), rise.sin());
     let texels = (settings.width.max(settings.height) * 2).clamp(256, 4096);
-    let sun = Sun::new(towards, scene, texels);
-    View { scene, settings, camera, sun: Some(sun), buffer }.picture()
+    let sun = Some(Sun::new(towards, scene, texels));
+    let seen = Seen::new(scene, width, height, |point| camera.project(point));
+    View { scene, settings, camera, sun, seen }.picture()
 }
 
 /// Points that a picture must show: some of the tree's own, or the rim of all its turns.
-fn outline(scene: &Scene, all_around: bool) -> Vec<Vec3> {
-    let step = (scene.vertices.len() / 6000).max(1);
-    let some: Vec<Vec3> = scene.points().step_by(step).collect();
+fn outline(scene: &Scene<'_>, all_around: bool) -> Vec<Vec3> {
+    let step = (scene.count().vertices as usize / 6000).max(1);
+    let (mut some, mut number) = (Vec::new(), 0_usize);
+    scene.each_point(|p| {
+        if number.is_multiple_of(step) {
+            some.push(p);
+        }
+        number += 1;
+    });
     if some.is_empty() {
         return vec![scene.low, scene.high];
     }
@@ -57,11 +62,11 @@ fn outline(scene: &Scene, all_around: bool) -> Vec<Vec3> {
 
 /// A scene from a camera; without a sun, colours are shown as they are, in the crown's shade.
 pub(super) struct View<'a> {
-    pub(super) scene: &'a Scene,
+    pub(super) scene: &'a Scene<'a>,
     pub(super) settings: &'a PreviewSettings,
     pub(super) camera: Camera,
     pub(super) sun: Option<Sun>,
-    pub(super) buffer: DepthBuffer,
+    pub(super) seen: Seen,
 }
 
 impl View<'_> {
@@ -108,14 +113,12 @@ impl View<'_> {
 
     /// Shown light and coverage of one sample, multiplied.
     fn sample(&self, x: u32, y: u32) -> Vec4 {
-        let index = y as usize * self.buffer.width as usize + x as usize;
-        let triangle = self.buffer.triangle[index];
         let ray = self.camera.ray(x as f32 + 0.5, y as f32 + 0.5);
-        if triangle == NONE {
+        let Some(triangle) = self.seen.at(x, y) else {
             return self.ground(ray) * self.margin(x, y);
-        }
-        let corners = self.scene.triangles[triangle as usize];
-        let [a, b, c] = corners.map(|i| self.scene.point(i));
+        };
+        let corners = self.seen.corners(triangle);
+        let [a, b, c] = corners.map(|vertex| vertex.position);
         let plane = (b - a).cross(c - a);
         let slope = ray.dot(plane);
         let distance = if slope.abs() > 1e-12 { (a - self.camera.eye).dot(plane) / slope } else { 0.0 };
@@ -133,17 +136,17 @@ impl View<'_> {
         let wb = (at - a).cross(c - a).dot(plane) / whole;
         let wc = (b - a).cross(at - a).dot(plane) / whole;
         let weights = [1.0 - wb - wc, wb, wc].map(|w| w.clamp(0.0, 1.0));
-        let mix = |pick: &dyn Fn(u32) -> f32| (0..3).map(|k| weights[k] * pick(corners[k])).sum::<f32>();
-        let vertex = |i: u32| &self.scene.vertices[i as usize];
-        let normal = (0..3).map(|k| vertex(corners[k]).normal * weights[k]).sum::<Vec3>();
+        let mix = |pick: &dyn Fn(&Vertex) -> f32| (0..3).map(|k| weights[k] * pick(corners[k])).sum::<f32>();
+        let normal = (0..3).map(|k| corners[k].normal * weights[k]).sum::<Vec3>();
         let normal = normal.try_normalize().unwrap_or(Vec3::Z);
-        let (material, leaf) = self.scene.part_of(triangle);
+        let &Triangle { number, first_corner, .. } = triangle;
+        let (material, leaf) = self.scene.part_of(number);
         let light = match material {
             Material::Bark => {
-                let (u, v) = (mix(&|i| vertex(i).uv.x), mix(&|i| vertex(i).uv.y));
-                self.bark(at, normal, ray, self.scene.stem_of(corners[0]), u, v)
+                let (u, v) = (mix(&|vertex| vertex.uv.x), mix(&|vertex| vertex.uv.y));
+                self.bark(at, normal, ray, self.scene.stem_of(first_corner), u, v)
             }
-            Material::Leaf if self.scene.blobs.contains(&triangle) => self.blob(at, normal),
+            Material::Leaf if self.scene.blobs.contains(&number) => self.blob(at, normal),
             _ => self.leaf(at, normal, ray, material, leaf),
         };
         if self.sun.is_some() { shown(light).extend(1.0) } else { light.extend(1.0) }
@@ -225,7 +228,7 @@ impl View<'_> {
         if self.settings.background == Background::Studio {
             return 1.0;
         }
-        let (width, height) = (self.buffer.width as f32, self.buffer.height as f32);
+        let [width, height] = [self.settings.width, self.settings.height].map(|side| (side * SAMPLES) as f32);
         let (left, above) = (x as f32 + 0.5, y as f32 + 0.5);
         let edge = left.min(width - left).min(height - above);
         smooth(0.0, 0.16 * width.min(height), edge)
