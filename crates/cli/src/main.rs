@@ -7,6 +7,7 @@ mod choice;
 mod commands;
 mod help;
 mod input;
+mod memory;
 mod skeleton;
 
 use pleach_console::{files, interrupted, output, signals};
@@ -16,6 +17,7 @@ use pleach_tree::SpeciesError;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    memory::give_back_large_blocks();
     match commands::Arguments::from_command_line().run() {
         Ok(()) => ExitCode::SUCCESS,
         // Whoever reads our output has read enough, as in `pleach species | head`.

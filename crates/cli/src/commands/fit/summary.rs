@@ -26,9 +26,7 @@ pub(super) const RENDER_SIZE: u32 = 512;
 pub(super) struct Results<'a> {
     pub(super) fitted: &'a Fitted,
     /// The best individual as it is drawn.
-    pub(super) drawn: &'a Drawn,
-    /// The goal's own tree as it is drawn.
-    pub(super) individual: Option<&'a Drawn>,
+    pub(super) drawn: Drawn,
     pub(super) drawing: &'a Drawing<'a>,
     /// Further pictures, with what was fitted over them.
     pub(super) views: Vec<(ViewScore, Picture)>,
@@ -158,7 +156,6 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
     let Results { fitted, drawn, drawing, .. } = results;
     let Fitted { settings, outcome, best, judged, .. } = fitted;
     let (goal, working) = (&drawing.goals.full, &drawing.goals.working);
-    let species = &drawn.species;
     let scores = ScoreCard::new(&drawn.bitmap, &goal.bitmap)?;
     claim.ensure_there()?;
 
@@ -172,21 +169,28 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         format!("IoU {:.4}, pixel accuracy {:.4} with tree_seed below.", scores.iou, scores.pixel_accuracy),
     ];
     if let Some(judged) = judged {
-        let space = species.generator.space();
+        let space = drawn.species.generator.space();
         comments.extend(judged::comments(judged, space));
         write_table(&claim.file("parameters.csv"), judged::table(judged, &best.genome, space))?;
     }
-    write_species(&claim.file("best.toml"), species, &comments)?;
+    write_species(&claim.file("best.toml"), &drawn.species, &comments)?;
     drawn.write_silhouettes(&goal.bitmap, &claim.file("best.png"), &claim.file("overlay.png"))?;
     write_history(&claim.file("history.csv"), &outcome.history)?;
-    // Shaded pictures take most of the time and the memory of all of this, so that there is one at a time.
+    // Shaded pictures take most of the time and the memory of all of this, so that there is one at a time, and one
+    // tree.
     drawn.write_render(&claim.file("render.png"), RENDER_SIZE)?;
-    let (individual, individuals) = match (fitted.individuals.first(), results.individual) {
-        (Some(found), Some(one)) => (
-            Some(individual::write(claim, &goal.bitmap, found, one)?),
-            several::write(claim, drawing, &fitted.individuals, one, species)?,
-        ),
-        _ => (None, None),
+    let tree_m = Dendrometry::new(&drawn.tree);
+    let Drawn { species, tree, .. } = drawn;
+    drop(tree);
+    let (individual, individuals) = match fitted.individuals.first() {
+        Some(found) => {
+            let one = drawing.draw_individual(found)?;
+            (
+                Some(individual::write(claim, &goal.bitmap, found, &one)?),
+                several::write(claim, drawing, &fitted.individuals, &one, &species)?,
+            )
+        }
+        None => (None, None),
     };
     let views = write_overlays(claim, "overlay-view", results.views)?;
     let holdout_views = write_overlays(claim, "overlay-holdout", results.holdout_views)?;
@@ -218,7 +222,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         evaluations_per_second: outcome.evaluations as f64 / seconds.max(1e-9),
         optimizer: settings.method_name(),
         optimizer_settings: method_settings(settings)?,
-        rules: settings.rules.as_ref().and_then(|_| Rules::new(species)),
+        rules: settings.rules.as_ref().and_then(|_| Rules::new(&species)),
         objective: settings.objective.to_string(),
         cost: best.score.cost,
         stopped_by: outcome.stop,
@@ -234,7 +238,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         free: settings.freedom.free.clone(),
         fix: settings.freedom.fix.clone(),
         height_m: drawing.args.height,
-        tree_m: Dendrometry::new(&drawn.tree),
+        tree_m,
         meters_per_pixel: goal.frame(drawing.args.height).meters_per_pixel,
         goal_width: goal.bitmap.width(),
         goal_height: goal.bitmap.height(),

@@ -117,26 +117,26 @@ impl Task {
 
         let drawing = drawing(&fitted.problem, fitted.settings.limits);
         let drawn = drawing.draw(&fitted.best)?;
-        let individual =
-            fitted.individuals.first().map(|found| drawing.draw_individual(found)).transpose()?;
         let (height, foliage) = (self.args.height, fitted.problem.foliage);
         let placements = pleach_fit::placements(&fitted.problem.goals, &fitted.best.genome.nuisances);
         // The first is the goal's own.
         let views = further
             .iter()
             .zip(placements.iter().skip(1))
-            .map(|(picture, placement)| picture.score(&drawn.tree, foliage, height, placement));
+            .map(|(picture, placement)| picture.score(&drawn.tree, foliage, height, placement))
+            .collect::<anyhow::Result<_>>()?;
         let holdouts = self.args.holdout_view.iter();
-        let holdouts = holdouts.map(|picture| picture.score(&drawn.tree, foliage, height));
+        let holdout_views = holdouts
+            .map(|picture| picture.score(&drawn.tree, foliage, height))
+            .collect::<anyhow::Result<_>>()?;
         let summary = summary::write(
             &claim,
             Results {
                 fitted: &fitted,
-                drawn: &drawn,
-                individual: individual.as_ref(),
+                drawn,
                 drawing: &drawing,
-                views: views.collect::<anyhow::Result<_>>()?,
-                holdout_views: holdouts.collect::<anyhow::Result<_>>()?,
+                views,
+                holdout_views,
                 from: from.to_string(),
                 leaves_detected,
                 request,
