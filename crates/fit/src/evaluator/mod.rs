@@ -115,6 +115,8 @@ impl Evaluator {
         let taken = pool().pop();
         let mut memory = taken.unwrap_or_else(|| self.workspace());
         let result = work(&mut memory);
+        // The next tree may be small, and the one after it.
+        memory.tree.release_spare();
         pool().push(memory);
         result
     }

@@ -58,6 +58,18 @@ pub struct Tree {
     pub blob_triangles: Vec<[u32; 3]>,
 }
 
+/// Arrays of fewer bytes are never too large.
+const SPARE: usize = 1 << 20;
+
+/// Halves the room of a large array of which less than a quarter is used, as often as that is so.
+fn release_spare<T>(array: &mut Vec<T>) {
+    let mut room = array.capacity();
+    while room / 4 > array.len() && room * size_of::<T>() > SPARE {
+        room /= 2;
+    }
+    array.shrink_to(room);
+}
+
 impl Tree {
     /// Removes every part and keeps the memory.
     pub fn clear(&mut self) {
@@ -81,6 +93,18 @@ impl Tree {
         self.blobs.shrink_to_fit();
         self.blob_vertices.shrink_to_fit();
         self.blob_triangles.shrink_to_fit();
+    }
+
+    /// Gives back memory of large arrays that are nearly empty, for trees that are grown one after the other into the
+    /// same value: a single one that is ten times as large as the others would keep its memory for all of them.
+    pub fn release_spare(&mut self) {
+        release_spare(&mut self.stems);
+        release_spare(&mut self.knots);
+        release_spare(&mut self.leaves);
+        release_spare(&mut self.blossoms);
+        release_spare(&mut self.blobs);
+        release_spare(&mut self.blob_vertices);
+        release_spare(&mut self.blob_triangles);
     }
 
     /// Makes room for all of `others`, to be appended, and for nothing else.
@@ -184,6 +208,22 @@ mod tests {
     fn knot(z: f64) -> Knot {
         let point = dvec3(0.0, 0.0, z);
         Knot { point, handle_in: point, handle_out: point, radius: 0.1 }
+    }
+
+    #[test]
+    fn spare_room_is_given_back_where_there_is_much_of_it() {
+        let mut tree = small();
+        let same = tree.clone();
+        tree.leaves.reserve_exact(400_000);
+        tree.knots.reserve_exact(1000);
+        tree.release_spare();
+        assert!(tree == same && tree.knots.capacity() >= 1000);
+        assert!(tree.leaves.capacity() * size_of::<Leaf>() <= SPARE);
+        // What is used in part stays.
+        tree.leaves = vec![tree.leaves[0]; 100_000];
+        tree.leaves.reserve_exact(200_000);
+        tree.release_spare();
+        assert!(tree.leaves.capacity() >= 300_000);
     }
 
     fn small() -> Tree {
