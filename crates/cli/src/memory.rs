@@ -18,6 +18,18 @@ pub(crate) fn give_back_large_blocks() {
     let _ = unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, LARGE) };
 }
 
+/// Gives back what small blocks have left, for after something that took many of them.
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+#[expect(unsafe_code, reason = "nothing else in the library gives pages back that lie between blocks in use")]
+pub(crate) fn give_back_the_rest() {
+    // SAFETY: it takes a number by value and touches nothing but pages that are free; it may be called at any time.
+    let _ = unsafe { libc::malloc_trim(0) };
+}
+
 /// Other allocators have ways of their own.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
 pub(crate) const fn give_back_large_blocks() {}
+
+/// Other allocators have ways of their own.
+#[cfg(not(all(target_os = "linux", target_env = "gnu")))]
+pub(crate) const fn give_back_the_rest() {}

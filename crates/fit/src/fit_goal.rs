@@ -159,7 +159,7 @@ pub fn fit_goal(
     settings: &GoalSettings,
     control: Control<'_>,
 ) -> Result<Fitted, FitError> {
-    fit_goal_with(problem, settings, &mut GuessLibrary::new(), control)
+    fit_goal_with(problem, settings, &mut GuessLibrary::new().for_one_goal(), control)
 }
 
 /// [`fit_goal`] with trees of the candidates that are kept from goal to goal.

@@ -305,7 +305,7 @@ fn watched(
         let started = Instant::now();
         let clock = || started.elapsed();
         let control = Control { observers: vec![&mut teller], ..Control::new(&clock, stop) };
-        fit_goal_with(&asked.problem, &asked.settings, &mut library(), control)
+        fit_goal_with(&asked.problem, &asked.settings, &mut library().for_one_goal(), control)
     };
     py.detach(move || {
         std::thread::scope(|scope| {

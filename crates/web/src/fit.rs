@@ -113,7 +113,10 @@ impl Fit {
             goal: goal.full.clone(),
             height,
             problem: FitProblem { start, goals: vec![view], foliage },
-            stage: Stage::Planned { settings: Box::new(settings), library: GuessLibrary::new() },
+            stage: Stage::Planned {
+                settings: Box::new(settings),
+                library: GuessLibrary::new().for_one_goal(),
+            },
             pieces: Vec::new(),
             elapsed: Duration::ZERO,
         })
@@ -123,7 +126,8 @@ impl Fit {
     pub fn use_drawings(&mut self, bytes: Vec<u8>) -> Result<(), JsError> {
         if let Stage::Planned { library, .. } = &mut self.stage {
             // They stay until the worker is thrown away.
-            *library = GuessLibrary::with_drawings(Drawings::from_bytes(bytes.leak()).map_err(thrown)?);
+            let drawings = Drawings::from_bytes(bytes.leak()).map_err(thrown)?;
+            *library = GuessLibrary::with_drawings(drawings).for_one_goal();
         }
         Ok(())
     }

@@ -32,6 +32,8 @@ const BATCH: usize = 32;
 pub struct GuessLibrary {
     shelf: Option<(Key, Vec<Entry>)>,
     pub(super) prepared: Option<Drawings>,
+    /// Whether trees are kept for no other goal.
+    is_for_one: bool,
 }
 
 /// What the trees of a library depend on.
@@ -100,7 +102,14 @@ impl GuessLibrary {
     /// A library that grows only trees of which there are no drawings.
     #[must_use]
     pub fn with_drawings(drawings: Drawings) -> Self {
-        Self { shelf: None, prepared: Some(drawings) }
+        Self { prepared: Some(drawings), ..Self::default() }
+    }
+
+    /// The same, but it keeps nothing once a goal has been compared with its trees: a fit takes their memory no
+    /// longer than its first guess.
+    #[must_use]
+    pub fn for_one_goal(self) -> Self {
+        Self { is_for_one: true, ..self }
     }
 
     /// The drawings that it was made with.
@@ -179,6 +188,13 @@ impl GuessLibrary {
             progress(all, all);
         }
         Ok(&self.shelf.insert((key, entries)).1)
+    }
+
+    /// A goal has been compared with the trees.
+    pub(super) fn close(&mut self) {
+        if self.is_for_one {
+            self.shelf = None;
+        }
     }
 }
 

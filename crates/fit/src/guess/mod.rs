@@ -182,6 +182,7 @@ impl GuessLibrary {
         }
         let pictures = pictures_of(&shown, named, (entries, &found), foliage)?;
         let references = References::new(&known, candidates, (entries, &found), named, &pictures);
+        self.close();
         Ok(FirstGuess {
             species,
             nearest: winner.lists.clone(),
@@ -215,7 +216,9 @@ impl GuessLibrary {
         let (costs, _) = ranked(&shown, (entries, &found), 0);
         let named = first_of(&costs);
         let pictures = pictures_of(&shown, named, (entries, &found), known.foliage)?;
-        Ok(References::new(&known, candidates, (entries, &found), named, &pictures))
+        let references = References::new(&known, candidates, (entries, &found), named, &pictures);
+        self.close();
+        Ok(references)
     }
 }
 

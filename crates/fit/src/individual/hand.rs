@@ -76,6 +76,8 @@ impl Hand {
             draws: Some(draws),
             ..Growth::seed(genome.tree_seed)
         };
+        // The parts of the last tree may have been the whole of it.
+        self.part.release_spare();
         problem.start.generator.grow(&scene.params, &growth, &mut self.workspace, &mut self.tree).is_ok()
     }
 

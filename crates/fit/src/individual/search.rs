@@ -107,6 +107,8 @@ pub(super) fn search(
     }
     // The clock may have leapt over the last batches.
     state = hands.with(&scene, |hand| pruned(&scene, state, 0, hand));
+    // What follows grows trees in memory of its own.
+    drop(hands);
     let kind = problem.species(genome).map_err(crate::space::SpaceError::Start)?;
     let species = kind.with_individual(genome.tree_seed, state.chosen.individual);
     let before = evaluator.evaluate_with_likeness(genome);

@@ -190,7 +190,7 @@ impl Fit {
             folder: RunFolder::at(path.clone()),
         };
         let mode = self.mode();
-        let mut library = library();
+        let mut library = library().for_one_goal();
         let ended = task.run(self, settings, mode, &mut library, &signals::catch()?)?;
         let (summary, interrupted) = match ended {
             Ended::Finished(summary) => (Some(summary), None),

@@ -5,7 +5,7 @@ use super::live::Live;
 use super::progress::Bar;
 use super::run_folder::Claim;
 use super::start;
-use crate::{files, output};
+use crate::{files, memory, output};
 use indicatif::{ProgressBar, ProgressStyle};
 use pleach_fit::{
     Begun, CheckpointError, FitProblem, IndividualProgress, Observer, ObserverError, Progress, Row,
@@ -48,6 +48,8 @@ impl<'a, 'g> Watch<'a, 'g> {
             output::note(start::said(guess, detected));
             start::raced(guess).into_iter().for_each(output::note);
         }
+        // The drawings that the goal was compared with.
+        memory::give_back_the_rest();
         self.claim.begin()?;
         let drawing = (self.draws)(&begun.problem, begun.settings.limits);
         if let Some(mask) = &drawing.goals.mask {
