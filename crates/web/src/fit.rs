@@ -46,7 +46,7 @@ const fn one() -> u64 {
 enum Stage {
     Planned {
         settings: Box<pleach::GoalSettings>,
-        library: GuessLibrary,
+        library: Box<GuessLibrary>,
     },
     Searching(Box<Stepwise>),
     /// A step has failed, or the fit has ended.
@@ -115,7 +115,7 @@ impl Fit {
             problem: FitProblem { start, goals: vec![view], foliage },
             stage: Stage::Planned {
                 settings: Box::new(settings),
-                library: GuessLibrary::new().for_one_goal(),
+                library: Box::new(GuessLibrary::new().for_one_goal()),
             },
             pieces: Vec::new(),
             elapsed: Duration::ZERO,
@@ -127,7 +127,7 @@ impl Fit {
         if let Stage::Planned { library, .. } = &mut self.stage {
             // They stay until the worker is thrown away.
             let drawings = Drawings::from_bytes(bytes.leak()).map_err(thrown)?;
-            *library = GuessLibrary::with_drawings(drawings).for_one_goal();
+            **library = GuessLibrary::with_drawings(drawings).for_one_goal();
         }
         Ok(())
     }
@@ -140,7 +140,7 @@ impl Fit {
         let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
         let mut told = Told(progress);
         let control = Control { observers: vec![&mut told], ..Control::new(&clock, &stop) };
-        let fit = Stepwise::begin(&self.problem, &settings, library, control).map_err(thrown)?;
+        let fit = Stepwise::begin(&self.problem, &settings, *library, control).map_err(thrown)?;
         let begun = fit.begun();
         let names: Vec<_> = begun.guess.iter().flat_map(|guess| &guess.names).collect();
         let looks_like = json!({
