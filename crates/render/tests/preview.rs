@@ -8,11 +8,16 @@ use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_tree::Tree;
 use pleach_tree::species::{Color, Season};
 
-fn picture(name: &str, season: Option<Season>, settings: &PreviewSettings) -> Picture {
+fn grown(name: &str, season: Option<Season>) -> (Tree, Palette) {
     let species = pleach_generators::preset(name).unwrap();
     let mut tree = species.grow(1).unwrap();
     let palette = Palette::new(&species, season);
     palette.apply_season(&mut tree);
+    (tree, palette)
+}
+
+fn picture(name: &str, season: Option<Season>, settings: &PreviewSettings) -> Picture {
+    let (tree, palette) = grown(name, season);
     Preview::new(&tree, &palette, 96).picture(settings)
 }
 
@@ -92,14 +97,14 @@ fn the_same_picture_whatever_the_number_of_threads() {
 
 #[test]
 fn a_turn_table_keeps_the_tree_inside_and_nothing_is_no_panic() {
+    let (tree, palette) = grown("acer", None);
+    let preview = Preview::new(&tree, &palette, 96);
     for i in 0..6 {
         let settings = PreviewSettings { azimuth: f64::from(i), all_around: true, ..small() };
-        let picture = picture("acer", None, &settings);
+        let picture = preview.picture(&settings);
         let edge = (0..96).flat_map(|i| [(i, 0), (i, 95), (0, i), (95, i)]);
         assert!(edge.into_iter().all(|(x, y)| picture.rgba[(y * 96 + x) * 4 + 3] == 0), "turn {i}");
     }
-    let species = pleach_generators::preset("acer").unwrap();
-    let palette = Palette::new(&species, None);
     let nothing = Preview::new(&Tree::default(), &palette, 96).picture(&small());
     assert!(nothing.rgba.iter().all(|b| *b == 0));
 }

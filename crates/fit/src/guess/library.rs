@@ -330,3 +330,31 @@ pub(super) fn shown_once(
         .collect();
     Ok(compare(shown, &entries, foliage, &Near::All)?.into_iter().flatten().collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::GoalView;
+    use pleach_silhouette::Rasterizer;
+    use pleach_tree::Parts;
+
+    #[test]
+    fn trees_are_kept_unless_for_one_goal() {
+        let species = pleach_generators::preset("palm").unwrap();
+        let tree = species.grow(2).unwrap();
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 64, 64);
+        let mut goal = Bitmap::default();
+        Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
+        let problem = FitProblem::new(species.clone(), GoalView::new(goal, View::FRONT, frame));
+        let candidates = [Candidate::from(species)];
+        let (settings, stop) = (FitSettings::default(), AtomicBool::new(false));
+        for (mut library, keeps) in [(GuessLibrary::new(), true), (GuessLibrary::new().for_one_goal(), false)]
+        {
+            let guess = GuessSettings::default();
+            let guessed = library.first_guess(&problem, &settings, &candidates, &guess, &stop, |_, _| ());
+            assert_eq!((guessed.unwrap().names[0].0.as_str(), library.shelf.is_some()), ("palm", keeps));
+            let _ = library.references(&problem, &settings, &candidates, &stop).unwrap();
+            assert_eq!(library.shelf.is_some(), keeps);
+        }
+    }
+}

@@ -10,7 +10,9 @@ pub(crate) struct Sun {
     pub(crate) towards: Vec3,
     right: Vec3,
     up: Vec3,
+    /// The corners of what is included, in metres along `right`, `up` and `towards`.
     low: Vec3,
+    high: Vec3,
     /// Texels a metre.
     scale: f32,
     width: u32,
@@ -20,21 +22,34 @@ pub(crate) struct Sun {
 }
 
 impl Sun {
-    /// The sun in direction `towards` over a scene, with about `texels` texels across it.
-    pub(super) fn new(towards: Vec3, scene: &Scene<'_>, texels: u32) -> Self {
+    /// The sun in direction `towards` over nothing yet.
+    pub(super) fn new(towards: Vec3) -> Self {
         let right = Vec3::Z.cross(towards).try_normalize().unwrap_or(Vec3::X);
-        let up = towards.cross(right);
-        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        scene.each_point(|p| {
-            let seen = vec3(p.dot(right), p.dot(up), p.dot(towards));
-            (low, high) = (low.min(seen), high.max(seen));
-        });
-        let extent = (high - low).max(Vec3::splat(1e-3));
-        let scale = texels as f32 / extent.x.max(extent.y);
-        let [width, height] = [extent.x, extent.y].map(|e| (e * scale).ceil() as u32 + 1);
-        let mut sun = Self { towards, right, up, low, scale, width, height, near: Vec::new() };
-        sun.near = scene.draw(width, height, |point| sun.place(point)).near;
-        sun
+        Self {
+            towards,
+            right,
+            up: towards.cross(right),
+            low: Vec3::INFINITY,
+            high: Vec3::NEG_INFINITY,
+            scale: 1.0,
+            width: 0,
+            height: 0,
+            near: Vec::new(),
+        }
+    }
+
+    /// Makes room for a point of the scene.
+    pub(super) fn include(&mut self, p: Vec3) {
+        let seen = vec3(p.dot(self.right), p.dot(self.up), p.dot(self.towards));
+        (self.low, self.high) = (self.low.min(seen), self.high.max(seen));
+    }
+
+    /// Shines on a scene, all of whose points are included, with about `texels` texels across it.
+    pub(super) fn shine(&mut self, scene: &Scene<'_>, texels: u32) {
+        let extent = (self.high - self.low).max(Vec3::splat(1e-3));
+        self.scale = texels as f32 / extent.x.max(extent.y);
+        [self.width, self.height] = [extent.x, extent.y].map(|e| (e * self.scale).ceil() as u32 + 1);
+        self.near = scene.draw(self.width, self.height, |point| self.place(point)).near;
     }
 
     /// Texels, and metres towards the sun from one before the mesh.

@@ -9,13 +9,13 @@ pub(crate) const NONE: u32 = u32::MAX;
 /// For each sample how near the nearest triangle is, and its number.
 #[derive(Clone, Debug)]
 pub(crate) struct DepthBuffer {
-    pub(crate) width: u32,
-    pub(crate) height: u32,
+    width: u32,
+    height: u32,
     /// Larger is nearer; 0 is nothing.
     pub(crate) near: Vec<f32>,
     /// [`NONE`] is nothing.
     pub(crate) triangle: Vec<u32>,
-    /// For each band of rows the triangles that reach into it, from the block that was drawn last.
+    /// For each band of rows the triangles that reach into it, while they are drawn.
     bins: Vec<Vec<u32>>,
 }
 

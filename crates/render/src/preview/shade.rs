@@ -24,18 +24,21 @@ const WHITE: f32 = 2.6;
 pub(super) fn picture(scene: &Scene<'_>, settings: &PreviewSettings) -> Picture {
     let (width, height) = (settings.width * SAMPLES, settings.height * SAMPLES);
     let (azimuth, elevation) = (settings.azimuth as f32, settings.elevation as f32);
-    let camera = Camera::around(&outline(scene, settings.all_around), azimuth, elevation, width, height);
     // From the viewer's upper left, three quarters to the front.
     let (turn, rise) = (azimuth - 0.75, 0.87_f32);
     let towards = vec3(turn.sin() * rise.cos(), -turn.cos() * rise.cos(), rise.sin());
     let texels = (settings.width.max(settings.height) * 2).clamp(256, 4096);
-    let sun = Some(Sun::new(towards, scene, texels));
+    let mut sun = Sun::new(towards);
+    let outline = outline(scene, settings.all_around, |point| sun.include(point));
+    let camera = Camera::around(&outline, azimuth, elevation, width, height);
+    sun.shine(scene, texels);
     let seen = Seen::new(scene, width, height, |point| camera.project(point));
-    View { scene, settings, camera, sun, seen }.picture()
+    View { scene, settings, camera, sun: Some(sun), seen }.picture()
 }
 
-/// Points that a picture must show: some of the tree's own, or the rim of all its turns.
-fn outline(scene: &Scene<'_>, all_around: bool) -> Vec<Vec3> {
+/// Points that a picture must show: some of the tree's own, or the rim of all its turns. All of the tree's are told to
+/// `also`, so that one pass does for both.
+fn outline(scene: &Scene<'_>, all_around: bool, mut also: impl FnMut(Vec3)) -> Vec<Vec3> {
     let step = (scene.count().vertices as usize / 6000).max(1);
     let (mut some, mut number) = (Vec::new(), 0_usize);
     scene.each_point(|p| {
@@ -43,6 +46,7 @@ fn outline(scene: &Scene<'_>, all_around: bool) -> Vec<Vec3> {
             some.push(p);
         }
         number += 1;
+        also(p);
     });
     if some.is_empty() {
         return vec![scene.low, scene.high];
