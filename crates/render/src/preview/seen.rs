@@ -4,6 +4,7 @@ use super::raster::{DepthBuffer, NONE};
 use super::scene::Scene;
 use glam::Vec3;
 use pleach_mesh::Vertex;
+use rayon::prelude::*;
 
 /// What is seen of a scene through a camera.
 #[derive(Debug)]
@@ -36,17 +37,15 @@ impl Seen {
 
     /// From samples that hold numbers of the scene's triangles.
     fn gather(scene: &Scene<'_>, width: u32, mut samples: Vec<u32>) -> Self {
-        let mut is_seen = vec![false; scene.count().triangles as usize];
-        samples.iter().filter(|number| **number != NONE).for_each(|number| is_seen[*number as usize] = true);
-        let count = is_seen.iter().filter(|seen| **seen).count();
-        let (mut triangles, mut vertices) = (Vec::with_capacity(count), Vec::new());
+        let seen = Numbers::new(samples.iter().copied().filter(|number| *number != NONE));
+        let (mut triangles, mut vertices) = (Vec::new(), Vec::new());
         // Where the corners of a block have gone.
         let mut places: Vec<u32> = Vec::new();
         scene.each_block(|block| {
             places.clear();
             places.resize(block.vertices.len(), NONE);
             for (number, corners) in (block.first_triangle..).zip(block.triangles) {
-                if !is_seen[number as usize] {
+                if !seen.has(number) {
                     continue;
                 }
                 let corners_kept = corners.map(|corner| {
@@ -61,9 +60,10 @@ impl Seen {
                 triangles.push(Triangle { corners: corners_kept, number, first_corner });
             }
         });
-        for sample in samples.iter_mut().filter(|sample| **sample != NONE) {
-            *sample = triangles.partition_point(|triangle: &Triangle| triangle.number < *sample) as u32;
-        }
+        samples
+            .par_iter_mut()
+            .filter(|sample| **sample != NONE)
+            .for_each(|sample| *sample = seen.place(*sample));
         Self { width: width as usize, samples, triangles, vertices }
     }
 
@@ -76,5 +76,60 @@ impl Seen {
     /// The corners of a triangle.
     pub(super) fn corners(&self, triangle: &Triangle) -> [&Vertex; 3] {
         triangle.corners.map(|corner| &self.vertices[corner as usize])
+    }
+}
+
+/// A set of numbers that knows the place of each among the others.
+#[derive(Debug, Default)]
+struct Numbers {
+    /// A bit for each number.
+    words: Vec<u64>,
+    /// How many there are before each word.
+    before: Vec<u32>,
+}
+
+impl Numbers {
+    fn new(numbers: impl Iterator<Item = u32>) -> Self {
+        let mut words = Vec::new();
+        for number in numbers {
+            let word = number as usize / 64;
+            if word >= words.len() {
+                words.resize(word + 1, 0_u64);
+            }
+            words[word] |= 1 << (number % 64);
+        }
+        let mut count = 0;
+        let before = words
+            .iter()
+            .map(|word| {
+                count += word.count_ones();
+                count - word.count_ones()
+            })
+            .collect();
+        Self { words, before }
+    }
+
+    fn has(&self, number: u32) -> bool {
+        self.words.get(number as usize / 64).is_some_and(|word| word >> (number % 64) & 1 == 1)
+    }
+
+    /// How many of the set are less than `number`, which is in it.
+    fn place(&self, number: u32) -> u32 {
+        let word = number as usize / 64;
+        self.before[word] + (self.words[word] & ((1 << (number % 64)) - 1)).count_ones()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_know_their_places() {
+        let list = [0, 3, 63, 64, 127, 128, 700];
+        let numbers = Numbers::new(list.into_iter().rev().chain(list));
+        assert!(list.into_iter().map(|number| numbers.place(number)).eq(0..7));
+        let there: Vec<u32> = (0..1000).filter(|number| numbers.has(*number)).collect();
+        assert_eq!(there, list);
     }
 }
