@@ -35,28 +35,58 @@ impl Turtle {
     /// Leans the direction towards [`Turtle::down`] by `angle` radians.
     pub fn pitch_down(&mut self, angle: f64) {
         let (sin, cos) = sin_cos(angle);
-        self.direction = (self.direction * cos + self.down() * sin).normalize();
+        self.direction = unit(self.direction * cos + self.down() * sin);
     }
 
     /// Leans the direction towards `right` by `angle` radians.
     pub fn turn_right(&mut self, angle: f64) {
         let (sin, cos) = sin_cos(angle);
         let Self { direction, right, .. } = *self;
-        self.direction = (direction * cos + right * sin).normalize();
-        self.right = (right * cos - direction * sin).normalize();
+        self.direction = unit(direction * cos + right * sin);
+        self.right = unit(right * cos - direction * sin);
     }
 
     /// Turns `right` about the direction, towards [`Turtle::down`], by `angle` radians.
     pub fn roll_right(&mut self, angle: f64) {
         let (sin, cos) = sin_cos(angle);
-        self.right = (self.right * cos + self.down() * sin).normalize();
+        self.right = unit(self.right * cos + self.down() * sin);
     }
 
     /// Turns both axes about the unit vector `axis` by `angle` radians (right-hand rule).
     pub fn rotate_about(&mut self, axis: DVec3, angle: f64) {
         let turn = turn_about(axis, angle);
-        self.direction = turn(self.direction).normalize();
-        self.right = turn(self.right).normalize();
+        self.direction = unit(turn(self.direction));
+        self.right = unit(turn(self.right));
+    }
+
+    /// Turns both axes towards `pull`, about the axis at right angles to it and to the direction, by `rate` radians
+    /// for each unit of `pull` that is at right angles to the direction.
+    pub fn lean(&mut self, pull: DVec3, rate: f64) {
+        let axis = self.direction.cross(pull);
+        let squared = axis.length_squared();
+        let angle_squared = rate * rate * squared;
+        // An axis of no length has no direction.
+        if squared <= 1e-24 {
+            return;
+        }
+        // sin a / |axis| and (1 − cos a) / |axis|²: for small angles by their series, which want no root and no
+        // division.
+        let (by_sin, cos, by_cos) = if angle_squared < SMALL_ANGLE * SMALL_ANGLE {
+            let u = angle_squared;
+            let sin = 1.0
+                + u * (-1.0 / 6.0
+                    + u * (1.0 / 120.0 + u * (-1.0 / 5040.0 + u * (1.0 / 362_880.0 - u / 39_916_800.0))));
+            let versine =
+                0.5 + u * (-1.0 / 24.0 + u * (1.0 / 720.0 + u * (-1.0 / 40_320.0 + u / 3_628_800.0)));
+            (rate * sin, 1.0 - u * versine, rate * rate * versine)
+        } else {
+            let length = squared.sqrt();
+            let (sin, cos) = sin_cos(rate * length);
+            (sin / length, cos, (1.0 - cos) / squared)
+        };
+        let turn = |v: DVec3| v * cos + axis.cross(v) * by_sin + axis * (axis.dot(v) * by_cos);
+        self.direction = unit(turn(self.direction));
+        self.right = unit(turn(self.right));
     }
 
     /// Turns the axes of a leaf outwards from the z axis and then up, each by the part `leaf_bend` of
@@ -79,6 +109,16 @@ impl Turtle {
         let lift = |v: DVec3| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos));
         (self.direction, self.right) = (lift(direction), lift(right));
     }
+}
+
+/// Radians up to which a turn's series are exact to the last bits.
+const SMALL_ANGLE: f64 = 0.5;
+
+/// `v` at length 1, if it is nearly that long already: one step of Newton's method, without a root or a division.
+/// Turns keep lengths but for rounding, which is all that is taken away.
+#[inline]
+fn unit(v: DVec3) -> DVec3 {
+    v * (1.5 - 0.5 * v.length_squared())
 }
 
 /// `v` turned about the unit vector `axis` by `angle` radians (Rodrigues' formula, right-hand rule).

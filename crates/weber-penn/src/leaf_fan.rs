@@ -168,9 +168,10 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1]]
 }
 
+/// As the turtle does: of a length that is nearly 1.
 #[inline(always)]
 fn unit(v: [f64; 3]) -> [f64; 3] {
-    times(v, 1.0 / dot(v, v).sqrt())
+    times(v, 1.5 - 0.5 * dot(v, v))
 }
 
 #[cfg(test)]

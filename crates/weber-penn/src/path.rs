@@ -8,8 +8,8 @@ use crate::purpose;
 use crate::stem::{ForkStart, ForkState, StemSpec};
 use glam::DVec3;
 use pleach_tree::math;
-use pleach_tree::turtle::{Turtle, rotate, turn_about};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use pleach_tree::turtle::{Turtle, rotate};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A point of a path and what later steps need to know there.
 #[derive(Clone, Copy, Debug)]
@@ -269,11 +269,7 @@ fn tropism(model: &Model, level: usize) -> DVec3 {
 
 /// Turns the turtle towards `pull`, by 10° a unit at right angles.
 fn lean(turtle: &mut Turtle, pull: DVec3) {
-    let axis = turtle.direction.cross(pull);
-    let strength = axis.length();
-    if strength > 1e-12 {
-        turtle.rotate_about(axis / strength, (10.0 * strength).to_radians());
-    }
+    turtle.lean(pull, 10.0_f64.to_radians());
 }
 
 /// A helix of half a turn a segment (Hewitt 2017, §3.2.1 *Helical Branches*).
@@ -310,18 +306,15 @@ fn helix(model: &Model, level: &Level, stem: &StemSpec, length: f64, path: &mut 
         right: turtle.right,
         keep: 1.0,
     });
-    for i in 1..=segments {
-        let turn = turn_about(axis, PI * f64::from(i - 1));
-        let handle_in = at + turn(to_b2);
-        at += turn(to_b3);
-        path.push(PathPoint {
-            point: at,
-            handle_in,
-            handle_out: at * 2.0 - handle_in,
-            direction: (at - handle_in).try_normalize().unwrap_or(axis),
-            right: turtle.right,
-            keep: 1.0,
-        });
+    // Half a turn about the axis for every segment: there are only two ways that they go.
+    let half_turn = |v: DVec3| axis * (2.0 * axis.dot(v)) - v;
+    let way = |to_b2: DVec3, to_b3: DVec3| (to_b2, to_b3, (to_b3 - to_b2).try_normalize().unwrap_or(axis));
+    let ways = [way(to_b2, to_b3), way(half_turn(to_b2), half_turn(to_b3))];
+    for &(to_b2, to_b3, direction) in ways.iter().cycle().take(segments as usize) {
+        let handle_in = at + to_b2;
+        at += to_b3;
+        let handle_out = at * 2.0 - handle_in;
+        path.push(PathPoint { point: at, handle_in, handle_out, direction, right: turtle.right, keep: 1.0 });
     }
 }
 

@@ -79,15 +79,10 @@ impl Pen {
     /// Bends towards the tropism: in Hewitt's dialect by degrees before a piece, in the book's by
     /// radians after it.
     pub(crate) fn bend(&mut self, dialect: Dialect, steps: &Steps) {
-        let axis = self.turtle.direction.cross(steps.tropism);
-        let strength = axis.length();
-        let angle = match dialect {
-            Dialect::Hewitt => (steps.elasticity * strength).to_radians(),
-            Dialect::Abop => steps.elasticity * strength,
+        let rate = match dialect {
+            Dialect::Hewitt => steps.elasticity.to_radians(),
+            Dialect::Abop => steps.elasticity,
         };
-        // Below this, stem and tropism are parallel as far as doubles can tell.
-        if strength > 1e-12 && angle != 0.0 {
-            self.turtle.rotate_about(axis / strength, angle);
-        }
+        self.turtle.lean(steps.tropism, rate);
     }
 }
