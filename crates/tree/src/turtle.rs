@@ -23,22 +23,26 @@ impl Turtle {
 
     /// The axis that positive pitch turns the direction towards: `direction × right`.
     #[must_use]
+    #[inline]
     pub fn down(&self) -> DVec3 {
         self.direction.cross(self.right)
     }
 
     /// Walks `length` metres ahead.
+    #[inline]
     pub fn walk(&mut self, length: f64) {
         self.position += self.direction * length;
     }
 
     /// Leans the direction towards [`Turtle::down`] by `angle` radians.
+    #[inline]
     pub fn pitch_down(&mut self, angle: f64) {
         let (sin, cos) = sin_cos(angle);
         self.direction = unit(self.direction * cos + self.down() * sin);
     }
 
     /// Leans the direction towards `right` by `angle` radians.
+    #[inline]
     pub fn turn_right(&mut self, angle: f64) {
         let (sin, cos) = sin_cos(angle);
         let Self { direction, right, .. } = *self;
@@ -47,6 +51,7 @@ impl Turtle {
     }
 
     /// Turns `right` about the direction, towards [`Turtle::down`], by `angle` radians.
+    #[inline]
     pub fn roll_right(&mut self, angle: f64) {
         let (sin, cos) = sin_cos(angle);
         self.right = unit(self.right * cos + self.down() * sin);
@@ -61,6 +66,7 @@ impl Turtle {
 
     /// Turns both axes towards `pull`, about the axis at right angles to it and to the direction, by `rate` radians
     /// for each unit of `pull` that is at right angles to the direction.
+    #[inline]
     pub fn lean(&mut self, pull: DVec3, rate: f64) {
         let axis = self.direction.cross(pull);
         let squared = axis.length_squared();

@@ -10,6 +10,9 @@ use glam::{DVec3, Vec2};
 use pleach_tree::plant::piece;
 use pleach_tree::{Knot, Stem, Tree};
 
+/// Bends below the root of this, in pixels, are one chord: a little less than 4/3 of [`TOLERANCE`].
+const STRAIGHT: f32 = 0.99 * (TOLERANCE / 0.75 * TOLERANCE / 0.75) as f32;
+
 /// A knot in pixels.
 #[derive(Clone, Copy)]
 struct FlatKnot {
@@ -53,8 +56,13 @@ pub(in crate::raster) fn draw(grid: &mut Grid, camera: &Camera, scale: Vec2, tre
         let (a, b, c, d) = (from.point, from.handle_out, to.handle_in, to.point);
         // As `Cubic::chords`, of the bend that can be seen.
         let (bend, bend_after) = (a - b * 2.0 + c, b - c * 2.0 + d);
-        let bend = bend.length_squared().max(bend_after.length_squared()).sqrt();
-        let chords = (0.75 / TOLERANCE as f32 * bend).sqrt().ceil().clamp(1.0, 1024.0);
+        let squared = bend.length_squared().max(bend_after.length_squared());
+        // Most are as good as straight, and need no roots to be told so.
+        let chords = if squared < STRAIGHT {
+            1.0
+        } else {
+            (0.75 / TOLERANCE as f32 * squared.sqrt()).sqrt().ceil().clamp(1.0, 1024.0)
+        };
         let mut step = 1.0;
         while step < chords {
             let t = step / chords;
