@@ -46,6 +46,14 @@ impl Grid {
         if right - left < NARROW && left >= 0.0 && right <= wide {
             let origin = left as u32;
             let mut start = first;
+            if corners.len() <= 4 && right - left < SLIM && last - first <= HIGH && is_monotone(corners) {
+                if last - first <= LOW {
+                    self.fill_monotone::<LOW>(corners, origin, first, last);
+                } else {
+                    self.fill_monotone::<HIGH>(corners, origin, first, last);
+                }
+                return;
+            }
             while last - start > LOW {
                 let end = (start + HIGH).min(last);
                 self.fill_narrow::<HIGH>(corners, origin, start, end);
@@ -54,11 +62,7 @@ impl Grid {
                     return;
                 }
             }
-            if corners.len() == 4 && right - left < SLIM {
-                self.fill_quad(corners, origin, start, last);
-            } else {
-                self.fill_narrow::<LOW>(corners, origin, start, last);
-            }
+            self.fill_narrow::<LOW>(corners, origin, start, last);
         } else {
             self.fill_wide(corners, (left, right), first, last);
         }
@@ -106,19 +110,31 @@ impl Grid {
         let band = Band::new(origin, first, last);
         let mut before = corners[corners.len() - 1];
         for some in corners.chunks(4) {
-            band.edges(before, some).flip_edge_by_edge(&mut rows, skews(first));
+            band.edges(before, some).flip(&mut rows, skews(first));
             before = some[some.len() - 1];
         }
         self.write(&rows, origin, first, if ROWS == LOW { ROWS } else { last - first });
     }
 
-    /// [`Grid::fill_narrow`] of few rows of what most shapes are, pieces of stems.
+    /// [`Grid::fill_narrow`] of up to four corners that no row leaves and enters again, and whose edges cannot leave
+    /// the word: what is inside lies between the first and the last crossing, which are found for eight rows at a time.
     #[inline]
-    fn fill_quad(&mut self, corners: &[Corner], origin: u32, first: usize, last: usize) {
-        let mut rows = [0_u64; LOW];
-        let edges = Band::new(origin, first, last).edges(corners[3], corners);
-        edges.flip_row_by_row(&mut rows[..last - first], skews(first));
-        self.write(&rows, origin, first, LOW);
+    fn fill_monotone<const ROWS: usize>(
+        &mut self,
+        corners: &[Corner],
+        origin: u32,
+        first: usize,
+        last: usize,
+    ) {
+        let (mut enters, mut leaves) = ([64_i16; ROWS], [0_i16; ROWS]);
+        let reached = (last - first).div_ceil(STEP) * STEP;
+        let edges = Band::new(origin, first, last).edges(corners[corners.len() - 1], corners);
+        edges.cross(&mut enters[..reached], &mut leaves[..reached], skews(first));
+        let mut rows = [0_u64; ROWS];
+        for ((row, &enter), &leave) in rows.iter_mut().zip(&enters[..reached]).zip(&leaves[..reached]) {
+            *row = FROM[enter as usize % FROM.len()] & !FROM[leave as usize % FROM.len()];
+        }
+        self.write(&rows, origin, first, if ROWS == LOW { ROWS } else { last - first });
     }
 
     /// Sets the samples of `rows`, the first of which is row `first`, from column `origin` on. All of few rows are
@@ -206,7 +222,7 @@ struct Edges {
 impl Edges {
     /// Flips what is to the right of each edge.
     #[inline(always)]
-    fn flip_edge_by_edge(&self, rows: &mut [u64], skews: &[i32; HIGH]) {
+    fn flip(&self, rows: &mut [u64], skews: &[i32; HIGH]) {
         for k in 0..4 {
             let range = self.from[k] as usize..self.to[k] as usize;
             let Some(rows) = rows.get_mut(range.clone()) else { continue };
@@ -220,22 +236,48 @@ impl Edges {
         }
     }
 
-    /// The same, of edges that stay within the word: in one loop, since each that ends somewhere costs a wrong guess.
+    /// Moves where each row enters a shape and where it leaves it, so far as the edges cross it.
     #[inline(always)]
-    fn flip_row_by_row(&self, rows: &mut [u64], skews: &[i32; HIGH]) {
-        let Self { from, to, x, slope } = self;
-        // Where each edge would cross the first row.
-        let mut at = [0, 1, 2, 3].map(|k: usize| x[k].wrapping_sub(slope[k].wrapping_mul(from[k])));
-        for ((i, row), skew) in (0..).zip(rows).zip(skews) {
-            for k in 0..4 {
-                let column = at[k].wrapping_sub(*skew).max(0) >> 16;
-                let outside = if i < from[k] || i >= to[k] { 64 } else { 0 };
-                *row ^= FROM[(column | outside) as usize % FROM.len()];
-                at[k] = at[k].wrapping_add(slope[k]);
+    fn cross(&self, enters: &mut [i16], leaves: &mut [i16], skews: &[i32; HIGH]) {
+        for k in 0..4 {
+            let (from, to, slope) = (self.from[k] as i16, self.to[k] as i16, self.slope[k]);
+            // Where the edge, made longer, crosses each of the first rows.
+            let start = self.x[k].wrapping_sub(slope.wrapping_mul(self.from[k]));
+            let mut at: [i32; STEP] =
+                std::array::from_fn(|j| start.wrapping_add(slope.wrapping_mul(j as i32)));
+            let mut number: [i16; STEP] = std::array::from_fn(|j| j as i16);
+            let steps = enters.chunks_exact_mut(STEP).zip(leaves.chunks_exact_mut(STEP));
+            for ((enters, leaves), skews) in steps.zip(skews.chunks_exact(STEP)) {
+                // In step, without branches, for the compiler to turn into vectors.
+                for j in 0..STEP {
+                    let column = (at[j].wrapping_sub(skews[j]).max(0) >> 16) as i16;
+                    let crosses = number[j] >= from && number[j] < to;
+                    enters[j] = enters[j].min(if crosses { column } else { 64 });
+                    leaves[j] = leaves[j].max(if crosses { column } else { 0 });
+                    at[j] = at[j].wrapping_add(slope.wrapping_mul(STEP as i32));
+                    number[j] += STEP as i16;
+                }
             }
         }
     }
 }
+
+/// Whether a closed outline goes down once and up once, so that no row crosses it more than twice.
+#[inline]
+fn is_monotone(corners: &[Corner]) -> bool {
+    let mut before = corners[corners.len() - 1][1];
+    let went_down = corners.len() > 1 && before > corners[corners.len() - 2][1];
+    let (mut goes_down, mut turns) = (went_down, 0);
+    for &[_, y] in corners {
+        let down = y > before;
+        turns += u32::from(down != goes_down);
+        (before, goes_down) = (y, down);
+    }
+    turns <= 2
+}
+
+/// Rows whose crossings are found at a time.
+const STEP: usize = 8;
 
 /// Left, right, top and bottom of `corners`; none unless all are finite.
 #[inline]
