@@ -131,7 +131,9 @@ def test_python_goes_on_while_a_fit_runs() -> None:
 def interrupted(script: str, tmp_path: pathlib.Path, after: str) -> tuple[int, str, float]:
     """Runs a script, interrupts it once it has said `after`, and returns its code, its words and the seconds to its end."""
     file = tmp_path / "script.py"
-    file.write_text(textwrap.dedent(script))
+    # A shell without job control has its background jobs ignore the signal, and what they start inherits that.
+    heed = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    file.write_text(heed + textwrap.dedent(script))
     running = subprocess.Popen([sys.executable, "-u", file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     assert running.stdout is not None
     said = ""
