@@ -312,6 +312,28 @@ fn black_pixels_that_are_marked_change_no_picture() {
     }
 }
 
+/// Nor would pieces of stems that are not drawn for the same reason.
+#[test]
+fn hidden_pieces_of_stems_change_no_picture() {
+    for (name, thicker) in [("quaking_aspen", 4.0), ("weeping_willow", 3.0), ("black_oak", 6.0)] {
+        let mut tree = pleach_generators::preset(name).unwrap().grow(1).unwrap();
+        tree.knots.iter_mut().for_each(|knot| knot.radius *= thicker);
+        let whole = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 256, 256);
+        // Larger than the picture as well, so that stems lie across its edges.
+        for frame in [whole, Frame { meters_per_pixel: 0.4 * whole.meters_per_pixel, ..whole }] {
+            for (view, parts) in [(View::FRONT, Parts::BARE), (View::degrees(40.0, 30.0), Parts::LEAFY)] {
+                let [mut plain, mut marked] = [Bitmap::default(), Bitmap::default()];
+                let mut marking = Rasterizer::for_searches(Detail::Half);
+                marking.draw(&tree, &view, &frame, parts, &mut marked);
+                marking.saturates = false;
+                marking.draw(&tree, &view, &frame, parts, &mut plain);
+                assert_eq!(marked.differing(&plain), 0, "{name}, {parts:?}");
+                assert!(plain.ink() > 5000, "{name}: too little is black for anything to be hidden");
+            }
+        }
+    }
+}
+
 /// Stems evaluated in the plane are those in space, but for pixels that are half covered to rounding.
 #[test]
 fn flattened_stems_are_where_others_are() {

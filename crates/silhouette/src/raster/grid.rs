@@ -113,10 +113,18 @@ impl Grid {
         black.reset(self.width, self.height);
         let half = Half::of(self.down);
         for word in 0..self.words_per_row {
-            for y in 0..self.height {
-                self.saturate(y, word..word + 1, half);
+            let column = self.words[word * self.rows..][..self.rows].chunks_exact_mut(self.down as usize);
+            for (y, samples) in (0..self.height).zip(column) {
+                if !any(samples) {
+                    continue;
+                }
+                let pixels = half.black(y, counts(samples));
+                if pixels != 0 {
+                    let full = spread(pixels);
+                    samples.iter_mut().for_each(|row| *row |= full);
+                    black.row_mut(y)[word / 8] |= pixels << (word % 8 * 8);
+                }
             }
-            self.resolve_column(word, half, black);
         }
         mask_beyond(black);
     }
@@ -185,6 +193,12 @@ fn spread(byte: u64) -> u64 {
 const EVERY_OTHER: u64 = 0x0001_0001_0001_0001;
 const LOW_BITS: u64 = 0x0101_0101_0101_0101;
 const HIGH_BITS: u64 = 0x8080_8080_8080_8080;
+
+/// Whether any sample is set: most of a picture is paper, and need not be counted.
+#[inline]
+fn any(samples: &[u64]) -> bool {
+    samples.iter().fold(0, |all, row| all | row) != 0
+}
 
 /// Set samples in each of eight pixels, whose rows these are, in the bytes of a word.
 fn counts(samples: &[u64]) -> u64 {

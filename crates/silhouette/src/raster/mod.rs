@@ -7,6 +7,7 @@
 
 mod grid;
 mod layer;
+mod occlusion;
 mod outline;
 mod strip;
 
@@ -15,6 +16,7 @@ use crate::view::{Camera, Frame, View};
 use glam::{Vec2, Vec3};
 use grid::{ACROSS, Corner, Grid};
 pub use layer::{Layer, LayerPainter, Stack};
+use occlusion::Occlusion;
 use outline::{Blade, Outlines};
 use pleach_tree::leaf_shape::Outline;
 use pleach_tree::{Leaf, Parts, Tree};
@@ -68,8 +70,8 @@ pub struct Rasterizer {
     /// perspective: sooner, and the same but for a pixel here and there.
     pub flattens: bool,
     grid: Grid,
-    /// Pixels that are black, of trees with many leaves.
-    black: Bitmap,
+    /// Pixels that are black, of trees with much to draw.
+    occlusion: Occlusion,
     outlines: Outlines,
     /// How many leaves in a row look alike; kept for its memory.
     runs: Vec<usize>,
@@ -125,9 +127,17 @@ impl Rasterizer {
     /// Sets the samples of `parts` of `tree` and leaves the others as they are.
     fn sample_onto(&mut self, tree: &Tree, camera: &Camera, down: u32, parts: Parts) {
         let scale = Vec2::new(ACROSS as f32, down as f32);
-        let draw = if self.flattens && camera.is_orthographic() { strip::flat::draw } else { strip::draw };
+        self.occlusion.reset();
+        let flattens = self.flattens && camera.is_orthographic();
         for stem in tree.stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
-            draw(&mut self.grid, camera, scale, tree, stem);
+            if flattens {
+                strip::flat::draw(&mut self.grid, &mut self.occlusion, camera, scale, tree, stem);
+                if self.saturates {
+                    self.occlusion.look(&mut self.grid, PIXELS_FOR_A_PIECE);
+                }
+            } else {
+                strip::draw(&mut self.grid, camera, scale, tree, stem);
+            }
         }
         if parts.contains(Parts::LEAVES) {
             self.leaves(tree, camera, scale);
@@ -149,38 +159,36 @@ impl Rasterizer {
         // To look for them takes as long as to place the leaves, and each pass wants them.
         self.runs.clear();
         self.runs.extend(tree.leaves.chunk_by(outline::look_alike).map(<[Leaf]>::len));
-        let mut drawn = 0;
-        let mut is_swept = false;
         for pass in 0..passes {
-            if pass > 0 && drawn * DRAWN_TO_SWEEP > area {
-                self.grid.sweep(&mut self.black);
-                (drawn, is_swept) = (0, true);
+            if pass > 0 {
+                self.occlusion.look(&mut self.grid, PIXELS_FOR_A_LEAF);
             }
-            drawn += self.every_so_many_leaves(tree, &placer, (pass, passes), is_swept);
+            let drawn = self.every_so_many_leaves(tree, &placer, (pass, passes));
+            self.occlusion.add(drawn);
         }
     }
 
     /// Draws the leaves at `first`, and every `step` from there on; returns how many were drawn. Those are not that
-    /// lie where all is black, of samples or, after a sweep, of pixels.
+    /// lie where all is black: of pixels, or of samples while no black pixels are known.
     fn every_so_many_leaves(
         &mut self,
         tree: &Tree,
         placer: &Placer<'_>,
         (first, step): (usize, usize),
-        is_swept: bool,
     ) -> usize {
         let pixels = placer.camera.pixels_per_meter() as f32;
-        let down = 1.0 / placer.scale.y;
+        let row = 1.0 / placer.scale.y;
+        let Self { grid, occlusion, outlines, runs, .. } = self;
+        let is_looked_up = occlusion.is_known();
         let mut corners = [[0.0; 2]; Outline::MAX_CORNERS];
         let mut drawn = 0;
         let mut rest = &tree.leaves[..];
-        for &count in &self.runs {
+        for &count in &*runs {
             let run;
             (run, rest) = rest.split_at(count);
             let leaf = &run[0];
             let size = [leaf.across.length() * pixels, leaf.along.length() * pixels];
-            let Blade { outline, half_width, lowest, highest } =
-                self.outlines.get(tree.outline_of(leaf), size);
+            let Blade { outline, half_width, lowest, highest } = outlines.get(tree.outline_of(leaf), size);
             let corners = &mut corners[..outline.len()];
             for leaf in run.iter().skip(first).step_by(step) {
                 let Some([at, across, along]) = placer.place(leaf) else { continue };
@@ -195,14 +203,10 @@ impl Rasterizer {
                     continue;
                 }
                 let (left, right) = reach(0);
-                let is_hidden = if is_swept {
-                    is_black(
-                        &self.black,
-                        [left, right].map(|x| x / ACROSS as f32),
-                        [top, bottom].map(|y| y * down),
-                    )
+                let is_hidden = if is_looked_up {
+                    occlusion.hides([left, right], [top, bottom], row)
                 } else {
-                    self.grid.is_covered(left, right, top, bottom)
+                    grid.is_covered(left, right, top, bottom)
                 };
                 if is_hidden {
                     continue;
@@ -213,7 +217,7 @@ impl Rasterizer {
                         at[1] + across[1] * p[0] + along[1] * p[1],
                     ];
                 }
-                self.grid.fill(corners);
+                grid.fill(corners);
                 drawn += 1;
             }
         }
@@ -262,26 +266,9 @@ impl Rasterizer {
 /// A crown is drawn in so many passes if it has more than one leaf for so many pixels.
 const PASSES: usize = 8;
 const LEAVES_TO_SWEEP: usize = 16;
-/// Black pixels are marked once so many have been drawn: one for this many pixels.
-const DRAWN_TO_SWEEP: usize = 100;
-
-/// Whether all pixels of a box are black, which reaches over no more than 64 columns and no edge.
-#[inline]
-fn is_black(black: &Bitmap, [left, right]: [f32; 2], [top, bottom]: [f32; 2]) -> bool {
-    let (width, height) = (black.width() as f32, black.height() as f32);
-    // Also false where a number is none.
-    if !(left >= 0.0 && right < width && top >= 0.0 && bottom < height && right - left < 63.0) {
-        return false;
-    }
-    let (first, last) = (left as usize, right as usize);
-    let (word, shift) = (first / 64, first % 64);
-    let mask = u64::MAX >> (63 - (last - first));
-    let (low, high) = (mask << shift, if shift == 0 { 0 } else { mask >> (64 - shift) });
-    (top as u32..=bottom as u32).all(|y| {
-        let row = black.row(y);
-        row[word] & low == low && (high == 0 || row[word + 1] & high == high)
-    })
-}
+/// Black pixels are looked for once a shape was drawn for so many pixels: after a pass, or after a stem.
+const PIXELS_FOR_A_LEAF: usize = 100;
+const PIXELS_FOR_A_PIECE: usize = 64;
 
 /// Every how many leaves one is measured for the mean thickness: an estimate is enough.
 const MEASURED: usize = 64;

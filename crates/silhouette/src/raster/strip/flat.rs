@@ -5,6 +5,7 @@
 
 use super::{Rib, TOLERANCE, cap, quad};
 use crate::raster::grid::Grid;
+use crate::raster::occlusion::Occlusion;
 use crate::view::Camera;
 use glam::{DVec3, Vec2};
 use pleach_tree::plant::piece;
@@ -37,8 +38,16 @@ impl FlatKnot {
     }
 }
 
-/// Draws `stem` as [`super::draw`] does, up to rounding. `camera` is without perspective.
-pub(in crate::raster) fn draw(grid: &mut Grid, camera: &Camera, scale: Vec2, tree: &Tree, stem: &Stem) {
+/// Draws `stem` as [`super::draw`] does, up to rounding, without the pieces that are known to be hidden. `camera` is
+/// without perspective.
+pub(in crate::raster) fn draw(
+    grid: &mut Grid,
+    occlusion: &mut Occlusion,
+    camera: &Camera,
+    scale: Vec2,
+    tree: &Tree,
+    stem: &Stem,
+) {
     let knots = tree.knots_of(stem);
     let [first, second, ..] = knots else { return };
     let mut from = FlatKnot::new(camera, first);
@@ -49,10 +58,17 @@ pub(in crate::raster) fn draw(grid: &mut Grid, camera: &Camera, scale: Vec2, tre
         let along = along.try_normalize().unwrap_or(straight);
         Rib { center, side: along.perp() * width }
     };
-    let mut last = rib(from.point, from.handle_out - from.point, from.radius);
+    let mut last = Some(rib(from.point, from.handle_out - from.point, from.radius));
     cap(grid, camera, scale, &piece(first, second), 0.0, first.radius);
     for knot in &knots[1..] {
         let to = FlatKnot::new(camera, knot);
+        if occlusion.is_known() && is_hidden(occlusion, scale, &from, &to) {
+            (last, from) = (None, to);
+            continue;
+        }
+        occlusion.add(1);
+        // After a hidden piece the rib that would have been its last.
+        let mut before = last.unwrap_or_else(|| rib(from.point, from.point - from.handle_in, from.radius));
         let (a, b, c, d) = (from.point, from.handle_out, to.handle_in, to.point);
         // As `Cubic::chords`, of the bend that can be seen.
         let (bend, bend_after) = (a - b * 2.0 + c, b - c * 2.0 + d);
@@ -70,14 +86,24 @@ pub(in crate::raster) fn draw(grid: &mut Grid, camera: &Camera, scale: Vec2, tre
             let (ab, bc, cd) = (a * s + b * t, b * s + c * t, c * s + d * t);
             let (abc, bcd) = (ab * s + bc * t, bc * s + cd * t);
             let next = rib(abc * s + bcd * t, bcd - abc, from.radius + (to.radius - from.radius) * t);
-            quad(grid, scale, &last, &next);
-            last = next;
+            quad(grid, scale, &before, &next);
+            before = next;
             step += 1.0;
         }
         let next = rib(d, d - c, to.radius);
-        quad(grid, scale, &last, &next);
-        (last, from) = (next, to);
+        quad(grid, scale, &before, &next);
+        (last, from) = (Some(next), to);
     }
     let [.., before, tip] = knots else { return };
     cap(grid, camera, scale, &piece(before, tip), 1.0, tip.radius);
+}
+
+/// Whether the piece between two knots is known to be hidden. It lies in the box of its control points, grown by its
+/// radius.
+fn is_hidden(occlusion: &Occlusion, scale: Vec2, from: &FlatKnot, to: &FlatKnot) -> bool {
+    let (a, b, c, d) = (from.point, from.handle_out, to.handle_in, to.point);
+    let reach = from.radius.max(to.radius);
+    let low = (a.min(b).min(c.min(d)) - reach) * scale;
+    let high = (a.max(b).max(c.max(d)) + reach) * scale;
+    occlusion.hides([low.x, high.x], [low.y, high.y], 1.0 / scale.y)
 }
