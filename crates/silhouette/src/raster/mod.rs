@@ -129,10 +129,11 @@ impl Rasterizer {
         let scale = Vec2::new(ACROSS as f32, down as f32);
         self.occlusion.reset();
         let flattens = self.flattens && camera.is_orthographic();
+        let hides = self.saturates && tree.knots.len() > self.grid.area() / KNOTS_TO_HIDE;
         for stem in tree.stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
             if flattens {
                 strip::flat::draw(&mut self.grid, &mut self.occlusion, camera, scale, tree, stem);
-                if self.saturates {
+                if hides {
                     self.occlusion.look(&mut self.grid, PIXELS_FOR_A_PIECE);
                 }
             } else {
@@ -266,6 +267,8 @@ impl Rasterizer {
 /// A crown is drawn in so many passes if it has more than one leaf for so many pixels.
 const PASSES: usize = 8;
 const LEAVES_TO_SWEEP: usize = 16;
+/// Pieces of stems are hidden if there is more than one knot for so many pixels.
+const KNOTS_TO_HIDE: usize = 16;
 /// Black pixels are looked for once a shape was drawn for so many pixels: after a pass, or after a stem.
 const PIXELS_FOR_A_LEAF: usize = 100;
 const PIXELS_FOR_A_PIECE: usize = 64;
