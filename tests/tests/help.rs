@@ -193,7 +193,8 @@ fn run_examples_of(names: &[&str]) {
     for name in names {
         for example in examples(&help(&dir, &[(*name).to_owned()], 100)) {
             // A shell takes care of `>`, `*` and `&&`.
-            let commands = example.split(" && ").map(cut_short).collect::<Vec<_>>().join(" && ");
+            let piped = |line: &str| line.split(" | ").map(cut_short).collect::<Vec<_>>().join(" | ");
+            let commands = example.split(" && ").map(piped).collect::<Vec<_>>().join(" && ");
             let script = commands.replace('~', &home).replace("pleach ", "\"$PLEACH\" ");
             let output = std::process::Command::new("sh")
                 .current_dir(dir.path(""))
