@@ -192,7 +192,7 @@ fn run_examples_of(names: &[&str]) {
     }
     for name in names {
         for example in examples(&help(&dir, &[(*name).to_owned()], 100)) {
-            // A shell takes care of `>`, `*` and `&&`.
+            // A shell takes care of `>`, `|`, `*` and `&&`.
             let piped = |line: &str| line.split(" | ").map(cut_short).collect::<Vec<_>>().join(" | ");
             let commands = example.split(" && ").map(piped).collect::<Vec<_>>().join(" && ");
             let script = commands.replace('~', &home).replace("pleach ", "\"$PLEACH\" ");
