@@ -95,11 +95,7 @@ impl Grid {
     /// Sets all samples of the pixels of row `y` that are black already: no more can be seen of them.
     pub(super) fn saturate(&mut self, y: u32, across: Range<usize>, half: Half) {
         for word in across {
-            let samples = self.pixels_mut(word, y);
-            let full = spread(half.black(y, counts(samples)));
-            if full != 0 {
-                samples.iter_mut().for_each(|row| *row |= full);
-            }
+            half.saturate(y, self.pixels_mut(word, y));
         }
     }
 
@@ -115,13 +111,8 @@ impl Grid {
         for word in 0..self.words_per_row {
             let column = self.words[word * self.rows..][..self.rows].chunks_exact_mut(self.down as usize);
             for (y, samples) in (0..self.height).zip(column) {
-                if !any(samples) {
-                    continue;
-                }
-                let pixels = half.black(y, counts(samples));
+                let pixels = half.saturate(y, samples);
                 if pixels != 0 {
-                    let full = spread(pixels);
-                    samples.iter_mut().for_each(|row| *row |= full);
                     black.row_mut(y)[word / 8] |= pixels << (word % 8 * 8);
                 }
             }
@@ -179,6 +170,21 @@ impl Half {
         // Gathers the eight top bits into one byte.
         (black >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56
     }
+
+    /// Sets all samples of those of eight pixels of row `y` that are black already; returns which they are.
+    #[inline]
+    fn saturate(self, y: u32, samples: &mut [u64]) -> u64 {
+        // Most of a picture is paper, and need not be counted.
+        if samples.iter().fold(0, |all, row| all | row) == 0 {
+            return 0;
+        }
+        let black = self.black(y, counts(samples));
+        if black != 0 {
+            let full = spread(black);
+            samples.iter_mut().for_each(|row| *row |= full);
+        }
+        black
+    }
 }
 
 /// A byte of ones for each bit of a byte.
@@ -193,12 +199,6 @@ fn spread(byte: u64) -> u64 {
 const EVERY_OTHER: u64 = 0x0001_0001_0001_0001;
 const LOW_BITS: u64 = 0x0101_0101_0101_0101;
 const HIGH_BITS: u64 = 0x8080_8080_8080_8080;
-
-/// Whether any sample is set: most of a picture is paper, and need not be counted.
-#[inline]
-fn any(samples: &[u64]) -> bool {
-    samples.iter().fold(0, |all, row| all | row) != 0
-}
 
 /// Set samples in each of eight pixels, whose rows these are, in the bytes of a word.
 fn counts(samples: &[u64]) -> u64 {
