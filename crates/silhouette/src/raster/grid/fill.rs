@@ -264,7 +264,7 @@ impl Edges {
 
 /// Whether a closed outline goes down once and up once, so that no row crosses it more than twice.
 #[inline]
-fn is_monotone(corners: &[Corner]) -> bool {
+pub(super) fn is_monotone(corners: &[Corner]) -> bool {
     let mut before = corners[corners.len() - 1][1];
     let went_down = corners.len() > 1 && before > corners[corners.len() - 2][1];
     let (mut goes_down, mut turns) = (went_down, 0);

@@ -1,6 +1,6 @@
 //! Shapes wider than a word, or across an edge of the picture.
 
-use super::fill::{FROM, SKEW, ceil_half};
+use super::fill::{FROM, SKEW, ceil_half, is_monotone};
 use super::{Corner, Grid};
 use std::ops::Range;
 
@@ -35,13 +35,14 @@ impl Grid {
         if from_word >= to_word {
             return;
         }
-        let is_convex = is_convex(corners);
+        let is_monotone = is_monotone(corners);
         let mut start = first;
         while start < last {
             let rows = start..(start + ROWS).min(last);
-            match is_convex.then(|| Spans::new(corners, wide, rows.clone())).flatten() {
-                Some(spans) => self.fill_spans(&spans, from_word..to_word, rows.clone()),
-                None => self.flip(corners, from_word..to_word, rows.clone()),
+            if is_monotone {
+                self.fill_spans(&Spans::new(corners, wide, rows.clone()), from_word..to_word, rows.clone());
+            } else {
+                self.flip(corners, from_word..to_word, rows.clone());
             }
             start = rows.end;
         }
@@ -113,19 +114,6 @@ fn inside(from: u32, to: u32, word: usize) -> u64 {
     of_word(from) ^ of_word(to)
 }
 
-/// Whether all corners turn the same way: then a row is crossed twice at most, but for stars.
-fn is_convex(corners: &[Corner]) -> bool {
-    let [.., mut o, mut p] = *corners else { return false };
-    let (mut turns_left, mut turns_right) = (false, false);
-    for &q in corners {
-        let turn = (p[0] - o[0]) * (q[1] - p[1]) - (p[1] - o[1]) * (q[0] - p[0]);
-        turns_left |= turn < 0.0;
-        turns_right |= turn > 0.0;
-        (o, p) = (p, q);
-    }
-    !(turns_left && turns_right)
-}
-
 /// Where each of some rows enters a polygon and where it leaves, in samples; where it is not crossed it enters later
 /// than it leaves.
 struct Spans {
@@ -134,24 +122,21 @@ struct Spans {
 }
 
 impl Spans {
-    /// None if a row is crossed more than twice.
-    fn new(corners: &[Corner], wide: f32, rows: Range<usize>) -> Option<Self> {
+    /// Of a polygon that no row leaves and enters again.
+    fn new(corners: &[Corner], wide: f32, rows: Range<usize>) -> Self {
         let mut spans = Self { from: [f32::INFINITY; ROWS], to: [0.0; ROWS] };
-        let mut crossings = [0_i32; ROWS];
         let skews = &SKEWS[rows.start % SKEW.len()..];
         each_edge(corners, &rows, |edge, crossed| {
             let places = crossed.start - rows.start..crossed.end - rows.start;
             let spans = spans.from[places.clone()].iter_mut().zip(&mut spans.to[places.clone()]);
-            let rows = spans.zip(&mut crossings[places.clone()]).zip(&skews[places]);
             // In step, as far as the compiler will.
-            for ((((from, to), crossings), &skew), row) in rows.zip(crossed.start as u32..) {
+            for (((from, to), &skew), row) in spans.zip(&skews[places]).zip(crossed.start as u32..) {
                 let column = edge.column(row as i32 as f32, skew, wide);
                 *from = if column < *from { column } else { *from };
                 *to = if column > *to { column } else { *to };
-                *crossings += 1;
             }
         });
-        crossings[..rows.len()].iter().all(|&count| count <= 2).then_some(spans)
+        spans
     }
 }
 
