@@ -41,7 +41,7 @@ impl Crown {
     }
 
     fn cell_of(&self, at: Vec3) -> IVec3 {
-        ((at - self.origin) / self.cell).floor().as_ivec3()
+        floor((at - self.origin) / self.cell)
     }
 
     fn index(&self, cell: IVec3) -> Option<usize> {
@@ -77,7 +77,7 @@ impl Crown {
                     let mut depth = self.index(cell).map_or(0.0, |i| density[i] * 0.5);
                     let mut at = start + direction;
                     while depth < 4.0 {
-                        let Some(index) = self.index(at.floor().as_ivec3()) else { break };
+                        let Some(index) = self.index(floor(at)) else { break };
                         depth += density[index];
                         at += direction;
                     }
@@ -91,9 +91,8 @@ impl Crown {
     /// Light from the sky at `at`, smooth between cells.
     pub(crate) fn sky_at(&self, at: Vec3) -> f32 {
         let place = (at - self.origin) / self.cell - 0.5;
-        let base = place.floor();
-        let part = place - base;
-        let base = base.as_ivec3();
+        let base = floor(place);
+        let part = place - base.as_vec3();
         let mut sum = 0.0;
         for corner in 0..8 {
             let step = ivec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
@@ -105,9 +104,27 @@ impl Crown {
     }
 }
 
+/// The whole numbers at or below; without the calls that [`Vec3::floor`] makes on processors that have no instruction
+/// for it.
+fn floor(v: Vec3) -> IVec3 {
+    let cut = v.as_ivec3();
+    cut.saturating_sub(IVec3::select(cut.as_vec3().cmpgt(v), IVec3::ONE, IVec3::ZERO))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn whole_numbers_are_those_of_the_standard_library() {
+        for i in -4000..4000 {
+            let v = vec3(i as f32 * 0.125, i as f32 * 0.3, i as f32 * 1e3 - 0.25);
+            assert_eq!(floor(v), v.floor().as_ivec3(), "{v}");
+        }
+        for v in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 3e9, -3e9, f32::MIN] {
+            assert_eq!(floor(Vec3::splat(v)), Vec3::splat(v).floor().as_ivec3(), "{v}");
+        }
+    }
 
     #[test]
     fn the_heart_of_a_crown_is_darker_than_its_rim() {
