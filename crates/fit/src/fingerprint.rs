@@ -90,7 +90,7 @@ fn goal_parts(problem: &FitProblem) -> [(&'static str, Vec<u8>); 4] {
     let mut pictures = Vec::new();
     let mut scales = String::new();
     let mut views = String::new();
-    for GoalView { goal, view, frame, unknown } in &problem.goals {
+    for GoalView { goal, view, frame, unknown, accuracy, registered } in &problem.goals {
         pictures.extend(format!("{} {}\n", goal.width(), goal.height()).bytes());
         pictures.extend(goal.words().iter().flat_map(|word| word.to_le_bytes()));
         // What is asked for is the tree's height; the scale follows from it and the picture.
@@ -98,6 +98,7 @@ fn goal_parts(problem: &FitProblem) -> [(&'static str, Vec<u8>); 4] {
         let height = (frame.ground_row - f64::from(top)) * frame.meters_per_pixel;
         scales += &format!("{height:.6}\n");
         views += &format!("{view:?} {unknown:?} {:?} {:?}\n", frame.axis_column, frame.ground_row);
+        views += &format!("{accuracy:?} {registered:?}\n");
     }
     let leaves = vec![u8::from(problem.foliage != Foliage::None)];
     [

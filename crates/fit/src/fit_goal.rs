@@ -13,7 +13,8 @@ use crate::guess::{Candidate, FirstGuess, GuessLibrary, GuessSettings, Reference
 use crate::individual::{FoundIndividual, IndividualSettings, individuals};
 use crate::judged::{Judge, Judged, Judging};
 use crate::problem::FitProblem;
-use crate::run::fit;
+use crate::register::{Closeness, with_registered_frames};
+use crate::run::{evaluator_in, fit, search_space};
 use crate::settings::FitSettings;
 use crate::space::SpaceError;
 use crate::verdict::Verdict;
@@ -220,6 +221,9 @@ pub(crate) fn conclude(
             Err(error) => return Err(error),
         }
     }
+    let evaluator = Evaluator::new(&begun.problem, begun.settings.objective, Limits::DEFAULT)?;
+    begun.problem = with_registered_frames(&begun.problem, &evaluator, &best.genome, Closeness::Result);
+    drop(evaluator);
     let mut judged = None;
     if settings.judging.is_some() && control.stop.load(Ordering::Relaxed) {
         outcome.stop = StopReason::Interrupted;
@@ -278,6 +282,15 @@ pub(crate) fn begin(
             guess: Some(guess),
         },
     };
+    // The frame by the tree that the search starts from; from random lists there is none yet.
+    if let Some(list) = begun.settings.start.lists().first()
+        && begun.settings.rules.is_none()
+    {
+        let space = search_space(&begun.problem, &begun.settings)?;
+        let genome = space.individual(list, begun.settings.seed);
+        let evaluator = evaluator_in(&space, &begun.problem, &begun.settings)?;
+        begun.problem = with_registered_frames(&begun.problem, &evaluator, &genome, Closeness::Search);
+    }
     // Where no stem can be dealt other draws, the search has the time that was meant for it.
     let start = &begun.problem.start;
     if let (Some(timeout), Some(individual)) = (&mut begun.settings.budget.timeout, settings.individual)

@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | what is fitted | [`FitProblem`], [`GoalView`]; what is not known of a picture: [`Unknown`], [`Placement`] |
 //! | what is searched | [`Genome`], [`Score`], [`SearchSpace`], [`Gene`] |
+//! | where the tree stands in its picture | [`Accuracy`], [`register`] |
 //! | a whole fit | [`fit_goal`], [`GoalSettings`], [`Fitted`] |
 //! | the known species that a goal looks like | [`first_guess`], [`GuessLibrary`], [`Candidate`] |
 //! | a fit driven from outside, batch by batch | [`Stepwise`], [`evaluator`] |
@@ -53,6 +54,7 @@ mod observer;
 mod optimizer;
 mod problem;
 mod profile;
+mod register;
 mod run;
 mod search;
 mod setting;
@@ -92,8 +94,9 @@ pub use nuisance::{Azimuth, MAX_OFFSET, MAX_SCALE, Nuisance, Placement, ROUGH_AZ
 pub use objective::{Objective, UnknownObjective};
 pub use observer::{Observer, Progress};
 pub use optimizer::{AnyMethod, Optimizer, UnknownOptimizer};
-pub use problem::{FitProblem, GoalView, ProblemError, placements};
+pub use problem::{Accuracy, FitProblem, GoalView, ProblemError, placements};
 pub use profile::{Identifiability, PROFILE_STEPS, Profile, profile, reset_unidentified};
+pub use register::{Steps, register};
 pub use run::{evaluator, fit, settled};
 pub use search::{Search, SearchState};
 pub use setting::{SETTINGS, Setting, SettingKind};

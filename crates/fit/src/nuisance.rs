@@ -67,6 +67,16 @@ impl Placement {
     /// That of a view of which everything is known.
     pub const KNOWN: Self = Self { azimuth: None, scale: 1.0, offset: [0.0; 2] };
 
+    /// This and then `other`, whose azimuth is not looked at.
+    #[must_use]
+    pub fn and(&self, other: &Self) -> Self {
+        Self {
+            azimuth: self.azimuth,
+            scale: self.scale * other.scale,
+            offset: [self.offset[0] + other.offset[0], self.offset[1] + other.offset[1]],
+        }
+    }
+
     /// `view` from the azimuth that was found.
     #[must_use]
     pub fn view(&self, view: &View) -> View {

@@ -18,13 +18,42 @@ pub struct GoalView {
     pub frame: Frame,
     /// What of view and frame is not known. Of a problem's first goal, nothing should be.
     pub unknown: Unknown,
+    /// How far the frame can be trusted.
+    pub accuracy: Accuracy,
+    /// Where the tree stands, against the frame, so far as a fit has found it out: scale and offset. The frame
+    /// itself stays as it was given, since the height of the tree is told by it.
+    pub registered: Placement,
+}
+
+/// How far a frame can be trusted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Accuracy {
+    /// It is right: that of a picture that pleach has drawn, or of a camera that is known.
+    #[default]
+    Exact,
+    /// It was read off the picture, to a pixel or two, as [`pleach_silhouette::goal::Goal::frame`] does. A fit
+    /// registers it: see [`register`](crate::register).
+    Pixel,
 }
 
 impl GoalView {
     /// A picture of which everything is known.
     #[must_use]
     pub fn new(goal: Bitmap, view: View, frame: Frame) -> Self {
-        Self { goal, view, frame, unknown: Unknown::default() }
+        Self {
+            goal,
+            view,
+            frame,
+            unknown: Unknown::default(),
+            accuracy: Accuracy::Exact,
+            registered: Placement::KNOWN,
+        }
+    }
+
+    /// A picture whose frame was read off itself.
+    #[must_use]
+    pub fn from_picture(goal: Bitmap, view: View, frame: Frame) -> Self {
+        Self { accuracy: Accuracy::Pixel, ..Self::new(goal, view, frame) }
     }
 }
 
@@ -138,10 +167,10 @@ pub(crate) fn with_values(species: &Species, values: Vec<f64>) -> Result<Species
 pub fn placements(goals: &[GoalView], nuisances: &[f64]) -> Vec<Placement> {
     let mut rest = nuisances;
     let mut list = Vec::new();
-    for GoalView { view, unknown, .. } in goals {
+    for GoalView { view, unknown, registered, .. } in goals {
         let (own, others) = rest.split_at(unknown.count().min(rest.len()));
         rest = others;
-        list.push(unknown.placement(view, own));
+        list.push(unknown.placement(view, own).and(registered));
     }
     list
 }

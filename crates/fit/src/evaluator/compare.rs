@@ -1,6 +1,6 @@
 //! One silhouette against one goal.
 
-use crate::nuisance::Unknown;
+use crate::nuisance::{Placement, Unknown};
 use crate::objective::Objective;
 use crate::problem::{FitProblem, GoalView};
 use pleach_silhouette::score::fast::{Overlaps, PreparedGoal, Scratch};
@@ -24,6 +24,7 @@ pub(crate) struct PreparedView {
     pub(crate) view: View,
     pub(crate) frame: Frame,
     unknown: Unknown,
+    registered: Placement,
     /// Number of its first unknown among all nuisances.
     first: usize,
 }
@@ -53,7 +54,7 @@ impl PreparedView {
     /// The goals of `problem`, which has been checked.
     pub(crate) fn of_problem(problem: &FitProblem) -> Vec<Self> {
         let mut first = 0;
-        let prepare = |GoalView { goal, view, frame, unknown }: &GoalView| {
+        let prepare = |GoalView { goal, view, frame, unknown, registered, .. }: &GoalView| {
             let of_own = first;
             first += unknown.count();
             Self {
@@ -63,6 +64,7 @@ impl PreparedView {
                 view: *view,
                 frame: *frame,
                 unknown: *unknown,
+                registered: *registered,
                 first: of_own,
             }
         };
@@ -72,7 +74,7 @@ impl PreparedView {
     /// From where the picture was taken, and its frame.
     pub(crate) fn placed(&self, nuisances: &[f64]) -> (View, Frame) {
         let own = nuisances.get(self.first..).unwrap_or_default();
-        let placement = self.unknown.placement(&self.view, own);
+        let placement = self.unknown.placement(&self.view, own).and(&self.registered);
         (placement.view(&self.view), placement.frame(&self.frame))
     }
 
@@ -118,7 +120,7 @@ const ALIKE: f64 = 0.765;
 /// The mean of overlaps over cell sizes: cells of 32, 16, 8, 4 and 2 pixels, then single pixels.
 ///
 /// All weigh the same: chosen by experiment over the fifteen species.
-fn blend(overlaps: &Overlaps) -> f64 {
+pub(crate) fn blend(overlaps: &Overlaps) -> f64 {
     // `pyramid` goes from cells of 2 pixels up. The order of the sum is part of its last bit.
     let scales = overlaps.pyramid.iter().rev().copied().chain([overlaps.iou()]);
     let (sum, count) = scales.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));

@@ -11,7 +11,7 @@ use crate::evaluate::Evaluate;
 use crate::genome::{Genome, Score, Size};
 use crate::objective::Objective;
 use crate::problem::{FitProblem, ProblemError};
-pub(crate) use compare::{Agreement, Comparisons, Likeness, PreparedView};
+pub(crate) use compare::{Agreement, Comparisons, Likeness, PreparedView, blend};
 use height::GoalHeight;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Foliage, Generator, Growth, Limits, Tree};
@@ -238,6 +238,18 @@ impl Evaluator {
                 memory.grow(&*self.generator, &growth).then_some(())?;
                 look(&memory.tree, &mut memory.fine);
             }
+            Some(())
+        })
+    }
+
+    /// Grows `genome`'s own tree at the height that it is compared at, and shows it to `look` with the factor by
+    /// which it is still too small and the direction of each goal; none if it does not grow.
+    pub(crate) fn show_matched(&self, genome: &Genome, look: impl FnOnce(&Tree, f64, &[View])) -> Option<()> {
+        let views: Vec<View> = self.placed(genome).into_iter().map(|(view, _)| view).collect();
+        self.with_memory(|memory| {
+            let growth = self.growth(genome.tree_seed, self.foliage, Size::ANY);
+            let Matched { magnified, .. } = self.grow_matched(&*self.generator, genome, &growth, memory)?;
+            look(&memory.tree, magnified, &views);
             Some(())
         })
     }

@@ -18,6 +18,7 @@ mod drawings;
 mod library;
 mod near;
 mod plate;
+pub(crate) use plate::Plate;
 mod race;
 mod references;
 mod settings;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// A silhouette, at least twice as fine as the pictures that are made of it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(into = "Packed", try_from = "Packed")]
-pub(super) struct Plate {
+pub(crate) struct Plate {
     picture: Bitmap,
     frame: Frame,
 }
@@ -72,7 +72,7 @@ pub(super) fn side_for(width: u32, height: u32) -> u32 {
 
 impl Plate {
     /// Draws `tree` as seen in `view`, whole, about `side` pixels high and wide.
-    pub(super) fn draw(
+    pub(crate) fn draw(
         tree: &Tree,
         view: &View,
         foliage: Foliage,
@@ -87,7 +87,7 @@ impl Plate {
     }
 
     /// The tree, `factor` times as large, as it stands in `frame`: black from half a pixel's area on.
-    pub(super) fn through(&self, frame: &Frame, factor: f64, into: &mut Bitmap) {
+    pub(crate) fn through(&self, frame: &Frame, factor: f64, into: &mut Bitmap) {
         into.reset(frame.width, frame.height);
         let ratio = frame.meters_per_pixel / (self.frame.meters_per_pixel * factor);
         let (width, height) = (self.picture.width(), self.picture.height());

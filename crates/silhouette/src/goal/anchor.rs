@@ -22,23 +22,34 @@ const SUPPORT: f64 = 0.7;
 /// Widest gap within a clump of stems, as a part of the wider stem beside it.
 const GAP: f64 = 0.25;
 
-/// Ground row in pixels from the top: the bottom edge of the lowest ink, or of the picture if that
+/// Whether places that are close to the picture's bottom edge or its middle are taken to be there: where the
+/// picture's own margins mean something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Snapping {
+    On,
+    Off,
+}
+
+/// Ground row in pixels from the top: the bottom edge of the lowest ink, or, with snapping, of the picture if that
 /// is within 2 % of its height.
-pub(super) fn ground(ink: &Bitmap, ink_bottom: u32) -> (f64, Origin) {
+pub(super) fn ground(ink: &Bitmap, ink_bottom: u32, snapping: Snapping) -> (f64, Origin) {
     let (found, edge) = (f64::from(ink_bottom) + 1.0, f64::from(ink.height()));
-    if edge - found <= SNAP * edge { (edge, Origin::Snapped) } else { (found, Origin::Detected) }
+    let snaps = snapping == Snapping::On && edge - found <= SNAP * edge;
+    if snaps { (edge, Origin::Snapped) } else { (found, Origin::Detected) }
 }
 
 /// Axis column in pixels from the left: the middle of the trunk just above `ground` (a row of
-/// pixels), or of the picture if that is within 2 % of its width.
-pub(super) fn axis(ink: &Bitmap, ink_box: (u32, u32, u32, u32), ground: u32) -> (f64, Origin) {
+/// pixels), or, with snapping, of the picture if that is within 2 % of its width.
+pub(super) fn axis(
+    ink: &Bitmap,
+    ink_box: (u32, u32, u32, u32),
+    ground: u32,
+    snapping: Snapping,
+) -> (f64, Origin) {
     let middle = f64::from(ink.width()) / 2.0;
     let found = trunk(ink, ink_box, ground);
-    if (found - middle).abs() <= SNAP * f64::from(ink.width()) {
-        (middle, Origin::Snapped)
-    } else {
-        (found, Origin::Detected)
-    }
+    let snaps = snapping == Snapping::On && (found - middle).abs() <= SNAP * f64::from(ink.width());
+    if snaps { (middle, Origin::Snapped) } else { (found, Origin::Detected) }
 }
 
 /// The middle of the trunk.
@@ -109,8 +120,8 @@ mod tests {
 
     fn stands(ink: &Bitmap) -> (f64, f64) {
         let bounds = ink.ink_box().unwrap();
-        let (ground, _) = ground(ink, bounds.3);
-        (ground, axis(ink, bounds, bounds.3 + 1).0)
+        let (ground, _) = ground(ink, bounds.3, Snapping::On);
+        (ground, axis(ink, bounds, bounds.3 + 1, Snapping::On).0)
     }
 
     #[test]
@@ -149,7 +160,10 @@ mod tests {
     fn close_to_the_usual_places_means_there() {
         let ink = Bitmap::from_fn(100, 100, |x, y| (50..54).contains(&x) && y < 99);
         assert_eq!(stands(&ink), (100.0, 50.0));
-        assert_eq!(ground(&ink, 98).1, Origin::Snapped);
-        assert_eq!(ground(&ink, 90), (91.0, Origin::Detected));
+        assert_eq!(ground(&ink, 98, Snapping::On).1, Origin::Snapped);
+        assert_eq!(ground(&ink, 90, Snapping::On), (91.0, Origin::Detected));
+        let bounds = ink.ink_box().unwrap();
+        assert_eq!(ground(&ink, 98, Snapping::Off), (99.0, Origin::Detected));
+        assert_eq!(axis(&ink, bounds, 99, Snapping::Off), (52.0, Origin::Detected));
     }
 }

@@ -6,7 +6,8 @@
 //!    a mask file says.
 //! 3. Ground row and axis column are read off the ink, unless set by hand.
 //! 4. What is not as in a silhouette of a tree is told: [`GoalWarning`].
-//! 5. On request the picture is reduced to a working size, black from half coverage.
+//! 5. On request the picture is replaced by the tree and a margin: [`Crop`].
+//! 6. On request it is reduced to a working size, black from half coverage.
 //!
 //! How tall the tree is cannot be seen in a silhouette: [`Goal::frame`] takes it in metres.
 
@@ -15,6 +16,7 @@ mod error;
 pub(crate) mod ink;
 mod photograph;
 pub(crate) mod read;
+mod region;
 pub(crate) mod shape;
 mod shrink;
 mod source;
@@ -28,11 +30,14 @@ pub use anchor::Origin;
 pub use error::GoalError;
 pub use ink::{Polarity, Split};
 pub use read::{MAX_BYTES, MAX_SIDE, MIN_SIDE};
+pub use region::Crop;
 pub use source::Encoded;
 pub use warning::GoalWarning;
 
 use crate::bitmap::Bitmap;
 use crate::view::Frame;
+use anchor::Snapping;
+use region::Region;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -47,8 +52,11 @@ pub struct GoalOptions {
     pub ground_row: Option<f64>,
     /// Where the trunk stands, in pixels of the file from its left edge.
     pub axis_column: Option<f64>,
-    /// Largest width and height of the working picture in pixels; larger ones are reduced.
+    /// Largest width and height of the working picture in pixels; larger ones are reduced. Of a picture that is
+    /// [cropped](Crop::ToTree), the tree's height and width reach to 95 % of it, and margins come on top.
     pub max_side: Option<u32>,
+    /// What of the picture is compared with.
+    pub crop: Crop,
 }
 
 /// How a goal was understood, to be shown to its user.
@@ -58,6 +66,8 @@ pub struct Detection {
     pub original_size: (u32, u32),
     /// Pixels of the working picture to one of the original, at most 1.
     pub reduction: f64,
+    /// Where the working picture begins: column and row of the original, below 0 where it begins outside.
+    pub origin: (f64, f64),
     /// How the tree was told from the paper.
     pub split: Split,
     /// Whether a mask file said what is tree.
@@ -194,30 +204,43 @@ impl Goal {
         let (top, bottom) = specks::rows(&ink, bounds.1, bounds.3);
         let bounds = (bounds.0, top, bounds.2, bottom);
         let top_row = f64::from(top);
-        let (ground_row, ground) = user_value("the ground row", options.ground_row, height)?
-            .unwrap_or_else(|| anchor::ground(&ink, bounds.3));
+        let given_ground = user_value("the ground row", options.ground_row, height)?;
+        let lowest = f64::from(bounds.3) + 1.0;
+        let region = match options.crop {
+            Crop::Keep => Region::whole(&ink),
+            Crop::ToTree => Region::around_tree(&ink, bounds, given_ground.map_or(lowest, |(row, _)| row)),
+        };
+        // Margins that are replaced say nothing about the tree.
+        let snapping = if region.is_whole(&ink) { Snapping::On } else { Snapping::Off };
+        let (ground_row, ground) = given_ground.unwrap_or_else(|| anchor::ground(&ink, bounds.3, snapping));
         if ground_row <= top_row {
             return Err(GoalError::GroundAboveTree { ground_row, top_row });
         }
         // Ink below a ground set by hand is not the trunk.
         let foot = (ground_row.ceil() as u32).min(bounds.3 + 1);
         let (axis_column, axis) = user_value("the axis column", options.axis_column, width)?
-            .unwrap_or_else(|| anchor::axis(&ink, bounds, foot));
-        let reduction = options
-            .max_side
-            .map_or(1.0, |side| f64::from(side.max(MIN_SIDE)) / f64::from(width.max(height)))
-            .min(1.0);
+            .unwrap_or_else(|| anchor::axis(&ink, bounds, foot, snapping));
+        let most = options.max_side.map(|side| side.max(MIN_SIDE));
+        let (ink, reduction) = if region.is_whole(&ink) {
+            (ink, most.map(|side| f64::from(side) / f64::from(width.max(height))))
+        } else {
+            let (left, top, right, _) = bounds;
+            let tree = f64::from(right + 1 - left).max(ground_row.ceil() - f64::from(top));
+            (region.cut(&ink), most.map(|side| Region::tree_side(side) / tree))
+        };
+        let reduction = reduction.unwrap_or(1.0).min(1.0);
         let bitmap = if reduction < 1.0 { shrink::shrink(&ink, reduction) } else { ink };
+        let origin = (region.left as f64, region.top as f64);
         if bitmap.ink() == 0 {
             return Err(GoalError::NoInk { name: name() + ", at its working size," });
         }
         let masked = options.mask.is_some();
         Ok(Self {
             bitmap,
-            ground_row: ground_row * reduction,
-            axis_column: axis_column * reduction,
-            top_row: top_row * reduction,
-            detection: Detection { original_size, reduction, split, masked, ground, axis },
+            ground_row: (ground_row - origin.1) * reduction,
+            axis_column: (axis_column - origin.0) * reduction,
+            top_row: (top_row - origin.1) * reduction,
+            detection: Detection { original_size, reduction, origin, split, masked, ground, axis },
             warnings,
         })
     }
@@ -238,6 +261,42 @@ impl Goal {
             axis_column: self.axis_column,
             ground_row: self.ground_row,
         }
+    }
+
+    /// The frame of [`Goal::bitmap`] for a frame of the picture as it came: the other way round of
+    /// [`Goal::original_frame`].
+    #[must_use]
+    pub fn working_frame(&self, original: &Frame) -> Frame {
+        let Detection { reduction, origin, .. } = self.detection;
+        Frame {
+            width: self.bitmap.width(),
+            height: self.bitmap.height(),
+            meters_per_pixel: original.meters_per_pixel / reduction,
+            axis_column: (original.axis_column - origin.0) * reduction,
+            ground_row: (original.ground_row - origin.1) * reduction,
+        }
+    }
+
+    /// The frame of the picture as it came, for a frame of [`Goal::bitmap`]: what is drawn in it lies on the file.
+    #[must_use]
+    pub fn original_frame(&self, frame: &Frame) -> Frame {
+        let Detection { original_size: (width, height), reduction, origin, .. } = self.detection;
+        Frame {
+            width,
+            height,
+            meters_per_pixel: frame.meters_per_pixel * reduction,
+            axis_column: frame.axis_column / reduction + origin.0,
+            ground_row: frame.ground_row / reduction + origin.1,
+        }
+    }
+
+    /// Whether the working picture shows all of the original and no more.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        let Detection { original_size, reduction, origin, .. } = self.detection;
+        let size = |side: u32| ((f64::from(side) * reduction).round() as u32).max(1);
+        origin == (0.0, 0.0)
+            && (self.bitmap.width(), self.bitmap.height()) == (size(original_size.0), size(original_size.1))
     }
 }
 

@@ -34,6 +34,12 @@ pub(super) struct GoalArgs {
     /// Column of the trunk's foot, in pixels of the goal from its left; detected by default
     #[arg(long, value_name = "PIXELS")]
     pub(super) axis_column: Option<f64>,
+    /// Scale and place of the tree where they are known: metres per pixel, column of the trunk's foot and row of
+    /// the ground, in pixels of the goal. Otherwise they are read off the picture, and registered to a part of a
+    /// pixel by the trees that are tried
+    #[arg(long, value_name = "METRES,COLUMN,ROW", value_parser = options::frame,
+          conflicts_with_all = ["height", "ground_row", "axis_column"])]
+    pub(super) frame: Option<options::KnownFrame>,
     /// Direction of the goal's view in degrees: azimuth, and elevation where it is not 0; with a file,
     /// a further picture of the same tree, fitted as well; repeatable. `~AZ=FILE` is from within 15
     /// degrees of it, `auto=FILE` from anywhere around the tree: the azimuth is then searched

@@ -4,10 +4,12 @@ use super::args::GoalArgs;
 use super::goal::Goals;
 use crate::files;
 use anyhow::Context as _;
-use pleach_fit::{Aftermath, FitProblem, FoundIndividual, Genome, Scored};
+use pleach_fit::{
+    Accuracy, Aftermath, FitProblem, FoundIndividual, Genome, Placement, Scored, Steps, register,
+};
 use pleach_mesh::Palette;
 use pleach_render::{Preview, PreviewSettings, png_file};
-use pleach_silhouette::{Bitmap, Rasterizer, View, picture};
+use pleach_silhouette::{Bitmap, Frame, Rasterizer, View, picture};
 use pleach_tree::species::safe_name;
 use pleach_tree::{Growth, Limits, Species, Tree};
 use std::path::Path;
@@ -46,14 +48,21 @@ pub(super) struct Drawing<'a> {
     pub(super) view: View,
     pub(super) problem: FitProblem,
     pub(super) limits: Limits,
+    /// Where the tree stands at the goal's own size, once that is registered.
+    pub(super) placed: Option<Placement>,
 }
+
+/// From how many pixels of the goal for one of the search on a frame is registered at the goal's own size.
+const FINER: f64 = 1.1;
 
 /// An individual, grown and drawn as the goal is.
 pub(super) struct Drawn {
     pub(super) species: Species,
     pub(super) tree: Tree,
-    /// Of the goal's own size.
+    /// In the frame that is compared: [`Goals::full`].
     pub(super) bitmap: Bitmap,
+    /// In the frame of the goal's file, where that is another.
+    original: Option<Bitmap>,
 }
 
 impl Drawing<'_> {
@@ -86,17 +95,52 @@ impl Drawing<'_> {
         let foliage = self.problem.foliage;
         let growth = Growth { limits: self.limits, foliage, ..Growth::seed(tree_seed) };
         let tree = species.grow_with(&growth)?;
-        let frame = self.goals.full.frame(self.args.height);
-        let mut bitmap = Bitmap::default();
-        Rasterizer::new().draw(&tree, &self.view, &frame, foliage.into(), &mut bitmap);
-        Ok(Drawn { species, tree, bitmap })
+        let (full, frame) = (&self.goals.full, self.frame());
+        let mut rasterizer = Rasterizer::new();
+        let mut draw = |frame: &Frame| {
+            let mut bitmap = Bitmap::default();
+            rasterizer.draw(&tree, &self.view, frame, foliage.into(), &mut bitmap);
+            bitmap
+        };
+        let bitmap = draw(&frame);
+        let original = (!full.is_whole()).then(|| draw(&full.original_frame(&frame)));
+        Ok(Drawn { species, tree, bitmap, original })
+    }
+
+    /// The frame of the goal at its own size, as far as it is known.
+    pub(super) fn frame(&self) -> Frame {
+        self.placement().frame(&self.goals.full.frame(self.args.height))
+    }
+
+    fn placement(&self) -> Placement {
+        self.placed.unwrap_or(self.problem.goals[0].registered)
+    }
+
+    /// Registers the frame at the goal's own size by the tree of `best`: the search has done so at its working
+    /// size, where a small part of a pixel is a larger one of the goal's.
+    pub(super) fn register(&mut self, best: &Scored) -> anyhow::Result<()> {
+        let Goals { full, working, .. } = self.goals;
+        let ratio = full.height_in_pixels() / working.height_in_pixels();
+        if self.problem.goals[0].accuracy == Accuracy::Exact || ratio < FINER {
+            return Ok(());
+        }
+        let foliage = self.problem.foliage;
+        let growth = Growth { limits: self.limits, foliage, ..Growth::seed(best.genome.tree_seed) };
+        let tree = self.species(&best.genome)?.grow_with(&growth)?;
+        let frame = full.frame(self.args.height);
+        let steps = Steps { first: ratio / 16.0, last: 1.0 / 64.0 };
+        self.placed =
+            Some(register(&tree, foliage, &full.bitmap, &self.view, &frame, &self.placement(), steps));
+        Ok(())
     }
 }
 
 impl Drawn {
-    /// Writes the silhouette, and the same over the goal in two colours.
+    /// Writes the silhouette, of the size and in the frame of the goal's file, and the same over the goal in two
+    /// colours, with the margins that are compared.
     pub(super) fn write_silhouettes(&self, goal: &Bitmap, best: &Path, overlay: &Path) -> anyhow::Result<()> {
-        files::write_whole(best, |file| Ok(self.bitmap.write_png(file)?))?;
+        let silhouette = self.original.as_ref().unwrap_or(&self.bitmap);
+        files::write_whole(best, |file| Ok(silhouette.write_png(file)?))?;
         let picture = picture::overlay(&self.bitmap, goal);
         files::write_whole(overlay, |file| Ok(picture.write_png(file)?))
     }

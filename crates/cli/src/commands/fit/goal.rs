@@ -5,7 +5,7 @@ use crate::commands::describe::{self, cannot, places};
 use crate::{input, output};
 use anyhow::Context;
 use pleach_silhouette::Bitmap;
-use pleach_silhouette::goal::{Encoded, Goal, GoalOptions, GoalWarning, Polarity, Split};
+use pleach_silhouette::goal::{Crop, Encoded, Goal, GoalOptions, GoalWarning, Polarity, Split};
 use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -41,6 +41,8 @@ impl fmt::Display for MaskSource {
 pub(super) struct Goals {
     pub(super) full: Goal,
     pub(super) working: Goal,
+    /// Of the tree, in metres.
+    pub(super) height: f64,
     pub(super) name: String,
     /// What about the goal, or about its mask, is not as a fit expects; it has been told.
     pub(super) warnings: Vec<GoalWarning>,
@@ -65,9 +67,10 @@ impl Goals {
                 options::Tone::Dark => Polarity::DarkTree,
                 options::Tone::Light => Polarity::LightTree,
             },
-            ground_row: args.ground_row,
-            axis_column: args.axis_column,
+            ground_row: args.frame.map_or(args.ground_row, |frame| Some(frame.ground_row)),
+            axis_column: args.frame.map_or(args.axis_column, |frame| Some(frame.axis_column)),
             max_side: None,
+            crop: Crop::ToTree,
         };
         let small = GoalOptions { max_side: Some(args.size), ..options.clone() };
         let source = input::picture(path)?;
@@ -86,6 +89,10 @@ impl Goals {
             Some(found) => (found.warnings, Some(found.bitmap)),
             None => (full.warnings.clone(), None),
         };
+        let height = match args.frame {
+            Some(frame) => frame.meters_per_pixel * full.height_in_pixels(),
+            None => args.height,
+        };
         if verbose {
             let (width, height) = full.detection.original_size;
             output::note(format!("goal of {width} × {height} pixels: {how}; {}", places(&full)));
@@ -93,7 +100,7 @@ impl Goals {
         for warning in &warnings {
             output::note(format!("warning: {}: {warning}", path.display()));
         }
-        Ok(Self { full, working, name, warnings, mask, source })
+        Ok(Self { full, working, height, name, warnings, mask, source })
     }
 }
 

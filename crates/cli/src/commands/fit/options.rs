@@ -3,6 +3,7 @@
 use anyhow::{Context, bail};
 use pleach_fit::{FitSettings, Optimizer, Setting, TreeSeed};
 use serde_json::Value;
+use std::fmt;
 use std::num::NonZeroU32;
 use std::time::Duration;
 
@@ -23,6 +24,38 @@ pub(super) enum Tone {
     Dark,
     /// The lighter one
     Light,
+}
+
+/// Scale and place of a tree in its picture, where they are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct KnownFrame {
+    pub(super) meters_per_pixel: f64,
+    /// In pixels of the file from its left edge.
+    pub(super) axis_column: f64,
+    /// In pixels of the file from its top edge.
+    pub(super) ground_row: f64,
+}
+
+impl fmt::Display for KnownFrame {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{},{}", self.meters_per_pixel, self.axis_column, self.ground_row)
+    }
+}
+
+/// `METRES,COLUMN,ROW`.
+pub(super) fn frame(text: &str) -> Result<KnownFrame, String> {
+    let numbers: Option<Vec<f64>> =
+        text.split(',').map(|part| part.trim().parse().ok().filter(|n: &f64| n.is_finite())).collect();
+    match numbers.as_deref() {
+        Some(&[meters_per_pixel, axis_column, ground_row]) if meters_per_pixel > 0.0 => {
+            Ok(KnownFrame { meters_per_pixel, axis_column, ground_row })
+        }
+        _ => Err(
+            "expected metres per pixel above 0, the column of the trunk's foot and the row of the ground, \
+                  such as 0.05,128,250"
+                .to_owned(),
+        ),
+    }
 }
 
 pub(super) fn positive(text: &str) -> Result<f64, String> {

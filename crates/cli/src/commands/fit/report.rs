@@ -123,12 +123,12 @@ fn quoted(path: &Path) -> String {
 /// At what size the score card compares, and what the search saw at its own if that is another: the
 /// numbers of a sparse crown differ by as much as a tenth, though the tree is the same.
 fn sizes(summary: &Summary) -> String {
-    let Summary { goal_width, goal_height, search, .. } = summary;
-    if (*goal_width, *goal_height) == (search.goal_width, search.goal_height) {
-        return format!("compared at {goal_width} × {goal_height} pixels, as in the search\n");
+    let Summary { compared_width: width, compared_height: height, search, .. } = summary;
+    if (*width, *height) == (search.goal_width, search.goal_height) {
+        return format!("compared at {width} × {height} pixels, as in the search\n");
     }
     format!(
-        "compared at {goal_width} × {goal_height} pixels, the goal {:.1} % ink; searched, and other seeds \
+        "compared at {width} × {height} pixels, the goal {:.1} % ink; searched, and other seeds \
          compared,\nat {} × {} (--size), the goal {:.1} % ink: there the IoU is {:.4}\n",
         100.0 * summary.scores.goal_crown.ink,
         search.goal_width,

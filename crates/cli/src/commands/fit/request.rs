@@ -119,6 +119,7 @@ fn options(
         ("tree", format!("{:?}", goal.tree).to_lowercase()),
         ("ground-row", optional(goal.ground_row.map(|row| row.to_string()))),
         ("axis-column", optional(goal.axis_column.map(|column| column.to_string()))),
+        ("frame", optional(goal.frame.map(|frame| frame.to_string()))),
         ("view", list(&goal.view.iter().map(ToString::to_string).collect::<Vec<_>>())),
         ("free-frame", goal.free_frame.to_string()),
         ("leaves", format!("{:?}", goal.leaves()).to_lowercase()),

@@ -82,7 +82,7 @@ pub(super) fn write(
         return Ok(None);
     }
     let goal = &drawing.goals.working;
-    let frame = goal.frame(drawing.args.height);
+    let frame = drawing.problem.goals[0].registered.frame(&goal.frame(drawing.args.height));
     let mut pen = Pen::new(drawing, &frame);
     let (mut cells, mut sides, mut trees) = (Vec::new(), Vec::new(), Vec::new());
     for (number, one) in found.iter().enumerate() {

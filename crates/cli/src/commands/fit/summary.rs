@@ -94,8 +94,15 @@ pub(super) struct Summary {
     /// The name in `summary.json` is older than the spelling of identifiers.
     #[serde(rename = "metres_per_pixel")]
     pub(super) meters_per_pixel: f64,
+    /// Where the trunk's foot and the ground are in the goal, in pixels from its left and its top.
+    pub(super) axis_column: f64,
+    pub(super) ground_row: f64,
     pub(super) goal_width: u32,
     pub(super) goal_height: u32,
+    /// The part of the picture that the scores are of, with paper beside the tree: other than the goal's size
+    /// where the picture ends at the tree or shows little else than paper.
+    pub(super) compared_width: u32,
+    pub(super) compared_height: u32,
     pub(super) search: SearchScores,
     /// What about the goal, or its mask, is not as a fit expects.
     pub(super) warnings: Vec<GoalWarning>,
@@ -197,6 +204,7 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
 
     let seconds = outcome.elapsed.as_secs_f64();
     let first_guess_seconds = outcome.before_search.as_secs_f64();
+    let frame = goal.original_frame(&drawing.frame());
     let verdict = fitted.verdict(&scores);
     let summary = Summary {
         species: species.name.clone(),
@@ -239,9 +247,13 @@ pub(super) fn write(claim: &Claim, results: Results<'_>) -> anyhow::Result<Summa
         fix: settings.freedom.fix.clone(),
         height_m: drawing.args.height,
         tree_m,
-        meters_per_pixel: goal.frame(drawing.args.height).meters_per_pixel,
-        goal_width: goal.bitmap.width(),
-        goal_height: goal.bitmap.height(),
+        meters_per_pixel: frame.meters_per_pixel,
+        axis_column: frame.axis_column,
+        ground_row: frame.ground_row,
+        goal_width: frame.width,
+        goal_height: frame.height,
+        compared_width: goal.bitmap.width(),
+        compared_height: goal.bitmap.height(),
         search: SearchScores {
             goal_width: working.bitmap.width(),
             goal_height: working.bitmap.height(),

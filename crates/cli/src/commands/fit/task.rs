@@ -10,8 +10,8 @@ use super::summary::{self, Results, Summary};
 use super::watch::Watch;
 use super::{Fit, views};
 use pleach_fit::{
-    CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalSettings, GoalView, GuessLibrary,
-    fit_goal_with,
+    Accuracy, CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalSettings, GoalView,
+    GuessLibrary, fit_goal_with,
 };
 use pleach_silhouette::goal::{Encoded, Goal};
 use serde_json::Value;
@@ -59,9 +59,10 @@ impl Task {
         let started = Instant::now();
         // Whatever can be refused is refused before the folder is touched.
         let goals = Goals::load(&self.goal, &self.args, fit.verbose)?;
-        let mut problem = self.problem(fit, &goals.working)?;
+        let args = &GoalArgs { height: goals.height, ..self.args.clone() };
+        let mut problem = problem(fit, args, &goals.working)?;
         let outlined = match &fit.search.volume_from {
-            Some(volume) => Some(Outlined::new(volume, &problem.goals, self.args.height)?),
+            Some(volume) => Some(Outlined::new(volume, &problem.goals, args.height)?),
             None => None,
         };
         let mut search = asked_for.clone();
@@ -97,10 +98,11 @@ impl Task {
         let leaves_detected = fit.search.volume_from.is_none() && from.detects(self.args.leaves(), rules);
         let drawing = |problem: &FitProblem, limits| Drawing {
             goals: &goals,
-            args: &self.args,
+            args,
             view,
             problem: problem.clone(),
             limits,
+            placed: None,
         };
         let mut watch = Watch::new(&mut claim, &drawing, (!fit.is_batch()).then_some(leaves_detected));
         let control = Control {
@@ -115,9 +117,10 @@ impl Task {
             fitted => fitted?,
         };
 
-        let drawing = drawing(&fitted.problem, fitted.settings.limits);
+        let mut drawing = drawing(&fitted.problem, fitted.settings.limits);
+        drawing.register(&fitted.best)?;
         let drawn = drawing.draw(&fitted.best)?;
-        let (height, foliage) = (self.args.height, fitted.problem.foliage);
+        let (height, foliage) = (args.height, fitted.problem.foliage);
         let placements = pleach_fit::placements(&fitted.problem.goals, &fitted.best.genome.nuisances);
         // The first is the goal's own.
         let views = further
@@ -149,21 +152,23 @@ impl Task {
         claim.finish()?;
         Ok(Ended::Finished(Box::new(summary)))
     }
+}
 
-    fn problem(&self, fit: &Fit, goal: &Goal) -> anyhow::Result<FitProblem> {
-        let start = fit.search.start()?;
-        let GoalArgs { height, size, free_frame, .. } = self.args;
-        let (view, further) = views::sort(&self.args.view)?;
-        let mut goals = vec![GoalView::new(goal.bitmap.clone(), view, goal.frame(height))];
-        for picture in further {
-            goals.push(picture.goal_view(height, size, free_frame)?);
-        }
-        // A picture that cannot be read is told before the search and not after it.
-        for picture in &self.args.holdout_view {
-            picture.check(height, size)?;
-        }
-        Ok(FitProblem { start, goals, foliage: self.args.leaves().expected() })
+fn problem(fit: &Fit, args: &GoalArgs, goal: &Goal) -> anyhow::Result<FitProblem> {
+    let start = fit.search.start()?;
+    let GoalArgs { height, size, free_frame, .. } = *args;
+    let (view, further) = views::sort(&args.view)?;
+    let accuracy = if args.frame.is_some() { Accuracy::Exact } else { Accuracy::Pixel };
+    let mut goals =
+        vec![GoalView { accuracy, ..GoalView::new(goal.bitmap.clone(), view, goal.frame(height)) }];
+    for picture in further {
+        goals.push(picture.goal_view(height, size, free_frame)?);
     }
+    // A picture that cannot be read is told before the search and not after it.
+    for picture in &args.holdout_view {
+        picture.check(height, size)?;
+    }
+    Ok(FitProblem { start, goals, foliage: args.leaves().expected() })
 }
 
 /// Adds what a finished fit has used to a budget that is meant to come on top of it.

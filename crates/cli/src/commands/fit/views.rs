@@ -2,7 +2,7 @@
 
 use crate::input;
 use pleach_fit::{Azimuth, GoalView, Placement, ROUGH_AZIMUTH, Unknown};
-use pleach_silhouette::goal::{Goal, GoalOptions};
+use pleach_silhouette::goal::{Crop, Goal, GoalOptions};
 use pleach_silhouette::picture::{self, Picture as Overlay};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Rasterizer, View};
@@ -145,11 +145,11 @@ pub(super) struct ViewScore {
 impl Picture {
     /// Reads the picture, reduced to at most `most` pixels on each side, of a tree of `height` metres.
     pub(super) fn goal_view(&self, height: f64, most: u32, free_frame: bool) -> anyhow::Result<GoalView> {
-        let options = GoalOptions { max_side: Some(most), ..GoalOptions::default() };
+        let options = GoalOptions { max_side: Some(most), crop: Crop::ToTree, ..GoalOptions::default() };
         let goal = Goal::load(&self.file, &options)?;
         let unknown = Unknown { azimuth: self.azimuth, frame: free_frame };
         let frame = goal.frame(height);
-        Ok(GoalView { unknown, ..GoalView::new(goal.bitmap, self.view, frame) })
+        Ok(GoalView { unknown, ..GoalView::from_picture(goal.bitmap, self.view, frame) })
     }
 
     /// Scores `tree` against the picture, which is placed as was found; with the tree drawn over it.
@@ -160,7 +160,8 @@ impl Picture {
         height: f64,
         placement: &Placement,
     ) -> anyhow::Result<(ViewScore, Overlay)> {
-        let goal = Goal::load(&self.file, &GoalOptions::default())?;
+        let options = GoalOptions { crop: Crop::ToTree, ..GoalOptions::default() };
+        let goal = Goal::load(&self.file, &options)?;
         let mut bitmap = Bitmap::default();
         let (view, frame) = (placement.view(&self.view), placement.frame(&goal.frame(height)));
         Rasterizer::new().draw(tree, &view, &frame, foliage.into(), &mut bitmap);
