@@ -5,6 +5,7 @@
 //! | `grow.rs`, `silhouette.rs`, `fit.rs`, … | one file per command, run as a user would |
 //! | `interruption.rs` | fits that are killed or asked to stop, and go on |
 //! | `cluster.rs`, `collect.rs` | many workers at one batch, and what they leave |
+//! | `ruler.rs` | goals of ours at their own numbers, and with other margins |
 //! | `run_folder.rs` | what a fit does to the files that are there |
 //! | `pictures.rs` | pictures from pipes, in odd formats, broken off, not of a tree |
 //! | `grow_formats.rs`, `help.rs`, `shell.rs` | options of every format, help texts, standard output and shells |

@@ -60,9 +60,13 @@ fn the_run_folder_holds_what_it_should() {
     ];
     assert_eq!(names(&folder), expected);
 
-    // The card is of the goal's own size; what the search saw at 64 pixels stands beside it.
+    // The card is of the goal's own size; what the search saw of a tree of 64 pixels stands beside it. The crown
+    // reaches nearly to the edges of its picture, so that margins come on top.
     let search = &summary["search"];
-    assert_eq!((&search["goal_width"], &summary["goal_width"]), (&64.into(), &256.into()));
+    let pixels = |value: &serde_json::Value| value.as_u64().unwrap();
+    assert_eq!((pixels(&summary["goal_width"]), pixels(&summary["goal_height"])), (256, 256));
+    assert!((64..=64 * 3 / 2).contains(&pixels(&search["goal_width"])), "{search}");
+    assert!(pixels(&search["goal_height"]) <= 64 && pixels(&summary["compared_width"]) > 256, "{summary}");
     let history = String::from_utf8(read(&folder.join("history.csv"))).unwrap();
     let last: f64 = history.lines().last().unwrap().split(',').nth(4).unwrap().parse().unwrap();
     // Numbers that went back to the start may have cost a little, and the last generation is cut off.
@@ -162,14 +166,16 @@ fn a_volume_is_taken_from_the_goal_or_another_picture() {
         let args = ["fit", "goal.png", "--size", "64", "--evaluations", "1", "--out", out, "--json"];
         dir.run([&args[..], more].concat())
     };
-    let width = |summary: &serde_json::Value| summary["crown"]["width"].as_f64().unwrap();
+    let width = |summary: &serde_json::Value| {
+        summary["crown"]["width"].as_f64().unwrap() / summary["goal_crown"]["width"].as_f64().unwrap()
+    };
     let own = fit("goal", &["--volume-from", "goal"]).json();
     assert_eq!(own["generator"], "least-cost-path");
-    assert!((width(&own) - own["goal_crown"]["width"].as_f64().unwrap()).abs() < 0.1, "{own}");
+    assert!((0.7..1.2).contains(&width(&own)), "{own}");
     // Of two views the hull; a poplar is narrow.
     let _ = fit("hull", &["--volume-from", "goal", "--view", "90=side.png"]).json();
     let foreign = fit("other", &["--volume-from", "other.png"]).json();
-    assert!(width(&foreign) < 0.4, "{foreign}");
+    assert!(width(&foreign) < 0.5, "{foreign}");
     assert!(results(&dir.path("goal")) != results(&dir.path("hull")));
     let _ = fit("again", &["--volume-from", "goal", "--threads", "1"]).json();
     assert!(results(&dir.path("goal")) == results(&dir.path("again")));
@@ -248,7 +254,9 @@ fn views_from_somewhere_are_found() {
     let found = fit("auto", "auto=other.png", "1", "300", &["--height", "6"]).json();
     let view = &found["views"][0];
     assert!((0.0..=360.0).contains(&view["azimuth"].as_f64().unwrap()), "{view}");
-    assert_eq!((view["scale"].as_f64(), &view["offset"]), (Some(1.0), &serde_json::json!([0.0, 0.0])));
+    // Its frame was read off the picture: registered by a few pixels, and not searched.
+    assert!((view["scale"].as_f64().unwrap() - 1.0).abs() <= 0.05, "{view}");
+    assert!(view["offset"].as_array().unwrap().iter().all(|part| part.as_f64().unwrap().abs() <= 0.06));
     let again = fit("again", "auto=other.png", "3", "300", &["--height", "6"]).json();
     assert_eq!(again["views"], found["views"]);
     assert!(results(&dir.path("auto")) == results(&dir.path("again")));
@@ -278,7 +286,8 @@ fn views_from_somewhere_are_found() {
 #[test]
 fn fixed_parameters_keep_their_values() {
     let dir = Dir::new();
-    let goal = target("acer.png");
+    // Not a goal that the start has drawn: at its own numbers nothing is better.
+    let goal = target("hill_cherry.png");
     let _ = dir
         .run(small(
             &goal,

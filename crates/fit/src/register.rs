@@ -39,16 +39,30 @@ impl Steps {
     const FAR: Self = Self { first: 4.0, last: 0.25 };
     /// Near steps, on drawings of the tree itself.
     const NEAR: Self = Self { first: 0.25, last: 1.0 / 128.0 };
+    /// The same once more from where they have led: three numbers that hang together are moved one by one.
+    const AGAIN: Self = Self { first: 1.0 / 16.0, last: 1.0 / 128.0 };
 }
 
-/// How far the foot may be from where it was read, and the scale from what was read, as a part of the longer side.
-const MAX_SHIFT: f64 = 0.04;
-/// The same of the scale: tips that leave no ink are one part in a hundred of the height of a slender tree.
+/// How far the foot may be from where it was read, as a part of the picture's longer side: twigs that reach the ground
+/// hide where a trunk stands.
+const MAX_SHIFT: f64 = 0.06;
+/// The same of the ground, of which the lowest ink says more.
+const MAX_DROP: f64 = 0.02;
+/// The same of the height: tips that leave no ink are one part in a hundred of a slender tree.
 const MAX_GROWTH: f64 = 0.04;
+/// Pixels between the columns that are tried for the foot first, and heights that are tried with each, as parts of
+/// what was read.
+const SCAN: f64 = 2.0;
+const SCANNED_GROWTHS: [f64; 3] = [0.0, 0.008, 0.016];
+/// How many of the places that are tried first are searched around.
+const BEGINNINGS: usize = 3;
 /// Moves at one step before it is halved in any case.
 const MAX_MOVES: usize = 8;
 /// What overlap has to gain for a move.
 const LEAST_GAIN: f64 = 1e-9;
+/// What overlap has to gain for each number that is moved as far as it may be, in proportion: a tree that is unlike the
+/// goal says little about the frame, one that is like it gains some hundred times as much.
+const PRICE: f64 = 0.01;
 /// Pixels of the fine drawing for each of the goal's.
 const FINENESS: u32 = 4;
 
@@ -99,9 +113,15 @@ impl Registered<'_> {
         ]
     }
 
-    fn is_allowed(&self, [right, down, higher]: Moved) -> bool {
+    /// How far the numbers are moved, each as a part of how far it may be.
+    fn moved_parts(&self, [right, down, higher]: Moved) -> [f64; 3] {
         let side = f64::from(self.frame.width.max(self.frame.height));
-        right.abs().max(down.abs()) <= MAX_SHIFT * side && higher.abs() <= MAX_GROWTH * self.height
+        [right / (MAX_SHIFT * side), down / (MAX_DROP * side), higher / (MAX_GROWTH * self.height)]
+            .map(f64::abs)
+    }
+
+    fn is_allowed(&self, moved: Moved) -> bool {
+        self.moved_parts(moved).iter().all(|&part| part <= 1.0)
     }
 
     /// The frame in which the tree is drawn.
@@ -118,18 +138,9 @@ impl Registered<'_> {
     }
 
     /// Moves from `from` by compass steps; `draw` makes the picture at a frame.
-    fn search(&self, from: Moved, steps: Steps, draw: impl Fn(&Frame, &mut Drawing) + Sync) -> Moved {
-        let pool = Mutex::new(Vec::new());
-        let worth_at = |moved: Moved| {
-            let taken = pool.lock().unwrap_or_else(PoisonError::into_inner).pop();
-            let mut drawing = taken.unwrap_or_else(Drawing::new);
-            draw(&self.frame_at(moved), &mut drawing);
-            let worth = self.worth(&drawing.bitmap, &mut drawing.scratch);
-            pool.lock().unwrap_or_else(PoisonError::into_inner).push(drawing);
-            worth
-        };
+    fn search(&self, from: Moved, steps: Steps, worths: &Worths<'_>) -> (Moved, f64) {
         let (mut best, mut step) = (from, steps.first);
-        let mut worth = worth_at(best);
+        let mut worth = worths.at(self, best);
         while step >= steps.last {
             for _ in 0..MAX_MOVES {
                 let neighbors: Vec<Moved> = NEIGHBORS
@@ -137,7 +148,7 @@ impl Registered<'_> {
                     .map(|by| std::array::from_fn(|i| best[i] + step * by[i]))
                     .filter(|&moved| self.is_allowed(moved))
                     .collect();
-                let worths: Vec<f64> = neighbors.par_iter().map(|&moved| worth_at(moved)).collect();
+                let worths = worths.of(self, &neighbors);
                 let mut next = None;
                 for (&moved, at) in neighbors.iter().zip(worths) {
                     if at > worth + LEAST_GAIN {
@@ -149,7 +160,7 @@ impl Registered<'_> {
             }
             step /= 2.0;
         }
-        best
+        (best, worth)
     }
 
     /// Far steps, on one fine drawing of the tree.
@@ -157,14 +168,59 @@ impl Registered<'_> {
         let mut rasterizer = Rasterizer::with_detail(Detail::Draft);
         let side = (FINENESS * self.frame.width.max(self.frame.height)).min(MAX_PLATE);
         let plate = Plate::draw(self.tree, &self.view, self.foliage, side, &mut rasterizer);
-        self.search(from, Steps::FAR, |frame, drawing| plate.through(frame, 1.0, &mut drawing.bitmap))
+        let worths = Worths::new(|frame, drawing| plate.through(frame, 1.0, &mut drawing.bitmap));
+        // An overlap of branches has many peaks, most of them along the ground.
+        let reach = (MAX_SHIFT * f64::from(self.frame.width.max(self.frame.height)) / SCAN).floor() as i32;
+        let columns = (-reach..=reach).map(|i| from[0] + SCAN * f64::from(i));
+        let places: Vec<Moved> = columns
+            .flat_map(|right| SCANNED_GROWTHS.map(|growth| [right, from[1], from[2] + growth * self.height]))
+            .filter(|&moved| self.is_allowed(moved))
+            .collect();
+        let mut ranked: Vec<(Moved, f64)> = places.iter().copied().zip(worths.of(self, &places)).collect();
+        // Stable: of equals the first.
+        ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let mut best = self.search(from, Steps::FAR, &worths);
+        for &(place, _) in ranked.iter().take(BEGINNINGS) {
+            let found = self.search(place, Steps::FAR, &worths);
+            if found.1 > best.1 {
+                best = found;
+            }
+        }
+        best.0
     }
 
     /// Near steps, on drawings of the tree.
     fn near(&self, from: Moved, steps: Steps) -> Moved {
-        self.search(from, steps, |frame, Drawing { rasterizer, bitmap, .. }| {
+        let worths = Worths::new(|frame, Drawing { rasterizer, bitmap, .. }| {
             rasterizer.draw(self.tree, &self.view, frame, self.foliage.into(), bitmap);
-        })
+        });
+        self.search(from, steps, &worths).0
+    }
+}
+
+/// Draws pictures and compares them, in memory that is kept.
+struct Worths<'a> {
+    draw: Box<dyn Fn(&Frame, &mut Drawing) + Sync + 'a>,
+    pool: Mutex<Vec<Drawing>>,
+}
+
+impl<'a> Worths<'a> {
+    fn new(draw: impl Fn(&Frame, &mut Drawing) + Sync + 'a) -> Self {
+        Self { draw: Box::new(draw), pool: Mutex::default() }
+    }
+
+    fn at(&self, goal: &Registered<'_>, moved: Moved) -> f64 {
+        let pool = || self.pool.lock().unwrap_or_else(PoisonError::into_inner);
+        let taken = pool().pop();
+        let mut drawing = taken.unwrap_or_else(Drawing::new);
+        (self.draw)(&goal.frame_at(moved), &mut drawing);
+        let worth = goal.worth(&drawing.bitmap, &mut drawing.scratch);
+        pool().push(drawing);
+        worth - PRICE * goal.moved_parts(moved).iter().sum::<f64>()
+    }
+
+    fn of(&self, goal: &Registered<'_>, places: &[Moved]) -> Vec<f64> {
+        places.par_iter().map(|&moved| self.at(goal, moved)).collect()
     }
 }
 
@@ -251,6 +307,7 @@ pub(crate) fn with_registered_frames(
             }
             if closeness == Closeness::Result {
                 moved = one.near(moved, Steps::NEAR);
+                moved = one.near(moved, Steps::AGAIN);
             }
             goal.registered = one.placement(moved);
         }

@@ -98,7 +98,7 @@ pub use pleach_generators::{
     GeneratorChoice, HEWITT_2017, RegistryError, families, names as species_names, read as read_species,
     read_file as read_species_file, species,
 };
-pub use pleach_silhouette::goal::Encoded;
+pub use pleach_silhouette::goal::{Crop, Encoded};
 pub use pleach_silhouette::mask::{Mask, MaskError, MaskOptions, Photo};
 pub use pleach_silhouette::score::ScoreCard;
 pub use pleach_silhouette::{
@@ -117,13 +117,18 @@ pub use pleach_tree::{
 pub use pleach_tree::{param, random, species};
 
 #[cfg(feature = "fit")]
+mod at_full_size;
+#[cfg(feature = "fit")]
+pub use at_full_size::place_at_full_size;
+
+#[cfg(feature = "fit")]
 pub use pleach_fit::{
-    Aftermath, Begun, Budget, COLUMNS, Candidate, Control, Drawings, DrawingsError, Ending, EvalWorkspace,
-    Evaluator, FirstGuess, FitError, FitProblem, FitSettings, Fitted, FoundIndividual, Freedom, Gene, Genome,
-    GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing, Identifiability, IndividualProgress,
-    IndividualSettings, Judged, Judging, Kept, Objective, Observer, ObserverError, Optimizer, Outcome,
-    Profile, Progress, Row, RulesSettings, Score, Scored, SearchSpace, Start, Stepwise, StopReason, TreeSeed,
-    Unknown, Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
+    Accuracy, Aftermath, Begun, Budget, COLUMNS, Candidate, Control, Drawings, DrawingsError, Ending,
+    EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem, FitSettings, Fitted, FoundIndividual,
+    Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing, Identifiability,
+    IndividualProgress, IndividualSettings, Judged, Judging, Kept, Objective, Observer, ObserverError,
+    Optimizer, Outcome, Placement, Profile, Progress, Row, RulesSettings, Score, Scored, SearchSpace, Start,
+    Stepwise, StopReason, TreeSeed, Unknown, Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
 };
 
 #[cfg(feature = "fit")]

@@ -2,6 +2,7 @@
 
 use crate::arrays::{numbers, of_ink, whole};
 use crate::error::{FitError, of_fit};
+use crate::frame::KnownFrame;
 use crate::goal::Source;
 use crate::pool;
 use crate::score::of_card;
@@ -13,9 +14,9 @@ use pleach::plan::{
     DRAWING, Effort, Origin, Shares, USUAL_TIME, has_individuals, library, plan, usual_start,
 };
 use pleach::{
-    Bitmap, Budget, COLUMNS, Control, FitProblem, FitSettings, Fitted, Foliage, Freedom, GeneratorChoice,
-    Goal, GoalOptions, GoalSettings, GoalView, Growth, Identifiability, IndividualSettings, Profile,
-    Rasterizer, ScoreCard, TreeSeed, View, fit_goal_with,
+    Accuracy, Bitmap, Budget, COLUMNS, Control, Crop, FitProblem, FitSettings, Fitted, Foliage, Frame,
+    Freedom, GeneratorChoice, Goal, GoalOptions, GoalSettings, GoalView, Growth, Identifiability,
+    IndividualSettings, Placement, Profile, Rasterizer, ScoreCard, TreeSeed, View, fit_goal_with,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -35,6 +36,7 @@ struct Options {
     generator: Option<String>,
     height: f64,
     size: u32,
+    frame: Option<KnownFrame>,
     view: Option<Direction>,
     /// Further pictures and from where they were taken.
     views: Vec<(Py<PyAny>, Direction)>,
@@ -101,9 +103,14 @@ fn duration(name: &str, seconds: f64) -> PyResult<Duration> {
     Err(FitError::new_err(format!("{name} is {seconds} s, expected above 0 and up to 10 000 000")))
 }
 
-/// A picture of the goal's tree at its own size, and from where it was taken.
+/// A picture of the goal's tree, and from where it was taken.
 struct Picture {
+    /// At its own size, as scores are of it.
     full: Goal,
+    /// As the search compares with it.
+    working: Goal,
+    /// As it was given.
+    given: Goal,
     view: View,
 }
 
@@ -133,19 +140,26 @@ impl Asked {
                 options.size
             )));
         }
-        let small = GoalOptions { max_side: Some(options.size), ..whole() };
         let mut goals = Vec::new();
-        let mut pictures = Vec::new();
-        let mut add = |source: &Source, view| -> PyResult<()> {
-            let working = source.goal(&small)?;
-            let frame = working.frame(options.height);
-            goals.push(GoalView::new(working.bitmap, view, frame));
-            pictures.push(Picture { full: source.goal(&whole())?, view });
+        let mut pictures: Vec<Picture> = Vec::new();
+        let mut height = options.height;
+        let mut add = |source: &Source, view, known: Option<KnownFrame>| -> PyResult<()> {
+            let cropped = GoalOptions { crop: Crop::ToTree, ..known.map_or_else(whole, KnownFrame::options) };
+            let working = source.goal(&GoalOptions { max_side: Some(options.size), ..cropped.clone() })?;
+            let full = source.goal(&cropped)?;
+            if let Some(known) = known {
+                height = known.meters_per_pixel() * full.height_in_pixels();
+            }
+            let accuracy = if known.is_some() { Accuracy::Exact } else { Accuracy::Pixel };
+            let goal_view = GoalView::new(working.bitmap.clone(), view, working.frame(height));
+            goals.push(GoalView { accuracy, ..goal_view });
+            pictures.push(Picture { full, working, given: source.goal(&whole())?, view });
             Ok(())
         };
-        add(&source, view(options.view)?)?;
+        let known = options.frame.map(KnownFrame::checked).transpose()?;
+        add(&source, view(options.view)?, known)?;
         for (further, direction) in &options.views {
-            add(&Source::read(further.bind(goal.py()))?, direction.view()?)?;
+            add(&Source::read(further.bind(goal.py()))?, direction.view()?, None)?;
         }
         let given = match &options.from_ {
             From::Species(species) => Some(species.inner.kind()),
@@ -177,7 +191,7 @@ impl Asked {
         let settings = settings(options, origin, generator, &problem)?;
         let name = options.name.clone().unwrap_or_else(|| source.name());
         let threads = options.threads;
-        Ok(Self { name, height: options.height, pictures, problem, settings, threads })
+        Ok(Self { name, height, pictures, problem, settings, threads })
     }
 
     /// A species of the fit as it is given back.
@@ -187,23 +201,46 @@ impl Asked {
     }
 
     /// The silhouettes of a species over the pictures at their own size, and how well they match.
-    fn matched(&self, species: &Species, fitted: &Fitted) -> PyResult<Vec<(ScoreCard, Bitmap)>> {
+    fn matched(
+        &self,
+        species: &Species,
+        fitted: &Fitted,
+        places: &[Placement],
+    ) -> PyResult<Vec<(ScoreCard, Bitmap)>> {
         let foliage = fitted.problem.foliage;
         let seed = species.inner.tree_seed.unwrap_or(1);
         let growth = Growth { foliage, limits: fitted.settings.limits, ..Growth::seed(seed) };
         let tree = species.inner.grow_with(&growth).map_err(of_fit)?;
         let mut rasterizer = Rasterizer::new();
-        let one = |Picture { full, view }: &Picture| {
+        let mut draw = |view: &View, frame: &Frame| {
             let mut ink = Bitmap::default();
-            rasterizer.draw(&tree, view, &full.frame(self.height), foliage.into(), &mut ink);
-            Ok((ScoreCard::new(&ink, &full.bitmap).map_err(of_fit)?, ink))
+            rasterizer.draw(&tree, view, frame, foliage.into(), &mut ink);
+            ink
         };
-        self.pictures.iter().map(one).collect()
+        let one = |(Picture { full, view, .. }, place): (&Picture, &Placement)| {
+            let frame = place.frame(&full.frame(self.height));
+            let ink = draw(view, &frame);
+            let card = ScoreCard::new(&ink, &full.bitmap).map_err(of_fit)?;
+            Ok((card, if full.is_whole() { ink } else { draw(view, &full.original_frame(&frame)) }))
+        };
+        self.pictures.iter().zip(places).map(one).collect()
     }
 
-    /// The goal.
+    /// Where the tree of `species` stands in each picture at its own size.
+    fn places(&self, species: &Species, fitted: &Fitted) -> PyResult<Vec<Placement>> {
+        let foliage = fitted.problem.foliage;
+        let seed = species.inner.tree_seed.unwrap_or(1);
+        let growth = Growth { foliage, limits: fitted.settings.limits, ..Growth::seed(seed) };
+        let tree = species.inner.grow_with(&growth).map_err(of_fit)?;
+        let one = |(Picture { full, working, .. }, view): (&Picture, &GoalView)| {
+            pleach::place_at_full_size(&tree, foliage, (full, working), view, self.height)
+        };
+        Ok(self.pictures.iter().zip(&fitted.problem.goals).map(one).collect())
+    }
+
+    /// The goal as it was given.
     fn goal(&self) -> &Goal {
-        &self.pictures[0].full
+        &self.pictures[0].given
     }
 }
 
@@ -344,14 +381,15 @@ fn found<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     let kind = asked.named(fitted.species().map_err(of_fit)?);
-    let matches = asked.matched(&kind, fitted)?;
+    let places = asked.places(&kind, fitted)?;
+    let matches = asked.matched(&kind, fitted, &places)?;
     dict.set_item("verdict", fitted.verdict(&matches[0].0).map(|verdict| verdict.to_string()))?;
     dict.set_item("goal", of_ink(py, &asked.goal().bitmap)?)?;
     dict.set_item("kind", matched(py, kind, matches)?)?;
     let individuals = PyList::empty(py);
     for one in &fitted.individuals {
         let species = asked.named(one.species.clone());
-        let matches = asked.matched(&species, fitted)?;
+        let matches = asked.matched(&species, fitted, &places)?;
         individuals.append(matched(py, species, matches)?)?;
     }
     dict.set_item("individuals", individuals)?;

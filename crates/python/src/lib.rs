@@ -7,6 +7,7 @@ mod arrays;
 mod blend;
 mod error;
 mod fit;
+mod frame;
 mod goal;
 mod json;
 mod params;

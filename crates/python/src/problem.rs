@@ -2,6 +2,7 @@
 
 use crate::arrays::{numbers, of_ink};
 use crate::error::{FitError, of_fit};
+use crate::frame::KnownFrame;
 use crate::goal::Source;
 use crate::params::kind;
 use crate::pool;
@@ -9,8 +10,8 @@ use crate::species::Species;
 use crate::view::{Direction, view};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods as _};
 use pleach::{
-    EvalWorkspace, Evaluator, FitProblem, Foliage, Freedom, Gene, Genome, GoalOptions, GoalView, Limits,
-    Score, SearchSpace, TreeSeed,
+    Crop, EvalWorkspace, Evaluator, FitProblem, Foliage, Freedom, Gene, Genome, GoalOptions, GoalView,
+    Limits, Score, SearchSpace, TreeSeed,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -39,6 +40,7 @@ impl NativeProblem {
         height: f64,
         size: u32,
         from_: Option<Direction>,
+        frame: Option<KnownFrame>,
         leaves: bool,
         objective: &str,
         free: Vec<String>,
@@ -47,8 +49,13 @@ impl NativeProblem {
         match_height: bool,
         wide: bool,
     ) -> PyResult<Self> {
-        let options = GoalOptions { max_side: Some(size), ..GoalOptions::default() };
+        let known = frame.map(KnownFrame::checked).transpose()?;
+        let options = known.map_or_else(GoalOptions::default, KnownFrame::options);
+        let options = GoalOptions { max_side: Some(size), crop: Crop::ToTree, ..options };
         let goal = Source::read(goal)?.goal(&options)?;
+        let height = known.map_or(height, |known| {
+            known.meters_per_pixel() * goal.height_in_pixels() / goal.detection.reduction
+        });
         let foliage = if leaves { Foliage::All } else { Foliage::None };
         let start = species.inner.kind();
         let goal_view = GoalView::new(goal.bitmap.clone(), view(from_)?, goal.frame(height));

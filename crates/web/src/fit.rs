@@ -7,8 +7,8 @@ use crate::{message, report};
 use js_sys::{Array, Function, Uint8Array};
 use pleach::plan::{DRAWING, Origin, Shares, plan, usual_start};
 use pleach::{
-    Bitmap, Budget, Control, Drawings, FitProblem, FitSettings, Foliage, GeneratorChoice, GoalView, Growth,
-    GuessLibrary, Observer, Rasterizer, Scored, Species, Stepwise, StopReason, TreeSeed, View,
+    Bitmap, Budget, Control, Drawings, FitProblem, FitSettings, Foliage, Frame, GeneratorChoice, GoalView,
+    Growth, GuessLibrary, Observer, Rasterizer, Scored, Species, Stepwise, StopReason, Tree, TreeSeed, View,
 };
 use serde::Deserialize;
 use serde_json::json;
@@ -57,7 +57,9 @@ enum Stage {
 #[wasm_bindgen]
 pub struct Fit {
     name: String,
-    goal: pleach::Goal,
+    /// At its own size, with the margins that searches see.
+    compared: pleach::Goal,
+    working: pleach::Goal,
     height: f64,
     problem: FitProblem,
     stage: Stage,
@@ -106,11 +108,12 @@ impl Fit {
             settings = shares.bound(settings, DRAWING, DRAWING);
         }
         let working = goal.working()?;
-        let view = GoalView::new(working.bitmap.clone(), View::FRONT, working.frame(height));
+        let view = GoalView::from_picture(working.bitmap.clone(), View::FRONT, working.frame(height));
         let foliage = if options.leaves == Some(false) { Foliage::None } else { Foliage::All };
         Ok(Self {
             name: goal.species_name(),
-            goal: goal.full.clone(),
+            compared: goal.compared()?,
+            working,
             height,
             problem: FitProblem { start, goals: vec![view], foliage },
             stage: Stage::Planned {
@@ -215,7 +218,9 @@ impl Fit {
             return Ok(Vec::new());
         };
         let problem = &search.begun().problem;
-        Ok(ink(&self.drawn(&found(problem, best)?, problem.foliage)?))
+        let tree = grown(&found(problem, best)?, problem.foliage)?;
+        let frame = problem.goals[0].registered.frame(&self.compared.frame(self.height));
+        Ok(ink(&drawn(&tree, &self.compared.original_frame(&frame), problem.foliage)))
     }
 
     /// The species file of the best tree so far.
@@ -238,8 +243,12 @@ impl Fit {
         let control = Control { observers: vec![&mut told], ..Control::new(&clock, &stop) };
         let fitted = search.finish(control).map_err(thrown)?;
         let species = self.named(fitted.species().map_err(thrown)?);
-        let picture = self.drawn(&species, fitted.problem.foliage)?;
-        report::of(&species, &picture, &self.goal.bitmap, &fitted)
+        let (foliage, goals) = (fitted.problem.foliage, (&self.compared, &self.working));
+        let tree = grown(&species, foliage)?;
+        let view = &fitted.problem.goals[0];
+        let place = pleach::place_at_full_size(&tree, foliage, goals, view, self.height);
+        let picture = drawn(&tree, &place.frame(&self.compared.frame(self.height)), foliage);
+        report::of(&species, &picture, &self.compared.bitmap, &fitted)
     }
 }
 
@@ -257,16 +266,17 @@ impl Fit {
     fn named(&self, species: Species) -> Species {
         Species { name: self.name.clone(), description: String::new(), ..species }
     }
+}
 
-    /// Its tree over the goal, at the goal's own size.
-    fn drawn(&self, species: &Species, foliage: Foliage) -> Result<Bitmap, JsError> {
-        let growth = Growth { foliage, ..Growth::seed(species.tree_seed.unwrap_or(1)) };
-        let tree = species.grow_with(&growth).map_err(thrown)?;
-        let mut picture = Bitmap::default();
-        let frame = self.goal.frame(self.height);
-        Rasterizer::new().draw(&tree, &View::FRONT, &frame, foliage.into(), &mut picture);
-        Ok(picture)
-    }
+fn grown(species: &Species, foliage: Foliage) -> Result<Tree, JsError> {
+    let growth = Growth { foliage, ..Growth::seed(species.tree_seed.unwrap_or(1)) };
+    species.grow_with(&growth).map_err(thrown)
+}
+
+fn drawn(tree: &Tree, frame: &Frame, foliage: Foliage) -> Bitmap {
+    let mut picture = Bitmap::default();
+    Rasterizer::new().draw(tree, &View::FRONT, frame, foliage.into(), &mut picture);
+    picture
 }
 
 fn found(problem: &FitProblem, best: &Scored) -> Result<Species, JsError> {

@@ -2,7 +2,9 @@
 
 use crate::error::thrown;
 use crate::tree::ink;
-use pleach::{Bitmap, Encoded, Goal as Read, GoalOptions, GoalWarning, Mask, MaskOptions, Photo, ScoreCard};
+use pleach::{
+    Bitmap, Crop, Encoded, Goal as Read, GoalOptions, GoalWarning, Mask, MaskOptions, Photo, ScoreCard,
+};
 use serde_json::json;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -44,7 +46,17 @@ impl Places {
 impl Goal {
     /// As searches compare with it.
     pub(crate) fn working(&self) -> Result<Read, JsError> {
-        Read::from_ink(self.painted.clone(), &self.places.options(Some(WORKING_SIDE))).map_err(thrown)
+        self.compared_at(Some(WORKING_SIDE))
+    }
+
+    /// The tree at its own size with the margins that searches see, as scores are of it.
+    pub(crate) fn compared(&self) -> Result<Read, JsError> {
+        self.compared_at(None)
+    }
+
+    fn compared_at(&self, max_side: Option<u32>) -> Result<Read, JsError> {
+        let options = GoalOptions { crop: Crop::ToTree, ..self.places.options(max_side) };
+        Read::from_ink(self.painted.clone(), &options).map_err(thrown)
     }
 
     /// A name for the species that is found.

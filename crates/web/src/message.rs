@@ -1,7 +1,9 @@
 //! What the worker that runs a search sends to those that score its individuals, and what they send back.
 
 use crate::error::thrown;
-use pleach::{Begun, Bitmap, FitProblem, FitSettings, Foliage, Frame, Genome, GoalView, Score, Start, View};
+use pleach::{
+    Begun, Bitmap, FitProblem, FitSettings, Foliage, Frame, Genome, GoalView, Placement, Score, Start, View,
+};
 use pleach::{Evaluator as Scorer, evaluator};
 use pleach_fit::{Evaluate as _, Size};
 use serde::{Deserialize, Serialize};
@@ -18,6 +20,8 @@ struct Recipe {
     goal: (u32, u32, Vec<u64>),
     /// Metres per pixel, axis and ground.
     frame: [f64; 3],
+    /// Where the tree stands against the frame: scale, and offset to the right and down.
+    registered: (f64, [f64; 2]),
 }
 
 /// Individuals to be scored.
@@ -30,7 +34,7 @@ struct Piece {
 /// The bytes of the recipe of a fit to one picture, taken from the front.
 pub(crate) fn recipe(begun: &Begun) -> Result<Vec<u8>, JsError> {
     let Begun { problem, settings, .. } = begun;
-    let GoalView { goal, frame, .. } = &problem.goals[0];
+    let GoalView { goal, frame, registered, .. } = &problem.goals[0];
     let lists = match &settings.start {
         Start::Lists(lists) => Some(lists.clone()),
         Start::Random => None,
@@ -41,6 +45,7 @@ pub(crate) fn recipe(begun: &Begun) -> Result<Vec<u8>, JsError> {
         lists,
         goal: (goal.width(), goal.height(), goal.words().to_vec()),
         frame: [frame.meters_per_pixel, frame.axis_column, frame.ground_row],
+        registered: (registered.scale, registered.offset),
     };
     postcard::to_stdvec(&recipe).map_err(thrown)
 }
@@ -66,16 +71,16 @@ impl Evaluator {
     /// From what `Fit.recipe` gives.
     #[wasm_bindgen(constructor)]
     pub fn new(recipe: &[u8]) -> Result<Self, JsError> {
-        let Recipe { species, leafy, lists, goal, frame } = postcard::from_bytes(recipe).map_err(thrown)?;
+        let Recipe { species, leafy, lists, goal, frame, registered } =
+            postcard::from_bytes(recipe).map_err(thrown)?;
         let start = pleach::read_species(species.as_bytes(), "the start").map_err(thrown)?;
         let (width, height, words) = goal;
         let [meters_per_pixel, axis_column, ground_row] = frame;
         let goal = Bitmap::from_words(width, height, words).ok_or_else(|| thrown("the goal is damaged"))?;
-        let view = GoalView::new(
-            goal,
-            View::FRONT,
-            Frame { width, height, meters_per_pixel, axis_column, ground_row },
-        );
+        let (scale, offset) = registered;
+        let frame = Frame { width, height, meters_per_pixel, axis_column, ground_row };
+        let registered = Placement { scale, offset, ..Placement::KNOWN };
+        let view = GoalView { registered, ..GoalView::new(goal, View::FRONT, frame) };
         let foliage = if leafy { Foliage::All } else { Foliage::None };
         let problem = FitProblem { start, goals: vec![view], foliage };
         let start = lists.map_or(Start::Random, Start::Lists);

@@ -11,14 +11,17 @@ pub(super) fn places(goal: &Goal) -> String {
         Origin::Snapped => "detected and snapped to the picture's edge or middle",
         Origin::Given => "given",
     };
+    // Of the file, whatever part of it is compared.
+    let frame = goal.original_frame(&goal.frame(1.0));
+    let top_row = frame.ground_row - 1.0 / frame.meters_per_pixel;
     let ink = 100.0 * goal.bitmap.ink() as f64 / goal.bitmap.area() as f64;
     format!(
         "{ink:.1} % ink\nground at row {:.1} ({}), trunk at column {:.1} ({}), top at row {:.1}",
-        goal.ground_row,
+        frame.ground_row,
         origin(goal.detection.ground),
-        goal.axis_column,
+        frame.axis_column,
         origin(goal.detection.axis),
-        goal.top_row,
+        top_row,
     )
 }
 

@@ -129,6 +129,7 @@ def fit(
     generator: Optional[str] = None,
     height: float = 10.0,
     size: int = 256,
+    frame: Optional[tuple[float, float, float]] = None,
     view: Union[float, tuple[float, float], None] = None,
     views: Sequence[tuple[Goal, Union[float, tuple[float, float]]]] = (),
     leaves: Optional[bool] = None,
@@ -151,7 +152,8 @@ def fit(
 
     The picture is a path, an array (bool of shape (height, width), True where the tree is; or uint8), a PIL image or
     an open file. ``height`` is the tree's, in metres; ``size`` the longer side that the search compares at, in
-    pixels; ``view`` the azimuth, or azimuth and elevation, in degrees. ``views`` are further pictures of the same tree,
+    pixels; ``frame``, where it is known, metres per pixel, the column of the trunk's foot and the row of the ground in
+    pixels of the picture: it is taken as exact, and the height follows from it; ``view`` the azimuth, or azimuth and elevation, in degrees. ``views`` are further pictures of the same tree,
     each with where it was taken from: ``[("side.png", 90)]``.
 
     The fit begins at ``start``: ``"auto"``, the species that the goal looks like; ``"random"``; or a species. ``leaves``
@@ -177,6 +179,7 @@ def fit(
         "generator": generator,
         "height": height,
         "size": size,
+        "frame": frame,
         "view": view,
         "views": [(given(picture), direction) for picture, direction in views],
         "leaves": leaves,

@@ -111,6 +111,7 @@ class NativeProblem:
         height: float,
         size: int,
         view: _View,
+        frame: Optional[tuple[float, float, float]],
         leaves: bool,
         objective: str,
         free: list[str],

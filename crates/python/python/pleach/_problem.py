@@ -36,6 +36,9 @@ class Problem:
     ``level:1``. ``wide`` searches all that is declared instead of what is plausible. With ``match_height`` every tree
     is resized to the height of the goal before it is compared, as searches of pleach do.
 
+    ``frame`` is where the tree stands, where that is known: metres per pixel, the column of the trunk's foot and the
+    row of the ground in pixels of the picture. Otherwise it is read off the picture to a pixel or two.
+
     >>> import numpy as np, pleach
     >>> goal = pleach.species("acer").grow(3).silhouette(64)
     >>> problem = pleach.Problem(goal, "acer", size=64)
@@ -51,6 +54,7 @@ class Problem:
         *,
         height: float = 10.0,
         size: int = 256,
+        frame: Optional[tuple[float, float, float]] = None,
         view: Union[float, tuple[float, float], None] = None,
         leaves: bool = True,
         objective: str = "balance",
@@ -61,7 +65,7 @@ class Problem:
         wide: bool = False,
     ) -> None:
         self._native = _native.NativeProblem(
-            given(goal), one_species(species), height, size, view, leaves, objective, list(free), list(fix), seed, match_height, wide
+            given(goal), one_species(species), height, size, view, frame, leaves, objective, list(free), list(fix), seed, match_height, wide
         )
         self.names: list[str] = self._native.names
         """The free numbers, such as ``length[1]``."""

@@ -17,8 +17,10 @@ pub(super) struct GoalArgs {
     /// Height of the tree in metres: a silhouette does not show it
     #[arg(long, value_name = "METRES", default_value_t = 10.0, value_parser = options::positive)]
     pub(super) height: f64,
-    /// Longer side of the pictures that the search compares, in pixels; larger goals are reduced. The
-    /// score card and best.png have the goal's own size
+    /// Longer side of the pictures that the search compares, in pixels; larger goals are reduced. Where a goal ends
+    /// at its tree, or shows little else than paper, the tree gets a margin: its own longer side is then 95 % of
+    /// this, and what a tree has beyond the goal's edges counts. The score card and best.png have the goal's own
+    /// scale
     #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(16..=2048))]
     pub(super) size: u32,
     /// A picture of the goal's size that says what is tree: white on black. With `auto` the goal is a

@@ -4,9 +4,7 @@ use super::args::GoalArgs;
 use super::goal::Goals;
 use crate::files;
 use anyhow::Context as _;
-use pleach_fit::{
-    Accuracy, Aftermath, FitProblem, FoundIndividual, Genome, Placement, Scored, Steps, register,
-};
+use pleach_fit::{Aftermath, FitProblem, FoundIndividual, Genome, Placement, Scored};
 use pleach_mesh::Palette;
 use pleach_render::{Preview, PreviewSettings, png_file};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View, picture};
@@ -51,9 +49,6 @@ pub(super) struct Drawing<'a> {
     /// Where the tree stands at the goal's own size, once that is registered.
     pub(super) placed: Option<Placement>,
 }
-
-/// From how many pixels of the goal for one of the search on a frame is registered at the goal's own size.
-const FINER: f64 = 1.1;
 
 /// An individual, grown and drawn as the goal is.
 pub(super) struct Drawn {
@@ -116,21 +111,14 @@ impl Drawing<'_> {
         self.placed.unwrap_or(self.problem.goals[0].registered)
     }
 
-    /// Registers the frame at the goal's own size by the tree of `best`: the search has done so at its working
-    /// size, where a small part of a pixel is a larger one of the goal's.
+    /// Registers the frame at the goal's own size by the tree of `best`.
     pub(super) fn register(&mut self, best: &Scored) -> anyhow::Result<()> {
-        let Goals { full, working, .. } = self.goals;
-        let ratio = full.height_in_pixels() / working.height_in_pixels();
-        if self.problem.goals[0].accuracy == Accuracy::Exact || ratio < FINER {
-            return Ok(());
-        }
+        let goals = (&self.goals.full, &self.goals.working);
         let foliage = self.problem.foliage;
         let growth = Growth { limits: self.limits, foliage, ..Growth::seed(best.genome.tree_seed) };
         let tree = self.species(&best.genome)?.grow_with(&growth)?;
-        let frame = full.frame(self.args.height);
-        let steps = Steps { first: ratio / 16.0, last: 1.0 / 64.0 };
-        self.placed =
-            Some(register(&tree, foliage, &full.bitmap, &self.view, &frame, &self.placement(), steps));
+        let (view, height) = (&self.problem.goals[0], self.args.height);
+        self.placed = Some(pleach::place_at_full_size(&tree, foliage, goals, view, height));
         Ok(())
     }
 }

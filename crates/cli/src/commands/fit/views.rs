@@ -123,6 +123,9 @@ struct Found {
     frame: bool,
 }
 
+/// From which scale and offset on a report says them.
+const WORTH_SAYING: f64 = 0.02;
+
 /// How the result does in one of the further pictures, in `summary.json`.
 #[derive(Debug, Serialize)]
 pub(super) struct ViewScore {
@@ -176,7 +179,9 @@ impl Picture {
             offset: placement.offset,
             found: Found {
                 azimuth: placement.azimuth.is_some(),
-                frame: (placement.scale, placement.offset) != (1.0, [0.0; 2]),
+                // What is registered is within some pixels, and of no interest.
+                frame: (placement.scale - 1.0).abs() > WORTH_SAYING
+                    || placement.offset.iter().any(|part| part.abs() > WORTH_SAYING),
             },
             iou: card.iou,
             best_ellipse_iou: card.best_ellipse_iou,

@@ -1,0 +1,28 @@
+//! Where a tree stands in a goal at the goal's own size.
+
+use pleach_fit::{Accuracy, GoalView, Placement, Steps, register};
+use pleach_silhouette::goal::Goal;
+use pleach_tree::{Foliage, Tree};
+
+/// From how many pixels of the goal for one of the search on a frame is registered at the goal's own size.
+const FINER: f64 = 1.1;
+
+/// Where `tree`, the result of a fit, stands in `full`, of which the fit has compared `working`, registered as
+/// `fitted`: at a larger size a small part of a pixel is a larger one. Multiplies and moves the frame
+/// `full.frame(height)`.
+#[must_use]
+pub fn place_at_full_size(
+    tree: &Tree,
+    foliage: Foliage,
+    (full, working): (&Goal, &Goal),
+    fitted: &GoalView,
+    height: f64,
+) -> Placement {
+    let ratio = full.height_in_pixels() / working.height_in_pixels();
+    if fitted.accuracy == Accuracy::Exact || ratio < FINER {
+        return fitted.registered;
+    }
+    let steps = Steps { first: ratio / 16.0, last: 1.0 / 64.0 };
+    let frame = full.frame(height);
+    register(tree, foliage, &full.bitmap, &fitted.view, &frame, &fitted.registered, steps)
+}
