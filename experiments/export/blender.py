@@ -3,6 +3,7 @@
     blender --background --factory-startup --python-exit-code 1 --python experiments/export/blender.py -- \
         --csv blender.csv [--picture tree.png] FILE.glb ...
 
+With `--check` alone, imports what the importer needs and ends: with 1 where something is missing.
 Writes a row a file: objects, materials, vertices, triangles, height in metres, and seconds. With
 `--picture`, the last file is rendered with Cycles. Runs inside Blender's own Python.
 """
@@ -15,6 +16,7 @@ import time
 from pathlib import Path
 
 import bpy
+# Blender's own importer needs it, and Debian's package of Blender only recommends it.
 import numpy
 from mathutils import Vector
 
@@ -82,13 +84,25 @@ def render(path, side):
     bpy.ops.render.render(write_still=True)
 
 
+def check():
+    """Imports the add-on's importer, which Blender itself does only with the first file."""
+    from io_scene_gltf2.blender.imp import gltf2_blender_gltf
+    from io_scene_gltf2.io.imp import gltf2_io_gltf
+
+    print(gltf2_blender_gltf.__name__, gltf2_io_gltf.__name__, "with NumPy", numpy.__version__)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--csv", required=True)
     parser.add_argument("--picture")
     parser.add_argument("--side", type=int, default=200)
     parser.add_argument("files", nargs="+", type=Path)
-    arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1:])
+    given = sys.argv[sys.argv.index("--") + 1:]
+    if given == ["--check"]:
+        check()
+        return
+    arguments = parser.parse_args(given)
     rows = [load(path) for path in arguments.files]
     with open(arguments.csv, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")

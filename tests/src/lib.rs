@@ -13,7 +13,10 @@
 //! | `reference_stats.rs` | our trees against those of the reference generator |
 //! | `experiments.rs` | a slice of each experiment against its committed results |
 //! | `experiment_runs.rs` | what experiments write over and refuse, how they end and go on |
+//! | `odd_files.rs` | links, pipes and left-over files in run folders; names that terminals and spreadsheets obey |
 //! | `robustness.rs` | spoilt input under limits of memory and time |
+
+pub mod tool;
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};

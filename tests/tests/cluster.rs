@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach_tests::{Dir, Run, read, results, root, wait_for};
+use pleach_tests::{Dir, Run, read, results, root, tool, wait_for};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
@@ -198,12 +198,12 @@ fn a_full_disk_fails_a_goal_and_loses_none() {
 #[cfg(unix)]
 fn gnu_parallel_tries_a_killed_shard_again() {
     const GOALS: usize = 4;
-    let version = Command::new("parallel").arg("--version").output();
-    if !version.is_ok_and(|output| output.stdout.starts_with(b"GNU parallel")) {
-        eprintln!("skipped: no GNU parallel");
+    let dir = Dir::new();
+    let probe = "test \"$(seq 2 | parallel --will-cite --keep-order --retries 3 --joblog log echo {} | tr -d '\n')\" = 12";
+    let needs = "GNU parallel (Debian: apt-get install parallel)";
+    if !tool::is_usable(needs, Command::new("bash").current_dir(dir.path("")).args(["-c", probe])) {
         return;
     }
-    let dir = Dir::new();
     goals(&dir, GOALS);
     let options = [&FIT[1..], &["--evaluations", "2000"]].concat();
     let _ = dir.run([&["fit", "--list", "goals.csv", "--out", "whole"], &options[..]].concat()).ok();
@@ -230,12 +230,10 @@ fn gnu_parallel_tries_a_killed_shard_again() {
 #[cfg(unix)]
 fn hyperqueue_loses_nothing_when_a_worker_is_killed() {
     const GOALS: usize = 40;
-    let has = |module: &str| {
-        let python = Command::new("python3").args(["-c", &format!("import {module}")]).output();
-        python.is_ok_and(|output| output.status.success())
-    };
-    if !has("hyperqueue") {
-        eprintln!("skipped: no HyperQueue, `pip install hyperqueue` gets it");
+    // All that the scripts take from it.
+    let probe = "from hyperqueue import Client, Job\nfrom hyperqueue.ffi.cluster import Cluster";
+    let needs = "HyperQueue for python3 (pip install hyperqueue)";
+    if !tool::is_usable(needs, Command::new("python3").args(["-c", probe])) {
         return;
     }
     let dir = Dir::new();

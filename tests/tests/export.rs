@@ -1,9 +1,8 @@
 //! Meshes from `pleach grow`, as a user makes them.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-#![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
-use pleach_tests::Dir;
+use pleach_tests::{Dir, tool};
 use std::path::Path;
 
 /// The JSON part of a GLB file.
@@ -115,6 +114,20 @@ fn billboards_are_the_last_level() {
 }
 
 #[test]
+fn nothing_is_written_of_nothing() {
+    let dir = Dir::new();
+    let _ = dir.file("nothing.toml", "generator = \"stylised\"\ntrunk_height = 0\n");
+    for more in [&[][..], &["--billboard", "2"], &["--lod", "3", "--billboard", "8"], &["--forest", "20x20"]]
+    {
+        let grow = [&["grow", "nothing.toml", "-o", "nothing.glb"], more].concat();
+        dir.run(grow).fails(1, &["there is nothing to write"]);
+        assert!(!dir.path("nothing.glb").exists(), "{more:?}");
+    }
+    let forest = ["grow", "nothing.toml", "-o", "nothing.glb", "--forest", "20x20", "--billboard", "2"];
+    dir.run(forest).fails(1, &["there is nothing to write"]);
+}
+
+#[test]
 fn a_usda_places_leaves_and_names_its_pictures() {
     let dir = Dir::new();
     let _ = dir.run(["grow", "palm", "--seed", "2", "--leaves", "cards", "-o", "a palm.usda"]).ok();
@@ -187,21 +200,23 @@ fn colours_come_from_the_species_file() {
     dir.run(["grow", "wrong.toml", "-o", "x.glb"]).fails(1, &["wrong.toml:", "appearance.leaf", "#rrggbb"]);
 }
 
-/// What Blender imports: skipped, and told so, where there is no Blender.
+/// What Blender imports: skipped, and told so, where there is no Blender or half of one.
 #[test]
 fn blender_opens_what_was_written() {
-    let blender = |args: &[&str]| std::process::Command::new("blender").args(args).output();
-    if !blender(&["--version"]).is_ok_and(|run| run.status.success()) {
-        eprintln!("skipped: needs `blender` on the path (Debian: apt-get install blender)");
+    let script = pleach_tests::root().join("experiments/export/blender.py");
+    let blender = || {
+        let mut blender = std::process::Command::new("blender");
+        blender.args(["--background", "--factory-startup", "--python-exit-code", "1", "--python"]);
+        blender.arg(&script).arg("--");
+        blender
+    };
+    let needs = "Blender with NumPy for its Python (Debian: apt-get install blender python3-numpy)";
+    if !tool::is_usable(needs, blender().arg("--check")) {
         return;
     }
     let dir = Dir::new();
     let _ = dir.run(["grow", "acer", "--seed", "1", "-o", "acer.glb"]).ok();
-    let script = pleach_tests::root().join("experiments/export/blender.py");
-    let [script, table, file] =
-        [script, dir.path("b.csv"), dir.path("acer.glb")].map(|p| p.display().to_string());
-    let head = ["--background", "--factory-startup", "--python-exit-code", "1", "--python", &script];
-    let run = blender(&[&head[..], &["--", "--csv", &table, &file]].concat()).unwrap();
+    let run = blender().arg("--csv").args([dir.path("b.csv"), dir.path("acer.glb")]).output().unwrap();
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     let committed = pleach_tests::root().join("experiments/export/blender.csv");
     let row = |path: &Path| {

@@ -63,6 +63,31 @@ fn one_file_is_written_where_one_is_named() {
 }
 
 #[test]
+fn absurd_ranges_of_seeds_are_refused() {
+    let dir = Dir::new();
+    let run = dir.run(["grow", "acer", "--seeds", "0..1000000000000", "--stats-only"]);
+    run.fails(1, &["--seeds 0..1000000000000", "1000000000000 trees", "at most 1000000000", "smaller range"]);
+    let run = dir.run(["grow", "acer", "--seeds", "0..1000001", "-o", "forest/"]);
+    run.fails(1, &["1000001 trees", "at most 1000000 are written"]);
+    assert!(!dir.path("forest").exists());
+}
+
+/// Whoever reads the lines has the first ones long before the last tree is grown.
+#[test]
+fn lines_of_seeds_come_as_they_are_made() {
+    use std::io::BufRead as _;
+    let dir = Dir::new();
+    let many = ["grow", "acer", "--seeds", "0..100000000", "--stats-only", "--json", "--threads", "2"];
+    let mut child = dir.command(many).stdout(std::process::Stdio::piped()).spawn().unwrap();
+    let lines = std::io::BufReader::new(child.stdout.take().unwrap()).lines();
+    let first: Vec<String> = lines.take(5).map(Result::unwrap).collect();
+    // Nobody reads on: the program ends.
+    assert!(child.wait().unwrap().success());
+    let five = dir.run(["grow", "acer", "--seeds", "0..5", "--stats-only", "--json"]).ok();
+    assert_eq!(first, five.lines().collect::<Vec<_>>());
+}
+
+#[test]
 fn many_seeds_come_in_order_and_do_not_depend_on_threads() {
     let dir = Dir::new();
     let run = |threads: &str| {

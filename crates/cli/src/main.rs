@@ -10,7 +10,7 @@ mod input;
 mod memory;
 mod skeleton;
 
-use pleach_console::{files, interrupted, output, signals};
+use pleach_console::{files, interrupted, output, regular, signals, text};
 use pleach_fit::FitError;
 use pleach_generators::RegistryError;
 use pleach_tree::SpeciesError;

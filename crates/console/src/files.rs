@@ -1,5 +1,6 @@
 //! Files that appear whole or not at all.
 
+use crate::text;
 use anyhow::Context;
 use std::io::{BufWriter, Cursor, IntoInnerError, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -11,9 +12,9 @@ pub fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<NamedTempFile>) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
-    let what = || format!("cannot write {}", path.display());
+    let what = || format!("cannot write {}", text::path(path));
     if path.is_dir() {
-        anyhow::bail!("{} is a folder, expected a file", path.display());
+        anyhow::bail!("{} is a folder, expected a file", text::path(path));
     }
     let result = (|| {
         let mut file = BufWriter::new(beside(path)?);
@@ -26,11 +27,26 @@ pub fn write_whole(
     result.with_context(what)
 }
 
+/// How the names of temporary files end, and how many random letters and digits stand before that.
+const TEMPORARY: &str = ".tmp";
+const RANDOM: usize = 6;
+
+/// The file that a temporary file of this name was to become, if it is named like one of ours:
+/// `NAME.XXXXXX.tmp`. A program that is killed while it writes leaves such a file behind.
+#[must_use]
+pub fn temporary_of(name: &str) -> Option<&str> {
+    let (file, random) = name.strip_suffix(TEMPORARY)?.rsplit_once('.')?;
+    let is_random = random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric());
+    (is_random && !file.is_empty()).then_some(file)
+}
+
 /// An empty file in the folder of `path`, which goes away unless it is persisted.
 fn beside(path: &Path) -> std::io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".");
     let mut builder = tempfile::Builder::new();
-    builder.prefix(path.file_name().unwrap_or_default()).suffix(".tmp");
+    builder.prefix(&name).suffix(TEMPORARY).rand_bytes(RANDOM);
     // As any new file: a temporary one would be its owner's alone.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
@@ -44,7 +60,7 @@ pub fn write_text(path: &Path, text: &str) -> anyhow::Result<()> {
 
 /// Makes a folder and those above it.
 pub fn make_folder(path: &Path) -> anyhow::Result<()> {
-    std::fs::create_dir_all(path).with_context(|| format!("cannot make the folder {}", path.display()))
+    std::fs::create_dir_all(path).with_context(|| format!("cannot make the folder {}", text::path(path)))
 }
 
 /// `folder/name`, the folder made if it is not there.
@@ -100,6 +116,19 @@ mod tests {
         // Nothing is left beside it.
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
         assert!(write_text(folder.path(), "a").unwrap_err().to_string().contains("is a folder"));
+    }
+
+    #[test]
+    fn temporary_files_are_known_by_their_names() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = beside(&folder.path().join("best.toml")).unwrap();
+        let name = file.path().file_name().unwrap().to_str().unwrap();
+        assert_eq!(temporary_of(name), Some("best.toml"), "{name}");
+        for other in
+            ["best.toml", "best.toml.tmp", "notes.tmp", "best.toml.12345.tmp", ".aB3dE6.tmp", "a.aB-dE6.tmp"]
+        {
+            assert_eq!(temporary_of(other), None, "{other}");
+        }
     }
 
     #[cfg(unix)]

@@ -2,6 +2,7 @@
 
 #![expect(clippy::print_stderr, reason = "this is the one place that prints messages")]
 
+use crate::text;
 use anstyle::{AnsiColor, Style};
 use serde::Serialize;
 use std::io::{IsTerminal, Write};
@@ -20,8 +21,13 @@ pub fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Writes `text` and a line's end to standard output.
+/// Writes `text` and a line's end to standard output, for people: what a terminal would obey is escaped.
 pub fn line(text: impl std::fmt::Display) -> anyhow::Result<()> {
+    data(text::lines(&text.to_string()))
+}
+
+/// Writes `text` and a line's end to standard output as it is: what would stand in a file.
+pub fn data(text: impl std::fmt::Display) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     writeln!(out, "{text}")?;
     Ok(())
@@ -29,7 +35,13 @@ pub fn line(text: impl std::fmt::Display) -> anyhow::Result<()> {
 
 /// Writes `value` to standard output as JSON on one line.
 pub fn json(value: &impl Serialize) -> anyhow::Result<()> {
-    line(serde_json::to_string(value)?)
+    data(json_text(value)?)
+}
+
+/// JSON whose texts hold nothing that a terminal would obey: it is the same JSON with more escapes.
+pub fn json_text(value: &impl Serialize) -> anyhow::Result<String> {
+    let text = serde_json::to_string(value)?;
+    Ok(if text.contains(text::is_hidden) { text::json(&text) } else { text })
 }
 
 /// Tells the user something on standard error that is not a result; nothing with `--quiet`.
@@ -38,19 +50,19 @@ pub fn note(text: impl std::fmt::Display) {
     if let Some(text) = text.strip_prefix("warning: ") {
         warning(text);
     } else if !QUIET.load(Ordering::Relaxed) {
-        eprintln!("{text}");
+        eprintln!("{}", text::lines(&text));
     }
 }
 
 /// Warns the user on standard error, also with `--quiet`.
 pub fn warning(text: impl std::fmt::Display) {
-    anstream::eprintln!("{WARNING}warning:{WARNING:#} {text}");
+    anstream::eprintln!("{WARNING}warning:{WARNING:#} {}", text::lines(&text.to_string()));
 }
 
 /// Tells the user what was written where; nothing for standard output.
 pub fn wrote(path: &Path) {
     if !crate::files::is_stdout(path) {
-        note(format_args!("wrote {}", path.display()));
+        note(format_args!("wrote {}", text::path(path)));
     }
 }
 
@@ -71,7 +83,8 @@ fn joined(
 ) -> String {
     let mut message = String::new();
     for (i, cause) in error.chain().enumerate() {
-        let cause = drawn(cause).unwrap_or_else(|| cause.to_string());
+        // A drawing has colors of ours, and escapes what it shows.
+        let cause = drawn(cause).unwrap_or_else(|| text::lines(&cause.to_string()).into_owned());
         // Errors that carry their source in their own words would say it twice.
         if i > 0 && message.contains(&cause) {
             continue;

@@ -9,6 +9,7 @@ use super::table::Table;
 use super::{Part, stop};
 use anyhow::{Context, bail};
 use pleach_console::interrupted::Interrupted;
+use pleach_console::regular;
 use pleach_tree::Key;
 use std::fs::{File, OpenOptions};
 use std::io::Write;
@@ -45,6 +46,8 @@ impl Journal {
     pub(super) fn open(folder: &Path, spec: &str, columns: &[String], part: &Part) -> anyhow::Result<Self> {
         let path = path(folder);
         let head = head(spec);
+        // Rows are appended in place: not to what a link leads to.
+        regular::check_file(&path)?;
         let mut known = Vec::new();
         let mut text = head.clone() + &columns.join(",") + "\n";
         if path.exists() && !part.overwrite {
@@ -72,8 +75,7 @@ impl Journal {
             }
         }
         pleach_console::files::write_text(&path, &text)?;
-        let open = OpenOptions::new().append(true).open(&path);
-        let file = open.with_context(|| format!("cannot write {}", path.display()))?;
+        let file = regular::open(&path, OpenOptions::new().append(true))?;
         let kept = Some(Kept { folder: folder.to_owned(), path, file });
         Ok(Self { columns: columns.to_vec(), rows: Vec::new(), known, kept })
     }

@@ -1,6 +1,6 @@
 //! What growing a tree may take.
 
-use crate::graph::{Linking, Rules, Work};
+use crate::graph::{Linking, Meter, OutOfSteps, Rules, Work};
 use pleach_tree::math;
 use pleach_tree::{Blame, GrowError, Limits};
 
@@ -28,28 +28,68 @@ impl Budget {
         Self { limits, steps_per_node, steps: 0, work: Work::default() }
     }
 
-    /// Asks for `graphs` graphs of `nodes` nodes at `level`, from 1, before they are grown.
-    pub(crate) fn nodes(&mut self, graphs: usize, nodes: usize, level: usize) -> Result<(), GrowError> {
+    /// Asks for `graphs` graphs of `nodes` nodes before they are grown; gives what they may take beyond
+    /// what is certain.
+    pub(crate) fn nodes(&mut self, graphs: usize, nodes: usize, causes: &Causes) -> Result<Meter, GrowError> {
         let steps = (graphs as u64).saturating_mul(nodes as u64).saturating_mul(self.steps_per_node);
         self.steps = self.steps.saturating_add(steps).saturating_add(1);
-        self.check(|| match level {
-            1 => vec!["nodes".to_owned()],
-            _ => vec!["subgraph_nodes".to_owned(), format!("branching[{}]", level - 2)],
-        })
-    }
-
-    /// Takes in what graphs took.
-    pub(crate) fn done(&mut self, work: Work) -> Result<(), GrowError> {
-        self.work += work;
-        // Darts that missed.
-        self.steps = self.steps.saturating_add(work.throws.saturating_sub(work.nodes) as u64);
-        self.check(|| vec!["spacing".to_owned()])
-    }
-
-    fn check(&self, blame: impl FnOnce() -> Vec<String>) -> Result<(), GrowError> {
-        if self.steps > self.limits.work {
-            return Err(GrowError::TooMuchWork { limit: self.limits.work, blame: Blame(blame()) });
+        match self.limits.work.checked_sub(self.steps) {
+            Some(left) => Ok(Meter::new(left)),
+            None => Err(self.too_much(&causes.nodes)),
         }
+    }
+
+    /// Takes in what the graphs took of what [`Self::nodes`] gave.
+    pub(crate) fn done(
+        &mut self,
+        grown: Result<Work, OutOfSteps>,
+        meter: &Meter,
+        causes: &Causes,
+    ) -> Result<(), GrowError> {
+        self.steps = self.steps.saturating_add(meter.taken());
+        self.work += grown.map_err(|out| match out {
+            OutOfSteps::Misses => self.too_much(&causes.misses),
+            OutOfSteps::Crowding => self.too_much(&causes.crowding),
+        })?;
         Ok(())
     }
+
+    fn too_much(&self, blame: &[String]) -> GrowError {
+        GrowError::TooMuchWork { limit: self.limits.work, blame: Blame(blame.to_vec()) }
+    }
+}
+
+/// What is to blame where graphs take too much.
+#[derive(Clone, Debug)]
+pub(crate) struct Causes {
+    /// For their number and that of their nodes.
+    pub(crate) nodes: Vec<String>,
+    /// For darts that find no place.
+    pub(crate) misses: Vec<String>,
+    /// For nodes that are crowded.
+    pub(crate) crowding: Vec<String>,
+}
+
+impl Causes {
+    /// For the first graph, whose nodes are crowded because of `crowded`.
+    pub(crate) fn first(crowded: &str) -> Self {
+        Self { nodes: names(["nodes"]), misses: names(["spacing", "nodes"]), crowding: names([crowded]) }
+    }
+
+    /// For the graph of the roots.
+    pub(crate) fn roots() -> Self {
+        let misses = names(["spacing", "subgraph_nodes"]);
+        Self { nodes: names(["subgraph_nodes"]), crowding: misses.clone(), misses }
+    }
+
+    /// For the graphs of `level`, from 2. Which of them is the first to find that too much is taken
+    /// depends on threads, so that one thing is to blame.
+    pub(crate) fn level(level: usize) -> Self {
+        let nodes = vec!["subgraph_nodes".to_owned(), format!("branching[{}]", level - 2)];
+        Self { nodes, ..Self::roots() }
+    }
+}
+
+fn names<const N: usize>(names: [&str; N]) -> Vec<String> {
+    names.map(str::to_owned).to_vec()
 }

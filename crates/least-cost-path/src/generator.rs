@@ -1,14 +1,14 @@
 //! The growth model.
 
-use crate::budget::Budget;
+use crate::budget::{Budget, Causes};
 use crate::family::NAME;
 use crate::graph::{Rules, Work};
 use crate::leaves;
-use crate::levels::Levels;
+use crate::levels::{First, Levels};
 use crate::numbers::{Given, Numbers, space};
 use crate::skeleton::Skeleton;
 use crate::stems::Stems;
-use crate::structure::Structure;
+use crate::structure::{Structure, VOLUMES};
 use crate::volume;
 use pleach_tree::{
     Blame, CheckedParams, Conflict, Foliage, Generator, GrowError, Growth, Key, ParamSpace, Slot, StemKind,
@@ -48,10 +48,14 @@ impl LeastCostPath {
         let key = Key::root(growth.seed);
         let rules = Rules::new(&n, growth.parallel);
         let mut budget = Budget::new(growth.limits, &rules);
-        let first = match &self.structure.volumes {
-            Some(volumes) => volumes.volume(n.crown_radius),
-            None => volume::first(&n, self.structure.outline.as_ref().map(|drawn| &drawn.outline), key),
+        let (volume, crowded) = match &self.structure.volumes {
+            Some(volumes) => (volumes.volume(n.crown_radius), VOLUMES),
+            None => {
+                let drawn = self.structure.outline.as_ref().map(|drawn| &drawn.outline);
+                (volume::first(&n, drawn, key), "nodes")
+            }
         };
+        let first = First { volume: &volume, causes: Causes::first(crowded) };
         let Scratch { levels, skeleton, stems } = scratch;
         levels.above(&n, &first, key, &rules, &mut budget, skeleton)?;
         if skeleton.points.len() < 2 {

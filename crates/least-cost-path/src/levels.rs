@@ -1,8 +1,8 @@
 //! Graphs around the endpoints of graphs, level by level.
 
-use crate::budget::Budget;
+use crate::budget::{Budget, Causes};
 use crate::direction::{Orientation, turned};
-use crate::graph::{Ends, Graph, Rules, Work};
+use crate::graph::{Ends, Graph, Meter, OutOfSteps, Rules, Work};
 use crate::life::{Lifespans, Light};
 use crate::numbers::Numbers;
 use crate::purpose::{LIGHT, ROOTS, SUBGRAPH};
@@ -51,7 +51,14 @@ impl Shape {
         Volume::of(Part::new(solid, job.at + job.axis * forward, job.axis, true), self.side)
     }
 
-    fn grow(&self, job: &Job, rules: &Rules, graph: &mut Graph, batch: &mut Batch) -> Work {
+    fn grow(
+        &self,
+        job: &Job,
+        rules: &Rules,
+        meter: &Meter,
+        graph: &mut Graph,
+        batch: &mut Batch,
+    ) -> Result<Work, OutOfSteps> {
         let volume = self.volume(job);
         // Where the ground cuts some of the volume off, the rest is as dense.
         let share = volume.content / volume.parts[0].solid.content().max(f64::MIN_POSITIVE);
@@ -60,11 +67,18 @@ impl Shape {
         // What is mostly below the ground would only creep along it.
         if nodes >= 2 && share >= MIN_SHARE {
             let ends = Ends::Random { count: job.count, shell: 1.0 };
-            work = graph.grow(&volume, job.at, (nodes, ends), rules, job.key, &mut batch.paths);
+            work = graph.grow(&volume, job.at, (nodes, ends), rules, job.key, meter, &mut batch.paths)?;
         }
         batch.stop();
-        work
+        Ok(work)
     }
+}
+
+/// Where the first graph grows, and what is to blame where it takes too much.
+#[derive(Debug)]
+pub(crate) struct First<'a> {
+    pub(crate) volume: &'a Volume,
+    pub(crate) causes: Causes,
 }
 
 /// Memory of the levels.
@@ -85,7 +99,7 @@ impl Levels {
     pub(crate) fn above(
         &mut self,
         n: &Numbers,
-        first: &Volume,
+        first: &First<'_>,
         key: Key,
         rules: &Rules,
         budget: &mut Budget,
@@ -149,7 +163,8 @@ impl Levels {
         let depth = n.root_depth;
         let ends = Ends::Taproot { laterals: n.root_laterals as usize, within: 0.6 * depth * n.root_spread };
         // As many nodes as eight of the other graphs have: enough for the paths to wander.
-        self.first(&underground(n), 8 * n.subgraph_nodes as usize, ends, key, rules, budget, skeleton)?;
+        let first = First { volume: &underground(n), causes: Causes::roots() };
+        self.first(&first, 8 * n.subgraph_nodes as usize, ends, key, rules, budget, skeleton)?;
         self.jobs.clear();
         for end in skeleton.ends.iter().skip(1) {
             let key = end.key.child(SUBGRAPH, 0);
@@ -170,7 +185,7 @@ impl Levels {
     #[expect(clippy::too_many_arguments, reason = "all of them are what a first graph is made of")]
     fn first(
         &mut self,
-        volume: &Volume,
+        &First { volume, ref causes }: &First<'_>,
         nodes: usize,
         ends: Ends,
         key: Key,
@@ -178,11 +193,11 @@ impl Levels {
         budget: &mut Budget,
         skeleton: &mut Skeleton,
     ) -> Result<(), GrowError> {
-        budget.nodes(1, nodes, 1)?;
+        let meter = budget.nodes(1, nodes, causes)?;
         self.batch.clear();
-        let work = self.graph.grow(volume, DVec3::ZERO, (nodes, ends), rules, key, &mut self.batch.paths);
-        budget.done(work)?;
-        let paths = &self.batch.paths;
+        let paths = &mut self.batch.paths;
+        let grown = self.graph.grow(volume, DVec3::ZERO, (nodes, ends), rules, key, &meter, paths);
+        budget.done(grown, &meter, causes)?;
         skeleton.append(0, &paths.points, &paths.ends, |node, number, outward| End {
             node,
             level: 1,
@@ -203,29 +218,37 @@ impl Levels {
         budget: &mut Budget,
         skeleton: &mut Skeleton,
     ) -> Result<(), GrowError> {
-        budget.nodes(self.jobs.len(), shape.nodes, level)?;
-        if rules.parallel && self.jobs.len() > CHUNK {
+        let causes = Causes::level(level);
+        let meter = budget.nodes(self.jobs.len(), shape.nodes, &causes)?;
+        let grow = |jobs: &[Job], graph: &mut Graph, batch: &mut Batch| {
+            jobs.iter().try_fold(Work::default(), |mut work, job| {
+                work += shape.grow(job, rules, &meter, graph, batch)?;
+                Ok(work)
+            })
+        };
+        let mut all = Work::default();
+        let grown = if rules.parallel && self.jobs.len() > CHUNK {
             let grown = |graph: &mut Graph, jobs: &[Job]| {
-                let (mut batch, mut work) = (Batch::default(), Work::default());
-                jobs.iter().for_each(|job| work += shape.grow(job, rules, graph, &mut batch));
-                (batch, work)
+                let mut batch = Batch::default();
+                grow(jobs, graph, &mut batch).map(|work| (batch, work))
             };
-            let batches: Vec<(Batch, Work)> =
+            let batches: Result<Vec<(Batch, Work)>, OutOfSteps> =
                 self.jobs.par_chunks(CHUNK).map_init(Graph::default, grown).collect();
-            for ((batch, work), jobs) in batches.iter().zip(self.jobs.chunks(CHUNK)) {
-                budget.done(*work)?;
-                append(batch, jobs, level, lifespans, skeleton);
-            }
+            batches.map(|batches| {
+                for ((batch, work), jobs) in batches.iter().zip(self.jobs.chunks(CHUNK)) {
+                    all += *work;
+                    append(batch, jobs, level, lifespans, skeleton);
+                }
+            })
         } else {
-            for jobs in self.jobs.chunks(CHUNK) {
+            self.jobs.chunks(CHUNK).try_for_each(|jobs| {
                 self.batch.clear();
-                let mut work = Work::default();
-                jobs.iter().for_each(|job| work += shape.grow(job, rules, &mut self.graph, &mut self.batch));
-                budget.done(work)?;
+                all += grow(jobs, &mut self.graph, &mut self.batch)?;
                 append(&self.batch, jobs, level, lifespans, skeleton);
-            }
-        }
-        Ok(())
+                Ok(())
+            })
+        };
+        budget.done(grown.map(|()| all), &meter, &causes)
     }
 }
 

@@ -1,7 +1,6 @@
 //! Every file format, read back by somebody else's reader or byte by byte.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-#![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
@@ -10,6 +9,7 @@ use pleach_mesh::{
     Card, Cards, LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Rig, Sink, Source,
     Wind, send,
 };
+use pleach_tests::tool;
 use pleach_tree::{Species, Tree};
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -277,17 +277,12 @@ fn wind_data_name_level_and_place() {
 #[test]
 fn the_khronos_validator_finds_no_error_and_no_warning() {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/support/validate.js");
-    let node = |argument: &str| {
-        Command::new("node").current_dir(script.parent().unwrap()).args(["-e", argument]).output()
-    };
-    match node("require('gltf-validator')") {
-        Ok(output) if output.status.success() => {}
-        _ => {
-            eprintln!(
-                "skipped: needs node and `npm install --no-save gltf-validator` in the repository's root"
-            );
-            return;
-        }
+    let probe = "require('gltf-validator').validateString('{\"asset\": {\"version\": \"2.0\"}}')\
+                 .then(report => process.exit(report.issues.numErrors))";
+    let needs = "node and `npm install --no-save gltf-validator` in the repository's root";
+    let mut node = Command::new("node");
+    if !tool::is_usable(needs, node.current_dir(script.parent().unwrap()).args(["-e", probe])) {
+        return;
     }
     let dir = tempfile::tempdir().unwrap();
     let cards = MeshSettings { leaves: LeafStyle::CrossedCards, wind: true, ..MeshSettings::default() };
@@ -315,9 +310,14 @@ fn the_khronos_validator_finds_no_error_and_no_warning() {
 #[test]
 fn the_usd_library_finds_nothing_wrong() {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/support/usd.py");
-    let python = |arguments: &[&str]| Command::new("python3").args(arguments).output();
-    if !python(&["-c", "from pxr import UsdValidation"]).is_ok_and(|run| run.status.success()) {
-        eprintln!("skipped: needs python3 and `pip install usd-core`");
+    let python = |arguments: &[&str]| {
+        let mut python = Command::new("python3");
+        python.args(arguments);
+        python
+    };
+    let probe = "from pxr import Usd, UsdGeom, UsdValidation\n\
+                 UsdValidation.ValidationRegistry().GetOrLoadAllValidators()";
+    if !tool::is_usable("python3 and `pip install usd-core`", &mut python(&["-c", probe])) {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
@@ -331,7 +331,7 @@ fn the_usd_library_finds_nothing_wrong() {
         let path = dir.path().join(format!("{name}.usda"));
         send(&[mesher], &mut usda::Usda::new(std::fs::File::create(&path).unwrap(), &notes, palette))
             .unwrap();
-        let run = python(&[script.to_str().unwrap(), path.to_str().unwrap()]).unwrap();
+        let run = python(&[script.to_str().unwrap(), path.to_str().unwrap()]).output().unwrap();
         let said = String::from_utf8_lossy(&run.stdout);
         assert!(run.status.success(), "{said}{}", String::from_utf8_lossy(&run.stderr));
         assert_eq!(said.trim(), format!("{} {}", count.vertices, count.triangles));

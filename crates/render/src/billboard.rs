@@ -25,7 +25,7 @@ const MARGIN: f32 = 0.03;
 pub struct Billboards {
     /// One row per tree, one column per side.
     pub picture: Picture,
-    /// The cards of each tree.
+    /// The cards of each tree; none where there is nothing of it to be seen.
     pub cards: Vec<Vec<Card>>,
 }
 
@@ -57,13 +57,19 @@ impl Billboards {
         bleed(&mut picture);
         Self { picture, cards }
     }
+
+    /// Whether no tree has a card.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.cards.iter().all(Vec::is_empty)
+    }
 }
 
 fn paint(tree: &Tree, palette: &Palette, sides: u32) -> Vec<(Card, Picture)> {
     let preview = Preview::new(tree, palette, HEIGHT);
     let (low, high) = preview.bounds();
     let (middle, half_height) = ((low.z + high.z) / 2.0, (high.z - low.z) / 2.0 * (1.0 + MARGIN));
-    (0..sides)
+    let views: Vec<(Card, Picture)> = (0..sides)
         .map(|side| {
             let azimuth = PI * f64::from(side) / f64::from(sides);
             let (sin, cos) = sin_cos(azimuth);
@@ -80,7 +86,9 @@ fn paint(tree: &Tree, palette: &Palette, sides: u32) -> Vec<(Card, Picture)> {
             let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
             (Card { corners, uv: [0.0, 0.0, 1.0, 1.0] }, preview.flat(&frame))
         })
-        .collect()
+        .collect();
+    let is_seen = |(_, view): &(Card, Picture)| view.rgba.chunks_exact(4).any(|pixel| pixel[3] > 0);
+    if views.iter().any(is_seen) { views } else { Vec::new() }
 }
 
 /// Gives transparent pixels the mean colour of the others: filters mix it into the edges.

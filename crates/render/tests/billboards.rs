@@ -43,3 +43,13 @@ fn billboards_show_the_silhouette_of_their_tree() {
         }
     }
 }
+
+#[test]
+fn what_is_not_seen_has_no_card() {
+    let species = pleach_generators::preset("acer").unwrap();
+    let (tree, nothing) = (species.grow(1).unwrap(), pleach_tree::Tree::default());
+    let palette = Palette::new(&species, None);
+    let billboards = Billboards::paint(&[&nothing, &tree], &palette, 2);
+    assert_eq!(billboards.cards.iter().map(Vec::len).collect::<Vec<_>>(), [0, 2]);
+    assert!(!billboards.is_empty() && Billboards::paint(&[&nothing], &palette, 3).is_empty());
+}

@@ -3,9 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-mod lists;
-
-use lists::values;
+use pleach_tree::conformance::list_within;
 use pleach_tree::{CheckedParams, Foliage, GrowError, Growth, Knot, Leaf, Limits, Stem, Tree, Workspace};
 use pleach_weber_penn::{WeberPenn, space};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
@@ -39,7 +37,7 @@ fn grow(params: &CheckedParams, growth: &Growth) -> (Result<Tree, GrowError>, us
 fn memory_is_bounded_and_threads_change_nothing() {
     let (mut grown, mut refused) = (0, [0; 4]);
     for case in 0..240 {
-        let params = space().check(values(case)).unwrap();
+        let params = space().check(list_within(space(), case)).unwrap();
         let foliage = if case % 3 == 0 { Foliage::None } else { Foliage::All };
         let growth = Growth { limits: LIMITS, foliage, ..Growth::seed(case) };
         let (serial, bytes) = grow(&params, &growth);

@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-mod lists;
-
-use lists::values;
+use pleach_tree::conformance::list_within;
 use pleach_tree::{
     CheckedParams, Draw, Foliage, Generator as _, GrowError, Growth, Individual, Limits, Tree, Workspace,
     individual::StemPath,
@@ -27,7 +25,7 @@ fn grow(params: &CheckedParams, growth: &Growth) -> Result<Tree, GrowError> {
 fn the_same_trees_grow() {
     let (mut grown, mut refused) = (0, 0);
     for case in 0..400 {
-        let params = space().check(values(case)).unwrap();
+        let params = space().check(list_within(space(), case)).unwrap();
         let part = 1 + case % 7;
         let limits = Limits {
             stems: 3000 / part as usize,

@@ -248,7 +248,7 @@ impl BlendCommand {
         if self.json {
             output::json(&made.report())?;
         } else if file.is_none() {
-            output::line(text.trim_end())?;
+            output::data(text.trim_end())?;
         } else {
             output::line(&made.species.description)?;
         }

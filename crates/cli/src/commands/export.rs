@@ -245,6 +245,7 @@ impl MeshArgs {
         let levels = lod::levels(tree, self.settings(), self.levels());
         let rig = self.sway.then(|| Rig::new(tree));
         let billboards = self.billboard.map(|sides| Billboards::paint(&[tree], &palette, sides));
+        let billboards = billboards.filter(|billboards| !billboards.is_empty());
         let mut sources = self.sources(&levels, rig.as_ref(), bark);
         sources.extend(billboards.iter().map(|b| cards(&b.cards[0])));
         let scene = Scene {

@@ -48,7 +48,7 @@ impl GrammarCommand {
             return Ok(());
         }
         if self.derive.is_none() && self.svg.is_none() {
-            return output::line(system.grammar().to_string().trim_end());
+            return output::data(system.grammar().to_string().trim_end());
         }
         let derivation = Derivation {
             params: params.as_deref(),
@@ -60,7 +60,7 @@ impl GrammarCommand {
         let derived =
             system.derive(&derivation).map_err(|error| anyhow!("{error}\n{}", system.report(&error)))?;
         let Some(path) = &self.svg else {
-            return output::line(derived.to_text());
+            return output::data(derived.to_text());
         };
         let drawing = derived.to_svg().with_context(|| format!("{} cannot be drawn", self.file))?;
         files::write_out(path, |out| Ok(out.write_all(drawing.as_bytes())?))?;

@@ -1,7 +1,7 @@
 //! `pleach map`: species on a plane.
 
 use super::landmarks::MapArgs;
-use crate::{files, input, output};
+use crate::{files, input, output, text};
 use pleach_blend::draw::{Drawing, each_tree, silhouettes};
 use pleach_blend::measures::correlation;
 use pleach_blend::picture::{self, Extras, TraitField};
@@ -160,7 +160,7 @@ fn write_dots(map: &BlendMap, path: &Path) -> anyhow::Result<()> {
         csv.write_record(["species", "x", "y", "residual"])?;
         for (i, (species, dot)) in map.landmarks().species().iter().zip(map.dots()).enumerate() {
             let numbers = [dot.x, dot.y, map.residual(i)].map(|v| format!("{v:.6}"));
-            csv.write_record(std::iter::once(species.name.clone()).chain(numbers))?;
+            csv.write_record(std::iter::once(text::cell(&species.name).into_owned()).chain(numbers))?;
         }
         Ok(csv.flush()?)
     })

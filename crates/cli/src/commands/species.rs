@@ -31,7 +31,7 @@ impl SpeciesCommand {
             return if self.json {
                 output::json(&all_values(&species))
             } else {
-                output::line(species.to_toml(&[]).trim_end())
+                output::data(species.to_toml(&[]).trim_end())
             };
         }
         let known: Vec<Species> =

@@ -8,6 +8,8 @@ pub(crate) struct Cells {
     low: DVec3,
     per_meter: f64,
     pub(crate) dims: [usize; 3],
+    /// Whether they are larger than asked for, so that there are not more than allowed.
+    pub(crate) is_coarse: bool,
 }
 
 impl Cells {
@@ -15,6 +17,7 @@ impl Cells {
     /// more.
     pub(crate) fn new(low: DVec3, high: DVec3, side: f64, max: usize) -> Self {
         let size = (high - low).max(DVec3::splat(1e-9));
+        let wanted = side;
         let mut side = side.max(size.max_element() * 1e-6);
         loop {
             let dims = (size / side).floor() + DVec3::ONE;
@@ -23,6 +26,7 @@ impl Cells {
                     low,
                     per_meter: 1.0 / side,
                     dims: [dims.x as usize, dims.y as usize, dims.z as usize],
+                    is_coarse: side > wanted,
                 };
             }
             side *= 1.25;
@@ -44,6 +48,12 @@ impl Cells {
     /// The number of a cell; along x they are consecutive.
     pub(crate) const fn number(&self, [x, y, z]: [usize; 3]) -> usize {
         (z * self.dims[1] + y) * self.dims[0] + x
+    }
+
+    /// The cell of a number.
+    pub(crate) const fn place(&self, number: usize) -> [usize; 3] {
+        let [x, y, _] = self.dims;
+        [number % x, number / x % y, number / (x * y)]
     }
 
     /// The rows of cells at most `reach` cells away from `cell`: first and last cell of each.

@@ -1,16 +1,25 @@
 //! Links: to the nearest node in each sector (Yao), or to all within reach.
 
 use super::cells::Cells;
+use super::meter::{Meter, OutOfSteps};
 use super::nodes::Nodes;
 use glam::DVec3;
 use rayon::prelude::*;
 
 /// Sectors around a node, at most.
 pub(crate) const SECTORS: usize = 8;
+/// Cells that reach over the longest edge.
+const REACH: usize = 2;
 /// No neighbor.
 const NOBODY: u32 = u32::MAX;
 /// Fewer nodes than this are compared one by one.
 const FEW: usize = 200;
+/// Nodes that are looked at around a node before that counts as work beyond what nodes pay for: so many,
+/// and so many times the cube of the longest edge over the mean spacing. Twice what cells that are not
+/// coarse hold.
+const FREE_LOOKS: (f64, f64) = (64.0, 32.0);
+/// So many more are a step.
+const LOOKS_PER_STEP: u64 = 8;
 /// Nodes beyond which links are found on several threads.
 const MANY: usize = 20_000;
 
@@ -68,12 +77,25 @@ pub(crate) struct Linker {
 }
 
 impl Linker {
-    /// Links `nodes` that are at most `longest` apart, and those along axes.
-    pub(crate) fn link(&mut self, nodes: &Nodes, linking: Linking, longest: f64, parallel: bool) {
+    /// Links `nodes` that are at most `longest` apart, and those along axes. `link` is the longest edge
+    /// over the mean spacing. Where nodes lie crowded in a large box, what is looked at takes steps of
+    /// `meter`, before it is looked at.
+    pub(crate) fn link(
+        &mut self,
+        nodes: &Nodes,
+        linking: Linking,
+        (longest, link): (f64, f64),
+        parallel: bool,
+        meter: &Meter,
+    ) -> Result<(), OutOfSteps> {
         self.edges.clear();
+        let cells = self.sort(&nodes.points, longest);
+        if !meter.take(self.crowding(&cells, link)) {
+            return Err(OutOfSteps::Crowding);
+        }
         match linking {
-            Linking::Yao(sectors) => self.yao(nodes, |d| sectors.of(d), longest, parallel),
-            Linking::Threshold => self.threshold(nodes, longest),
+            Linking::Yao(sectors) => self.yao(nodes, &cells, |d| sectors.of(d), longest, parallel),
+            Linking::Threshold => self.threshold(nodes, &cells, longest),
         }
         if !nodes.chain.is_empty() {
             // Axes are never cut, however far apart their nodes are.
@@ -81,14 +103,34 @@ impl Linker {
             self.edges.sort_unstable();
             self.edges.dedup();
         }
+        Ok(())
     }
 
-    /// Sorts nodes into cells, two of which reach over `longest`.
+    /// Steps for what is looked at beyond what nodes pay for.
+    fn crowding(&self, cells: &Cells, link: f64) -> u64 {
+        if !cells.is_coarse || self.points.len() < FEW {
+            return 0;
+        }
+        let free = (FREE_LOOKS.0 + FREE_LOOKS.1 * link * link * link) as u64;
+        let mut looks = 0_u64;
+        for cell in 0..cells.len() {
+            let here = u64::from(self.starts[cell + 1] - self.starts[cell]);
+            if here > 0 {
+                let row =
+                    |(first, last): (usize, usize)| u64::from(self.starts[last + 1] - self.starts[first]);
+                let around: u64 = cells.rows(cells.place(cell), REACH).map(row).sum();
+                looks = looks.saturating_add(here.saturating_mul(around.saturating_sub(free)));
+            }
+        }
+        looks / LOOKS_PER_STEP
+    }
+
+    /// Sorts nodes into cells, [`REACH`] of which reach over `longest`.
     fn sort(&mut self, points: &[DVec3], longest: f64) -> Cells {
         let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (low, high) = points.iter().fold(start, |(low, high), p| (low.min(*p), high.max(*p)));
         let max = if points.len() < FEW { 1 } else { 4 * points.len() };
-        let cells = Cells::new(low, high, longest / 2.0, max);
+        let cells = Cells::new(low, high, longest / REACH as f64, max);
         self.starts.clear();
         self.starts.resize(cells.len() + 1, 0);
         let cell = |p: &DVec3| cells.number(cells.at(*p));
@@ -112,8 +154,14 @@ impl Linker {
         cells
     }
 
-    fn yao(&mut self, nodes: &Nodes, sector: impl Fn(DVec3) -> usize + Sync, longest: f64, parallel: bool) {
-        let cells = self.sort(&nodes.points, longest);
+    fn yao(
+        &mut self,
+        nodes: &Nodes,
+        cells: &Cells,
+        sector: impl Fn(DVec3) -> usize + Sync,
+        longest: f64,
+        parallel: bool,
+    ) {
         let mut found = std::mem::take(&mut self.found);
         found.clear();
         found.resize(nodes.points.len(), [NOBODY; SECTORS]);
@@ -122,7 +170,7 @@ impl Linker {
             let this = self.order[place];
             let cluster = nodes.clusters[this as usize];
             let mut best = [longest * longest; SECTORS];
-            for (first, last) in cells.rows(cells.at(p), 2) {
+            for (first, last) in cells.rows(cells.at(p), REACH) {
                 for other in self.starts[first] as usize..self.starts[last + 1] as usize {
                     let d = self.points[other] - p;
                     let (far, to) = (d.length_squared(), sector(d));
@@ -166,12 +214,11 @@ impl Linker {
         }
     }
 
-    fn threshold(&mut self, nodes: &Nodes, longest: f64) {
-        let cells = self.sort(&nodes.points, longest);
+    fn threshold(&mut self, nodes: &Nodes, cells: &Cells, longest: f64) {
         for (place, p) in self.points.iter().enumerate() {
             let this = self.order[place];
             let cluster = nodes.clusters[this as usize];
-            for (first, last) in cells.rows(cells.at(*p), 2) {
+            for (first, last) in cells.rows(cells.at(*p), REACH) {
                 for other in self.starts[first] as usize..self.starts[last + 1] as usize {
                     let that = self.order[other];
                     let its = nodes.clusters[that as usize];
@@ -210,7 +257,8 @@ mod tests {
 
     fn linked(nodes: &Nodes, sector: impl Fn(DVec3) -> usize + Sync) -> (Vec<(u32, u32)>, usize) {
         let mut linker = Linker::default();
-        linker.yao(nodes, sector, 1e3, false);
+        let cells = linker.sort(&nodes.points, 1e3);
+        linker.yao(nodes, &cells, sector, 1e3, false);
         linker.edges.sort_unstable();
         (linker.edges.clone(), linker.made())
     }
@@ -272,7 +320,7 @@ mod tests {
         for linking in [Linking::Yao(Sectors::Octants), Linking::Yao(Sectors::CubeFaces), Linking::Threshold]
         {
             let mut linker = Linker::default();
-            linker.link(&nodes, linking, longest, false);
+            linker.link(&nodes, linking, (longest, 2.0), false, &Meter::new(0)).unwrap();
             let mut edges = linker.edges.clone();
             edges.sort_unstable();
             let mut expected = Vec::new();
@@ -310,7 +358,9 @@ mod tests {
         let nodes = nodes(&many);
         let edges = |parallel: bool| {
             let mut linker = Linker::default();
-            linker.link(&nodes, Linking::Yao(Sectors::Octants), 0.06, parallel);
+            linker
+                .link(&nodes, Linking::Yao(Sectors::Octants), (0.06, 2.0), parallel, &Meter::new(0))
+                .unwrap();
             linker.edges
         };
         let (one, several) = (edges(false), edges(true));

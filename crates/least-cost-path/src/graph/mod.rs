@@ -3,10 +3,12 @@
 mod cells;
 mod connect;
 mod links;
+mod meter;
 mod nodes;
 mod search;
 
 pub(crate) use links::{Linking, Sectors};
+pub(crate) use meter::{Meter, OutOfSteps};
 pub(crate) use nodes::ON_AXIS;
 pub(crate) use search::Weights;
 
@@ -101,7 +103,9 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    /// Grows a graph of `count` nodes around `root` and appends its paths to `paths`.
+    /// Grows a graph of `count` nodes around `root` and appends its paths to `paths`; what it takes
+    /// beyond what nodes pay for is taken from `meter`.
+    #[expect(clippy::too_many_arguments, reason = "all of them are what a graph is made of")]
     pub(crate) fn grow(
         &mut self,
         volume: &Volume,
@@ -109,11 +113,12 @@ impl Graph {
         (count, ends): (usize, Ends),
         rules: &Rules,
         key: Key,
+        meter: &Meter,
         paths: &mut Paths,
-    ) -> Work {
-        let thrown = self.nodes.throw(volume, root, count, rules.spacing, key);
+    ) -> Result<Work, OutOfSteps> {
+        let thrown = self.nodes.throw(volume, root, (count, rules.spacing), key, meter)?;
         let longest = rules.link * thrown.mean_spacing;
-        self.linker.link(&self.nodes, rules.linking, longest, rules.parallel);
+        self.linker.link(&self.nodes, rules.linking, (longest, rules.link), rules.parallel, meter)?;
         if rules.linking != Linking::Threshold {
             self.connector.connect(&self.nodes.points, &mut self.linker.edges);
         }
@@ -127,13 +132,13 @@ impl Graph {
             Ends::Taproot { laterals, within } => self.choose_roots(laterals, within, key),
         };
         self.trace(paths);
-        Work {
+        Ok(Work {
             nodes: self.nodes.points.len(),
             edges: self.linker.edges.len(),
             throws: thrown.throws,
             endpoints: self.wanted.len() - lost,
             lost,
-        }
+        })
     }
 
     /// Chooses endpoints: those nodes whose draws are the smallest, cluster by cluster.
@@ -237,6 +242,18 @@ mod tests {
         Volume::of(part, Side::Above)
     }
 
+    fn grown(
+        graph: &mut Graph,
+        volume: &Volume,
+        wanted: (usize, Ends),
+        rules: &Rules,
+        seed: u64,
+    ) -> (Paths, Work) {
+        let (mut paths, meter) = (Paths::default(), Meter::new(1_000_000));
+        let work = graph.grow(volume, DVec3::Z, wanted, rules, Key::root(seed), &meter, &mut paths);
+        (paths, work.unwrap())
+    }
+
     /// Nodes, edges and lost endpoints of 100 graphs in which every node is an endpoint.
     fn many(linking: Linking, link: f64, alpha: f64) -> Work {
         let volume = portion((alpha * std::f64::consts::PI).cos());
@@ -244,9 +261,7 @@ mod tests {
         let mut graph = Graph::default();
         for seed in 0..100 {
             let ends = Ends::Random { count: 1000, shell: 1.0 };
-            let key = Key::root(seed);
-            work +=
-                graph.grow(&volume, DVec3::Z, (100, ends), &rules(linking, link), key, &mut Paths::default());
+            work += grown(&mut graph, &volume, (100, ends), &rules(linking, link), seed).1;
         }
         work
     }
@@ -266,11 +281,9 @@ mod tests {
 
     #[test]
     fn paths_are_a_tree_with_all_endpoints() {
-        let mut paths = Paths::default();
         let ends = Ends::Random { count: 12, shell: 1.0 };
         let rules = rules(Linking::Yao(Sectors::Octants), 2.1);
-        let work =
-            Graph::default().grow(&portion(0.0), DVec3::Z, (300, ends), &rules, Key::root(1), &mut paths);
+        let (paths, work) = grown(&mut Graph::default(), &portion(0.0), (300, ends), &rules, 1);
         assert_eq!((work.endpoints, paths.ends.len()), (12, 12));
         for (i, (_, next)) in paths.points.iter().enumerate() {
             assert!(*next == ROOT || (*next as usize) < i, "the way to the root comes first");
@@ -281,9 +294,8 @@ mod tests {
     fn one_more_endpoint_leaves_the_others() {
         let rules = rules(Linking::Yao(Sectors::Octants), 2.1);
         let ends = |count| {
-            let mut paths = Paths::default();
             let ends = Ends::Random { count, shell: 0.5 };
-            Graph::default().grow(&portion(0.0), DVec3::Z, (300, ends), &rules, Key::root(1), &mut paths);
+            let (paths, _) = grown(&mut Graph::default(), &portion(0.0), (300, ends), &rules, 1);
             paths.ends.iter().map(|(_, node)| *node).collect::<Vec<_>>()
         };
         assert_eq!(ends(10), ends(11)[..10]);

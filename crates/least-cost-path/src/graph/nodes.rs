@@ -1,6 +1,7 @@
 //! Nodes: darts thrown into a volume, none too near to another.
 
 use super::cells::Cells;
+use super::meter::{Meter, OutOfSteps};
 use crate::purpose::{AXIS, DART};
 use crate::volume::Volume;
 use glam::DVec3;
@@ -13,6 +14,13 @@ use std::f64::consts::TAU;
 const MAX_THROWS: usize = 50;
 /// Fewer nodes than this are compared one by one.
 const FEW: usize = 200;
+/// Nodes and parts of the volume that a dart may be compared with before that counts as work. Where the
+/// volume is about as large as the box around it, 27 cells hold no more.
+const FREE_LOOKS: usize = 64;
+/// So many more are a step.
+const LOOKS_PER_STEP: usize = 8;
+/// Steps that are counted before they are taken from the meter.
+const AT_A_TIME: usize = 4096;
 /// The part of nodes that lie along an axis.
 pub(crate) const ON_AXIS: u16 = u16::MAX;
 
@@ -41,15 +49,16 @@ pub(crate) struct Thrown {
 
 impl Nodes {
     /// Throws until there are `count` nodes, the root among them, `spacing` times their mean spacing
-    /// apart; fewer where they do not fit.
+    /// apart; fewer where they do not fit. A dart that misses takes a step of `meter`, and so does what
+    /// it is compared with where that is much.
     pub(crate) fn throw(
         &mut self,
         volume: &Volume,
         root: DVec3,
-        count: usize,
-        spacing: f64,
+        (count, spacing): (usize, f64),
         key: Key,
-    ) -> Thrown {
+        meter: &Meter,
+    ) -> Result<Thrown, OutOfSteps> {
         self.points.clear();
         self.parts.clear();
         self.chain.clear();
@@ -57,7 +66,7 @@ impl Nodes {
         if !(mean_spacing > 0.0 && mean_spacing.is_finite()) {
             self.put(root, ON_AXIS);
             self.sort_into_clusters(volume, mean_spacing);
-            return Thrown { throws: 0, mean_spacing: 0.0 };
+            return Ok(Thrown { throws: 0, mean_spacing: 0.0 });
         }
         self.put(root, ON_AXIS);
         self.line_axes(volume, count, mean_spacing, key);
@@ -78,13 +87,21 @@ impl Nodes {
             }
         }
         let darts = key.child(DART, 0);
-        let mut throws = 0;
+        let (mut throws, mut spent) = (0, Spent::default());
         while self.points.len() < count && throws < MAX_THROWS * count {
+            if spent.due() >= AT_A_TIME {
+                spent.pay(meter)?;
+            }
             let dart = darts.child(0, throws as u32);
             throws += 1;
+            let mut looks = volume.parts.len();
             let u = [dart.unit(0, 0), dart.unit(0, 1), dart.unit(0, 2)];
             let pick = if volume.parts.len() > 1 { dart.unit(0, 3) } else { 0.0 };
-            let Some((p, part)) = volume.dart(pick, u) else { continue };
+            let Some((p, part)) = volume.dart(pick, u) else {
+                spent.misses += 1;
+                spent.crowding += steps_of(looks);
+                continue;
+            };
             let near = |i: usize| self.points[i].distance_squared(p) < least * least;
             let is_crowded = if few {
                 (0..self.points.len()).any(near)
@@ -94,20 +111,25 @@ impl Nodes {
                         let mut i = self.heads[cell];
                         while i != u32::MAX && !near(i as usize) {
                             i = self.next[i as usize];
+                            looks += 1;
                         }
                         i != u32::MAX
                     })
                 })
             };
-            if !is_crowded {
+            spent.crowding += steps_of(looks);
+            if is_crowded {
+                spent.misses += 1;
+            } else {
                 self.put(p, part as u16);
                 if !few {
                     self.file(&cells, self.points.len() - 1);
                 }
             }
         }
+        spent.pay(meter)?;
         self.sort_into_clusters(volume, mean_spacing);
-        Thrown { throws, mean_spacing }
+        Ok(Thrown { throws, mean_spacing })
     }
 
     fn put(&mut self, p: DVec3, part: u16) {
@@ -171,20 +193,80 @@ impl Nodes {
     }
 }
 
+/// Steps that darts took.
+#[derive(Debug, Default)]
+struct Spent {
+    misses: usize,
+    crowding: usize,
+    paid: usize,
+}
+
+impl Spent {
+    const fn due(&self) -> usize {
+        self.misses + self.crowding - self.paid
+    }
+
+    /// Takes from `meter` what was not yet taken.
+    fn pay(&mut self, meter: &Meter) -> Result<(), OutOfSteps> {
+        let due = self.due();
+        self.paid += due;
+        match meter.take(due as u64) {
+            true => Ok(()),
+            false if self.crowding > self.misses => Err(OutOfSteps::Crowding),
+            false => Err(OutOfSteps::Misses),
+        }
+    }
+}
+
+/// Steps that `looks` are, those left out that every dart has.
+const fn steps_of(looks: usize) -> usize {
+    looks.saturating_sub(FREE_LOOKS) / LOOKS_PER_STEP
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::volume::{Part, Side, Solid};
+    use glam::dvec3;
+
+    /// Enough for all that is thrown here.
+    const MANY: u64 = 1_000_000;
 
     fn ball(radius: f64, cos: f64) -> Volume {
         Volume::of(Part::new(Solid::Portion { radius, cos }, DVec3::ZERO, DVec3::Z, true), Side::Above)
+    }
+
+    fn throw(nodes: &mut Nodes, volume: &Volume, count: usize, spacing: f64, seed: u64) -> Thrown {
+        let meter = Meter::new(MANY);
+        nodes.throw(volume, DVec3::ZERO, (count, spacing), Key::root(seed), &meter).unwrap()
+    }
+
+    #[test]
+    fn darts_stop_when_their_steps_are_used_up() {
+        let mut nodes = Nodes::default();
+        for (limit, is_enough) in [(0, false), (10_000, false), (MANY, true)] {
+            let meter = Meter::new(limit);
+            let thrown = nodes.throw(&ball(1.0, 0.0), DVec3::ZERO, (10_000, 0.85), Key::root(1), &meter);
+            assert_eq!(thrown.is_ok(), is_enough, "{limit}");
+            assert!(is_enough || meter.taken() < limit + 2 * AT_A_TIME as u64, "{}", meter.taken());
+        }
+    }
+
+    #[test]
+    fn darts_that_are_compared_with_all_nodes_stop() {
+        // Two small balls far apart: no cells are so small that few nodes share one.
+        let ball = |at| Part::new(Solid::Portion { radius: 0.1, cos: -1.0 }, at, DVec3::Z, true);
+        let volume = Volume::new(vec![ball(DVec3::Z), ball(dvec3(900.0, 900.0, 900.0))], Side::Above);
+        let meter = Meter::new(100_000);
+        let thrown = Nodes::default().throw(&volume, DVec3::ZERO, (100_000, 0.7), Key::root(1), &meter);
+        assert_eq!(thrown.map(|thrown| thrown.throws), Err(OutOfSteps::Crowding));
     }
 
     #[test]
     fn nodes_keep_their_distance_and_are_as_many_as_asked() {
         for (count, spacing) in [(50, 0.7), (1000, 0.7), (1000, 0.5), (3000, 0.8)] {
             let mut nodes = Nodes::default();
-            let thrown = nodes.throw(&ball(2.0, 0.0), DVec3::ZERO, count, spacing, Key::root(1));
+            let thrown = throw(&mut nodes, &ball(2.0, 0.0), count, spacing, 1);
             assert_eq!(nodes.points.len(), count);
             let least = spacing * thrown.mean_spacing;
             for (i, p) in nodes.points.iter().enumerate() {
@@ -199,7 +281,7 @@ mod tests {
         // Published for 1000 nodes: 1.4, 1.7, 2.7, 8.
         for (spacing, expected) in [(0.5, 1.4), (0.6, 1.7), (0.7, 2.7), (0.8, 8.0)] {
             let mut nodes = Nodes::default();
-            let thrown = nodes.throw(&ball(1.0, 0.0), DVec3::ZERO, 1000, spacing, Key::root(2));
+            let thrown = throw(&mut nodes, &ball(1.0, 0.0), 1000, spacing, 2);
             let per_node = thrown.throws as f64 / 1000.0;
             assert!((per_node / expected - 1.0).abs() < 0.3, "{spacing}: {per_node}");
         }
@@ -208,14 +290,14 @@ mod tests {
     #[test]
     fn darts_that_find_no_place_come_to_an_end() {
         let mut nodes = Nodes::default();
-        let thrown = nodes.throw(&ball(1.0, 0.0), DVec3::ZERO, 500, 1.2, Key::root(3));
+        let thrown = throw(&mut nodes, &ball(1.0, 0.0), 500, 1.2, 3);
         assert_eq!(thrown.throws, MAX_THROWS * 500);
         assert!((50..499).contains(&nodes.points.len()));
         let flat = Volume::of(
             Part::new(Solid::Cylinder { radius: 0.0, height: 1.0 }, DVec3::ZERO, DVec3::Z, true),
             Side::Above,
         );
-        nodes.throw(&flat, DVec3::ZERO, 500, 0.7, Key::root(3));
+        let _ = throw(&mut nodes, &flat, 500, 0.7, 3);
         assert_eq!(nodes.points, [DVec3::ZERO], "nothing fits into nothing");
     }
 }

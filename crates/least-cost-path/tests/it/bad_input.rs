@@ -128,6 +128,25 @@ fn what_is_too_much_is_refused_before_it_is_grown() {
         let error = read(text).unwrap().grow(1).map(|tree| tree.stems.len()).unwrap_err();
         assert!(matches!(error, GrowError::TooMuchWork { .. }), "{text}: {error}");
     }
+    // Darts that find no place, and nodes that lie crowded in a large box, are given up on the way.
+    let far = "volumes = [{ shape = \"sphere\", center = [0, 0, 1], radius = 0.1 }, { shape = \"sphere\", center = [900, 900, 900], radius = 0.1 }]";
+    let limits = Limits { work: 2_000_000, ..Limits::DEFAULT };
+    for (text, blame) in [
+        ("nodes = 50000\nlevels = 1\nspacing = 0.85".to_owned(), "because of `spacing` and `nodes`"),
+        (format!("nodes = 20000\nlevels = 1\n{far}"), "because of `volumes`"),
+        (format!("nodes = 20000\nlevels = 1\nspacing = 0\n{far}"), "because of `volumes`"),
+        (
+            "subgraph_nodes = 1000\nspacing = 0.85\nbranching = [50, 1, 1, 1, 1, 1, 1, 1]\nlevels = 2"
+                .to_owned(),
+            "because of `spacing` and `subgraph_nodes`",
+        ),
+    ] {
+        for parallel in [false, true] {
+            let grown = read(&text).unwrap().grow_with(&Growth { limits, parallel, ..Growth::seed(1) });
+            let told = grown.map(|tree| tree.stems.len()).unwrap_err().to_string();
+            assert!(told.contains(blame), "{text}: {told}");
+        }
+    }
     let small = Limits { work: 1000, ..Limits::DEFAULT };
     let refused = read("").unwrap().grow_with(&Growth { limits: small, ..Growth::seed(1) });
     let told = refused.map(|tree| tree.stems.len()).unwrap_err().to_string();

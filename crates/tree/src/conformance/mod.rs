@@ -29,7 +29,7 @@ pub use growth::{
 pub use individuals::{draws_of_a_stem_are_its_own, individuals_are_read_back};
 pub use numbers::{
     at_ends_or_between, conflicts_are_told_before_growing, declarations_are_consistent,
-    inactive_numbers_change_nothing, resizing_is_similar_or_refused,
+    inactive_numbers_change_nothing, list_within, resizing_is_similar_or_refused,
 };
 
 use crate::species::Family;

@@ -3,6 +3,7 @@
 use super::{SEED, all};
 use crate::grow_error::GrowError;
 use crate::growth::{Growth, Limits};
+use crate::math;
 use crate::param::{CheckedParams, ParamSpace, Slot};
 use crate::plant::Tree;
 use crate::random::Key;
@@ -48,6 +49,31 @@ pub fn at_ends_or_between(space: &ParamSpace, drawn: &[(u32, f64)]) -> Vec<f64> 
         })
     };
     space.slots().map(value).collect()
+}
+
+/// Random list number `case` of values that `space` allows, of one of five kinds: within the search's ranges,
+/// within the declared ranges, at their ends, mostly the defaults with some ends, and within the declared
+/// ranges with numbers that are mostly small.
+#[must_use]
+pub fn list_within(space: &ParamSpace, case: u64) -> Vec<f64> {
+    let key = Key::root(case);
+    let mut values = space.defaults();
+    for (slot, value) in space.slots().zip(&mut values) {
+        let (kind, number) = (space.kind_of(slot), slot.index() as u32);
+        let (low, high) = kind.range();
+        let (unit, end) = (key.unit(1, number), if key.unit(2, number) < 0.5 { low } else { high });
+        let between = |(low, high): (f64, f64)| kind.repair(low + (high - low) * unit);
+        *value = match case % 5 {
+            0 => between(space.search_range(slot)),
+            1 => between((low, high)),
+            2 => end,
+            3 if key.unit(3, number) < 0.1 => end,
+            // Counts are mostly far below what is allowed.
+            4 if !kind.is_choice() => kind.repair(between((low, high)) * math::powi(unit, 4)),
+            _ => *value,
+        };
+    }
+    values
 }
 
 fn checked(space: &Arc<ParamSpace>, values: Vec<f64>) -> CheckedParams {

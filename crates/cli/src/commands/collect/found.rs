@@ -3,6 +3,7 @@
 use super::run_name;
 use super::table::{FAILED, GOAL, REASON, STATE};
 use crate::commands::fit::run_folder::{RunFolder, SUMMARY};
+use crate::text;
 use anyhow::Context;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -98,12 +99,12 @@ impl Found {
         };
         for row in reader.records() {
             let row = row.with_context(cannot)?;
-            let cell = |at: usize| row.get(at).unwrap_or_default();
+            let cell = |at: usize| text::from_cell(row.get(at).unwrap_or_default()).into_owned();
             let goal = PathBuf::from(cell(goal));
             if cell(state) == FAILED
                 && let Some(name) = run_name(&goal)
             {
-                let _ = self.failures.insert(name, Failure { goal, reason: cell(reason).to_owned() });
+                let _ = self.failures.insert(name, Failure { goal, reason: cell(reason) });
             }
         }
         Ok(())

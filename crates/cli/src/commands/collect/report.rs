@@ -1,6 +1,7 @@
 //! What is said of a collection: for people, for scripts, and whether it is complete.
 
 use super::matched::{Matched, State};
+use crate::text::shown;
 use anyhow::ensure;
 use serde::Serialize;
 
@@ -107,7 +108,7 @@ impl Report {
                 let parts = [Some(&line.goal), folder].into_iter().flatten().cloned();
                 let why = (!line.why.is_empty()).then(|| line.why.join(", "));
                 let parts: Vec<String> = parts.chain(why).collect();
-                text.push_str(&format!("\n{kind}: {}", parts.join(": ")));
+                text.push_str(&format!("\n{kind}: {}", shown(&parts.join(": "))));
             }
             if let Some(more @ 1..) = lines.len().checked_sub(MAX_LINES) {
                 text.push_str(&format!("\n{kind}: and {more} more"));
@@ -116,7 +117,8 @@ impl Report {
         if let Some(first) = self.not_asked_for.first() {
             let count = self.not_asked_for.len();
             text.push_str(&format!(
-                "\n{count} run folders are of no goal that was asked for, such as {first}"
+                "\n{count} run folders are of no goal that was asked for, such as {}",
+                shown(first)
             ));
         }
         text

@@ -7,7 +7,7 @@ use super::summary::write_table;
 use super::task::{Ended, Task};
 use super::{Fit, RUNS, list, run_name, signals, table};
 use crate::interrupted::Interrupted;
-use crate::{files, input, output};
+use crate::{files, input, output, text};
 use anyhow::{Context, bail, ensure};
 use pleach::plan::library;
 use pleach_fit::{FitSettings, GuessLibrary};
@@ -102,7 +102,7 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
             queue.push_back(i);
             continue;
         }
-        let name = format!("[{}/{all}] {}", i + 1, jobs[i].task.goal.display());
+        let name = format!("[{}/{all}] {}", i + 1, text::path(&jobs[i].task.goal));
         let ended = match &jobs[i].state {
             State::Finished(summary) => Ok(One::Before(summary.clone())),
             _ => one(fit, settings, &jobs[i], mode, &mut library, &stop),
@@ -144,12 +144,12 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
     }
 
     if !fit.json {
-        output::line(format!("summary  {}", table.display()))?;
+        output::line(format!("summary  {}", text::path(&table)))?;
     }
     let failed: Vec<String> = jobs
         .iter()
         .filter(|job| matches!(job.state, State::Failed(_)))
-        .map(|job| job.task.goal.display().to_string())
+        .map(|job| text::path(&job.task.goal).to_string())
         .collect();
     ensure!(failed.is_empty(), "{} of {all} goals failed: {}", failed.len(), failed.join(", "));
     Ok(())

@@ -3,6 +3,7 @@
 use super::args::GoalArgs;
 use super::goal::MaskSource;
 use super::{options, start, views};
+use crate::text;
 use anyhow::{Context, bail, ensure};
 use clap::ValueEnum as _;
 use std::collections::BTreeMap;
@@ -127,15 +128,15 @@ fn rows(path: &Path) -> anyhow::Result<Vec<Row>> {
         // The error of the reader names the line.
         let record = record.with_context(|| format!("cannot read {}", path.display()))?;
         let line = record.position().map_or(0, csv::Position::line);
-        let goal = record.get(file).filter(|cell| !cell.is_empty());
+        let goal = record.get(file).filter(|cell| !cell.is_empty()).map(text::from_cell);
         let goal = goal.with_context(|| format!("{}:{line}: `{FILE}` is empty", path.display()))?;
-        if let Some(first) = lines.insert(goal.to_owned(), line) {
-            bail!("{}:{line}: {goal} is listed twice, first in line {first}", path.display());
+        if let Some(first) = lines.insert(goal.clone().into_owned(), line) {
+            bail!("{}:{line}: {} is listed twice, first in line {first}", path.display(), text::shown(&goal));
         }
         let column = |name: &str| COLUMNS.iter().find(|column| column.name == name);
         let cells = header.iter().zip(&record).filter(|(_, cell)| !cell.is_empty());
         let cells = cells.filter_map(|(name, cell)| Some((column(name)?, cell.to_owned()))).collect();
-        rows.push(Row { line, goal: folder(path).join(goal), cells });
+        rows.push(Row { line, goal: folder(path).join(&*goal), cells });
     }
     ensure!(!rows.is_empty(), "{} lists no goal", path.display());
     Ok(rows)

@@ -1,5 +1,6 @@
 //! The table of many fits: a row for each goal, from the summaries in the run folders.
 
+use crate::text;
 use serde_json::Value;
 use std::path::Path;
 
@@ -65,7 +66,9 @@ pub(in crate::commands) fn row(goal: &Path, result: Result<&Value, &str>) -> Vec
         Err(reason) => (FAILED, reason, &Value::Null),
     };
     let cells = columns().map(|(_, at)| cell(summary.pointer(at)));
-    [goal.display().to_string(), state.to_owned(), reason.to_owned()].into_iter().chain(cells).collect()
+    let goal = goal.to_string_lossy();
+    let texts = [&goal, state, reason].map(|cell| text::cell(cell).into_owned());
+    texts.into_iter().chain(cells).collect()
 }
 
 /// A value as a cell; nothing where there is none. A number that was read back from a file may differ
@@ -73,7 +76,7 @@ pub(in crate::commands) fn row(goal: &Path, result: Result<&Value, &str>) -> Vec
 fn cell(value: Option<&Value>) -> String {
     match value {
         None | Some(Value::Null) => String::new(),
-        Some(Value::String(text)) => text.clone(),
+        Some(Value::String(text)) => text::cell(text).into_owned(),
         // Warnings, by their kinds.
         Some(Value::Array(items)) => {
             items.iter().map(|item| cell(item.get("kind"))).collect::<Vec<_>>().join(" ")
@@ -94,6 +97,9 @@ mod tests {
         assert_eq!(cell(Some(&0.25.into())), "0.250000");
         assert_eq!(cell(Some(&3.into())), "3");
         assert_eq!(cell(Some(&"oak".into())), "oak");
+        assert_eq!(cell(Some(&"=1+1".into())), "'=1+1");
+        assert_eq!(cell(Some(&(-3).into())), "-3", "a number is no formula");
+        assert_eq!(row(Path::new("-a\n.png"), Err("+"))[..3], ["'-a\\u{a}.png", "failed", "'+"]);
         assert_eq!(cell(Some(&Value::Null)) + &cell(None), "");
     }
 }

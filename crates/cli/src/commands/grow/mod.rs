@@ -1,24 +1,29 @@
 //! `pleach grow`: one tree, or many seeds of a species.
 
 pub(super) mod formats;
+mod in_order;
 mod statistics;
 
 use super::export::{Export, MeshArgs};
 use crate::input::LimitArgs;
 use crate::{files, input, output, skeleton};
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use formats::{Format, Goes};
 use indicatif::{ProgressBar, ProgressStyle};
 use pleach_silhouette::{Frame, View, picture};
 use pleach_tree::{Foliage, Growth, Species, Tree, Workspace};
-use rayon::prelude::*;
-use statistics::Report;
+use statistics::{Report, Summary};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 /// Height and width of pictures where nothing is said of them.
 const SIZE: u32 = 1024;
+
+/// Seeds of one command, at most: days of growing.
+const MAX_SEEDS: u64 = 1_000_000_000;
+/// The same where each tree becomes a file or two: as many as a folder may hold without harm.
+const MAX_WRITTEN: u64 = 1_000_000;
 
 const EXAMPLES: &str = "Examples:
   pleach grow quaking_aspen --seed 3            quaking_aspen-3.json and .png
@@ -166,34 +171,40 @@ impl Grow {
         Ok(())
     }
 
-    /// Grows every seed on all threads; results in order of seeds.
+    /// Grows every seed on all threads; results in order of seeds, as they are made.
     fn many(&self, species: &Species, seeds: &Range<u64>) -> anyhow::Result<()> {
         if self.out.as_deref().is_some_and(files::is_file) {
             bail!("several trees need a folder, not a file: -o {}/", species.name);
         }
-        let bar = progress(seeds.end - seeds.start);
-        let reports: Vec<Report<'_>> = seeds
-            .clone()
-            .into_par_iter()
-            .map_init(Default::default, |(workspace, tree): &mut (Workspace, Tree), seed| {
-                species
-                    .generator
-                    .grow(&species.params, &self.growth(seed), workspace, tree)
-                    .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
-                self.apply_season(species, tree);
-                if self.out.is_some() || self.format.is_some() {
-                    self.write_all(species, seed, tree)?;
-                }
-                bar.inc(1);
-                Ok(Report::new(species, seed, tree))
-            })
-            .collect::<anyhow::Result<_>>()?;
+        let (count, is_written) = (seeds.end - seeds.start, self.out.is_some() || self.format.is_some());
+        let max = if is_written { MAX_WRITTEN } else { MAX_SEEDS };
+        ensure!(
+            count <= max,
+            "--seeds {}..{} are {count} trees, and at most {max} are {} at a time; take a smaller range",
+            seeds.start,
+            seeds.end,
+            if is_written { "written" } else { "grown" }
+        );
+        let bar = progress(count);
+        let mut summary = Summary::default();
+        let make = |(workspace, tree): &mut (Workspace, Tree), seed| {
+            species
+                .generator
+                .grow(&species.params, &self.growth(seed), workspace, tree)
+                .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
+            self.apply_season(species, tree);
+            if is_written {
+                self.write_all(species, seed, tree)?;
+            }
+            Ok(Report::new(species, seed, tree))
+        };
+        in_order::for_each(seeds, make, |report| {
+            bar.inc(1);
+            summary.add(&report);
+            if self.json { bar.suspend(|| output::json(&report)) } else { Ok(()) }
+        })?;
         bar.finish_and_clear();
-        if self.json {
-            reports.iter().try_for_each(output::json)
-        } else {
-            output::line(statistics::summarize(&reports))
-        }
+        if self.json { Ok(()) } else { output::line(summary.text(&species.name)) }
     }
 
     /// One file with many trees.

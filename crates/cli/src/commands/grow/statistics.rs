@@ -60,31 +60,86 @@ pub(super) fn describe(report: &Report<'_>) -> String {
     )
 }
 
-/// Mean, standard deviation and range of every figure over many trees.
-pub(super) fn summarize(reports: &[Report<'_>]) -> String {
-    type Figure = (&'static str, fn(&TreeStats) -> f64);
-    const FIGURES: [Figure; 8] = [
-        ("stems", |s| s.stems.iter().sum::<usize>() as f64),
-        ("Bézier points", |s| s.bezier_points.iter().sum::<usize>() as f64),
-        ("leaves", |s| s.leaves as f64),
-        ("blossoms", |s| s.blossoms as f64),
-        ("height, m", |s| s.height_m),
-        ("width x, m", |s| s.crown_width_x_m),
-        ("width y, m", |s| s.crown_width_y_m),
-        ("leaf area, m²", |s| s.leaf_area_m2),
-    ];
-    let mut rows = vec![["", "mean", "sd", "min", "max"].map(str::to_owned).to_vec()];
-    for (name, figure) in FIGURES {
-        let values: Vec<f64> = reports.iter().map(|r| figure(&r.stats)).collect();
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let sd = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0)).sqrt();
-        let min = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        rows.push(
-            std::iter::once(name.to_owned()).chain([mean, sd, min, max].map(|v| format!("{v:.2}"))).collect(),
-        );
+/// A figure of a tree, and what it is called.
+type Figure = (&'static str, fn(&TreeStats) -> f64);
+
+const FIGURES: [Figure; 8] = [
+    ("stems", |s| s.stems.iter().sum::<usize>() as f64),
+    ("Bézier points", |s| s.bezier_points.iter().sum::<usize>() as f64),
+    ("leaves", |s| s.leaves as f64),
+    ("blossoms", |s| s.blossoms as f64),
+    ("height, m", |s| s.height_m),
+    ("width x, m", |s| s.crown_width_x_m),
+    ("width y, m", |s| s.crown_width_y_m),
+    ("leaf area, m²", |s| s.leaf_area_m2),
+];
+
+/// Mean, standard deviation and range of every figure over many trees, which come one after the other and
+/// are not kept.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Summary {
+    trees: u64,
+    figures: [Running; FIGURES.len()],
+}
+
+impl Summary {
+    /// Takes in one more tree.
+    pub(super) fn add(&mut self, report: &Report<'_>) {
+        self.trees += 1;
+        for (running, (_, figure)) in self.figures.iter_mut().zip(FIGURES) {
+            running.add(figure(&report.stats), self.trees);
+        }
     }
-    let species = reports.first().map_or("", |r| r.species);
-    format!("{species}, {} trees\n\n{}", reports.len(), output::table(&rows, &[1, 2, 3, 4]))
+
+    /// A table of the trees of `species`.
+    pub(super) fn text(&self, species: &str) -> String {
+        let mut rows = vec![["", "mean", "sd", "min", "max"].map(str::to_owned).to_vec()];
+        for (running, (name, _)) in self.figures.iter().zip(FIGURES) {
+            let sd = (running.squares / (self.trees as f64 - 1.0).max(1.0)).sqrt();
+            let numbers = [running.mean, sd, running.min, running.max].map(|v| format!("{v:.2}"));
+            rows.push(std::iter::once(name.to_owned()).chain(numbers).collect());
+        }
+        format!("{species}, {} trees\n\n{}", self.trees, output::table(&rows, &[1, 2, 3, 4]))
+    }
+}
+
+/// Mean, range and sum of squared differences from the mean of numbers so far, after Welford (1962).
+#[derive(Clone, Copy, Debug)]
+struct Running {
+    mean: f64,
+    squares: f64,
+    min: f64,
+    max: f64,
+}
+
+impl Default for Running {
+    fn default() -> Self {
+        Self { mean: 0.0, squares: 0.0, min: f64::INFINITY, max: f64::NEG_INFINITY }
+    }
+}
+
+impl Running {
+    /// Takes in number `count`, from 1.
+    fn add(&mut self, value: f64, count: u64) {
+        let off = value - self.mean;
+        self.mean += off / count as f64;
+        self.squares += off * (value - self.mean);
+        self.min = self.min.min(value);
+        self.max = self.max.max(value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn running_sums_are_those_of_the_whole() {
+        let values = [1e6 + 3.0, 1e6 + 1.0, 1e6 + 4.0, 1e6 + 1.0, 1e6 + 5.0];
+        let mut running = Running::default();
+        values.into_iter().zip(1..).for_each(|(value, count)| running.add(value, count));
+        assert!((running.mean - (1e6 + 2.8)).abs() < 1e-9, "{running:?}");
+        assert!((running.squares - 12.8).abs() < 1e-8, "{running:?}");
+        assert_eq!((running.min, running.max), (1e6 + 1.0, 1e6 + 5.0));
+    }
 }

@@ -1,7 +1,7 @@
 //! Masks of many photographs: a folder of pictures and a table.
 
 use super::{Found, MaskCommand};
-use crate::{files, input, output};
+use crate::{files, input, output, text};
 use anyhow::{Context, bail, ensure};
 use pleach_silhouette::goal::GoalWarning;
 use serde::Serialize;
@@ -16,8 +16,8 @@ type Column = (&'static str, fn(&Job, &Found) -> String);
 
 /// The columns of the table. All but `file` are empty where there is no mask; then `error` says why.
 const COLUMNS: [Column; 9] = [
-    ("file", |job, _| job.photo.display().to_string()),
-    ("mask", |job, _| job.mask.display().to_string()),
+    ("file", |job, _| cell(job.photo)),
+    ("mask", |job, _| cell(&job.mask)),
     ("confidence", |_, found| format!("{:.4}", found.confidence)),
     ("ink", |_, found| format!("{:.6}", found.ink)),
     ("ground_row", |_, found| found.ground_row.to_string()),
@@ -27,6 +27,11 @@ const COLUMNS: [Column; 9] = [
     ("warnings", |_, found| kinds(&found.warnings).join(" ")),
 ];
 const ERROR: &str = "error";
+
+/// A path as a cell of the table.
+fn cell(path: &Path) -> String {
+    text::cell(&path.to_string_lossy()).into_owned()
+}
 
 fn kinds(warnings: &[GoalWarning]) -> Vec<&'static str> {
     warnings.iter().map(GoalWarning::kind).collect()
@@ -76,7 +81,7 @@ pub(super) fn run(command: &MaskCommand, photos: &[PathBuf]) -> anyhow::Result<(
         vec![COLUMNS.iter().map(|(name, _)| (*name).to_owned()).chain([ERROR.to_owned()]).collect()];
     let mut failed = Vec::new();
     for (i, job) in jobs.iter().enumerate() {
-        let name = format!("[{}/{}] {}", i + 1, jobs.len(), job.photo.display());
+        let name = format!("[{}/{}] {}", i + 1, jobs.len(), text::path(job.photo));
         match one(command, job) {
             Ok(found) => {
                 let mut line =
@@ -97,10 +102,10 @@ pub(super) fn run(command: &MaskCommand, photos: &[PathBuf]) -> anyhow::Result<(
                 let why = output::causes(&error, ": ");
                 output::note(format!("{name}: failed: {why}"));
                 let mut row: Vec<String> = vec![String::new(); COLUMNS.len() + 1];
-                row[0] = job.photo.display().to_string();
-                row[COLUMNS.len()] = why;
+                row[0] = cell(job.photo);
+                row[COLUMNS.len()] = text::cell(&why).into_owned();
                 rows.push(row);
-                failed.push(job.photo.display().to_string());
+                failed.push(text::path(job.photo).to_string());
             }
         }
     }
@@ -113,7 +118,7 @@ pub(super) fn run(command: &MaskCommand, photos: &[PathBuf]) -> anyhow::Result<(
         Ok(csv.flush()?)
     })?;
     if !command.json {
-        output::line(format!("masks  {}", table.display()))?;
+        output::line(format!("masks  {}", text::path(&table)))?;
     }
     ensure!(
         failed.is_empty(),

@@ -1,5 +1,6 @@
 //! One process at a time in a run folder.
 
+use crate::regular;
 use anyhow::{Context, bail};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read as _, Seek as _, Write as _};
@@ -49,13 +50,8 @@ impl Lock {
         let path = folder.join(LOCK);
         let cannot = || format!("cannot write {}", path.display());
         for _ in 0..MAX_TRIES {
-            let mut file = OpenOptions::new()
-                .read(true)
-                .write(true)
-                .create(true)
-                .truncate(false)
-                .open(&path)
-                .with_context(cannot)?;
+            let mut file =
+                regular::open(&path, OpenOptions::new().read(true).write(true).create(true).truncate(false))?;
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {

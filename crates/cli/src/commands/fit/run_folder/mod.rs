@@ -8,6 +8,7 @@ mod swap;
 
 use super::request::Request;
 use super::several;
+use crate::regular::{self, Found};
 use crate::{files, output};
 use anyhow::{Context, bail, ensure};
 pub(super) use lock::Busy;
@@ -112,8 +113,8 @@ impl RunFolder {
     pub(in crate::commands) fn finished(&self) -> Option<Value> {
         let place = if swap::is_begun(&self.home) { self.home.join(STAGE) } else { self.home.clone() };
         // In the middle of a swap the summary may be at either place.
-        let text = std::fs::read_to_string(place.join(SUMMARY))
-            .or_else(|_| std::fs::read_to_string(self.home.join(SUMMARY)))
+        let text = regular::read_text(&place.join(SUMMARY))
+            .or_else(|_| regular::read_text(&self.home.join(SUMMARY)))
             .ok()?;
         let summary: Value = serde_json::from_str(&text).ok()?;
         (!self.home.join(CHECKPOINT).exists() && summary["finished"] == true).then_some(summary)
@@ -149,9 +150,19 @@ impl RunFolder {
         if self.home.exists() {
             ensure!(self.home.is_dir(), "{path} is a file, expected a folder for the run");
         }
-        for name in FILES.iter().chain([&lock::LOCK]) {
-            let file = self.home.join(name);
-            ensure!(!file.is_dir(), "{} is a folder, and a fit writes a file of that name", file.display());
+        regular::check_file(&self.home.join(lock::LOCK))?;
+        let stage = self.home.join(STAGE);
+        regular::check_folder(&stage)?;
+        for place in [&self.home, &stage] {
+            for name in FILES {
+                let file = place.join(name);
+                // A link to a file is replaced, never followed; but a search does not go on from one.
+                let found = Found::at(&file)?;
+                let is_state = [CHECKPOINT, STATE].contains(&name);
+                let is_fine = matches!(found, Found::Nothing | Found::File)
+                    || found == Found::Link && !is_state && !file.is_dir();
+                ensure!(is_fine, "{} is {found}, and a fit writes a file of that name", file.display());
+            }
         }
         let finished = self.finished();
         match mode {
@@ -216,6 +227,9 @@ impl RunFolder {
         swap::finish(&self.home)?;
         // Another run may have ended since.
         self.check(mode, request)?;
+        for place in [&self.home, &self.home.join(STAGE)] {
+            swap::remove_temporary(place)?;
+        }
         if let Some(summary) = self.finished() {
             if mode == Mode::Share && !self.is_unfinished() {
                 return Err(Finished { folder: self.home, summary }.into());

@@ -7,6 +7,7 @@
 
 use super::{SUMMARY, is_ours};
 use crate::files;
+use crate::regular::Found;
 use anyhow::Context;
 use std::fs;
 use std::io::ErrorKind;
@@ -56,6 +57,19 @@ pub(super) fn clear(folder: &Path) -> anyhow::Result<()> {
     let mut ours: Vec<String> = names(folder)?.into_iter().filter(|name| is_ours(name)).collect();
     ours.sort_by_key(|name| name != SUMMARY);
     ours.iter().try_for_each(|name| remove(&folder.join(name)))
+}
+
+/// Removes from `folder` what a run that was killed while it wrote a file has left of it. Only who has the
+/// lock may do that: others' files are being written.
+pub(super) fn remove_temporary(folder: &Path) -> anyhow::Result<()> {
+    let is_begun = |file: &str| is_ours(file) || [COMPLETE, MOVING].contains(&file);
+    for name in names(folder)?.iter().filter(|name| files::temporary_of(name).is_some_and(is_begun)) {
+        let path = folder.join(name);
+        if Found::at(&path)? == Found::File {
+            remove(&path)?;
+        }
+    }
+    Ok(())
 }
 
 /// Names of the files in `folder`; none if it is not there.
