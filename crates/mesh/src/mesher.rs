@@ -153,7 +153,7 @@ impl<'a> Mesher<'a> {
             rings.sample(self.tree, &self.tree.stems[i], self.tubes.tolerance());
             let first = block.vertices.len();
             self.tubes.push(&rings, vertex as u32, along, block);
-            let length = rings.rings.last().map_or(1.0, |r| r.along).max(1e-6);
+            let length = rings.length().unwrap_or(1.0).max(1e-6);
             if self.settings.wind {
                 let wind = wind::of_stem(self.tree, i);
                 block.wind.extend(block.vertices[first..].iter().map(|v| {
