@@ -78,7 +78,8 @@ impl<'a> Mesher<'a> {
         let leaves = if has(Parts::LEAVES) { &tree.leaves[..] } else { &[] };
         let leaf_shapes = tree.leaf_shapes.iter().map(|shape| UnitMesh::leaf(shape, settings.leaves));
         let blossoms = if has(Parts::BLOSSOMS) { &tree.blossoms[..] } else { &[] };
-        let blossom_shapes = tree.blossom_shapes.iter().map(|&s| UnitMesh::blossom(s, settings.leaves));
+        let style = settings.blossoms.unwrap_or(settings.leaves);
+        let blossom_shapes = tree.blossom_shapes.iter().map(|&s| UnitMesh::blossom(s, style));
         let shows_blobs = has(Parts::BLOBS) && settings.leaves != LeafStyle::None;
         let blobs = if shows_blobs { blobs::count(tree) } else { Count::default() };
         Self {
