@@ -21,7 +21,8 @@ fn acer(dir: &Dir, lines: &[&str]) -> String {
 fn a_species_file_may_say_that_its_trees_are_bare() {
     let dir = Dir::new();
     let _ = dir.file("bare.toml", acer(&dir, &["bare = true"]));
-    let grow = |more: &[&str]| leaves(&dir.run([&["grow", "bare.toml", "--stats-only", "--json"], more].concat()));
+    let grow =
+        |more: &[&str]| leaves(&dir.run([&["grow", "bare.toml", "--stats-only", "--json"], more].concat()));
     assert_eq!(grow(&[]), 0);
     assert!(grow(&["--leafy"]) > 100);
     let picture = |command: &str, species: &str, more: &[&str]| {
@@ -76,7 +77,8 @@ fn a_bare_fit_writes_species_that_grow_bare() {
 #[test]
 fn a_level_that_never_grows_takes_the_leaves_with_it_and_that_is_told() {
     let dir = Dir::new();
-    let lines = ["levels = 4", "length = [1, 0.8, 0.6, 0]", "length_v = [0, 0, 0, 0]", "branches = [1, 20, 10, 5]"];
+    let lines =
+        ["levels = 4", "length = [1, 0.8, 0.6, 0]", "length_v = [0, 0, 0, 0]", "branches = [1, 20, 10, 5]"];
     let _ = dir.file("lost.toml", acer(&dir, &lines));
     let said = |args: &[&str]| {
         let run = dir.run([args, &["-o", "p.png"]].concat());

@@ -30,7 +30,7 @@ pub(crate) fn leafless(model: &Model) -> Option<Leafless> {
         Some(Leafless {
             parameter: space().slot_name(id.slot(level)).to_string(),
             cause: format!(
-                "is 0, so no stems of level {level} grow, and no leaves, which hang on level {}",
+                "is 0, so no stems of level {level} grow, and leaves hang on those of level {}",
                 count - 1
             ),
             remedy,
