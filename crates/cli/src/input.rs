@@ -1,9 +1,10 @@
 //! What several commands read from their arguments.
 
+use crate::output;
 use pleach_generators::RegistryError;
 use pleach_silhouette::View;
 use pleach_silhouette::goal::{Encoded, GoalError};
-use pleach_tree::{Limits, Species};
+use pleach_tree::{Foliage, Limits, Species};
 use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::Path;
@@ -64,6 +65,36 @@ pub(crate) fn view(text: &str) -> Result<View, String> {
         _ => {
             Err("expected azimuth, or azimuth,elevation, in degrees, the elevation from -90 to 90".to_owned())
         }
+    }
+}
+
+/// Whether trees get leaves: what the species file says, unless the command line says otherwise.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct LeafArgs {
+    /// Grow stems only
+    #[arg(long)]
+    no_leaves: bool,
+    /// Grow leaves, also where the species file says that its trees are bare
+    #[arg(long, conflicts_with = "no_leaves")]
+    leafy: bool,
+}
+
+impl LeafArgs {
+    /// What is grown of `species`.
+    pub(crate) fn foliage(self, species: &Species) -> Foliage {
+        match (self.no_leaves, self.leafy) {
+            (true, _) => Foliage::None,
+            (_, true) => Foliage::All,
+            _ => species.foliage,
+        }
+    }
+}
+
+/// Tells the user if `species` asks for leaves that cannot grow.
+pub(crate) fn note_leafless(species: &Species, foliage: Foliage) {
+    let leafless = species.generator.leafless(species.params.values());
+    if let (Foliage::All, Some(leafless)) = (foliage, leafless) {
+        output::note(format!("{} has no leaves: {leafless}", species.name));
     }
 }
 

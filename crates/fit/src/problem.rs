@@ -116,7 +116,8 @@ impl FitProblem {
         Ok(Self { start: with_values(&self.start, values)?, ..self.clone() })
     }
 
-    /// The species that `genome` is: that of the start with its numbers, its structure and its tree seed.
+    /// The species that `genome` is: that of the start with its numbers, its structure and its tree seed,
+    /// and with leaves only if the problem has them.
     ///
     /// # Errors
     /// The first value that the generator does not allow; none of an individual that a fit has found.
@@ -129,7 +130,7 @@ impl FitProblem {
             ..self.start.clone()
         };
         let species = with_values(&start, genome.values.clone())?;
-        Ok(Species { tree_seed: Some(genome.tree_seed), ..species })
+        Ok(Species { tree_seed: Some(genome.tree_seed), foliage: self.foliage, ..species })
     }
 
     /// Tells whether every goal can be compared with.

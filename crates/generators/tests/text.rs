@@ -68,11 +68,12 @@ fn value() -> impl Strategy<Value = String> {
     ]
 }
 
-const KEYS: [&str; 16] = [
+const KEYS: [&str; 17] = [
     "name",
     "description",
     "generator",
     "tree_seed",
+    "bare",
     "appearance",
     "levels",
     "branches",

@@ -4,9 +4,9 @@ use crate::family::NAME;
 use crate::generator::LeastCostPath;
 use crate::numbers::space;
 use crate::structure::{Drawn, Structure};
-use pleach_tree::Species;
 use pleach_tree::math;
 use pleach_tree::species::Appearance;
+use pleach_tree::{Foliage, Species};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -148,6 +148,7 @@ pub fn species_around(views: &[SideView], height: f64) -> Option<(Species, Vec<V
         generator: Arc::new(LeastCostPath { structure }),
         params,
         tree_seed: None,
+        foliage: Foliage::All,
         appearance: Appearance::default(),
     };
     Some((species, lists))

@@ -78,7 +78,8 @@ impl<'a> Mesher<'a> {
         let leaves = if has(Parts::LEAVES) { &tree.leaves[..] } else { &[] };
         let leaf_shapes = tree.leaf_shapes.iter().map(|shape| UnitMesh::leaf(shape, settings.leaves));
         let blossoms = if has(Parts::BLOSSOMS) { &tree.blossoms[..] } else { &[] };
-        let blossom_shapes = tree.blossom_shapes.iter().map(|&s| UnitMesh::blossom(s, settings.leaves));
+        let style = settings.blossoms.unwrap_or(settings.leaves);
+        let blossom_shapes = tree.blossom_shapes.iter().map(|&s| UnitMesh::blossom(s, style));
         let shows_blobs = has(Parts::BLOBS) && settings.leaves != LeafStyle::None;
         let blobs = if shows_blobs { blobs::count(tree) } else { Count::default() };
         Self {
@@ -153,7 +154,7 @@ impl<'a> Mesher<'a> {
             rings.sample(self.tree, &self.tree.stems[i], self.tubes.tolerance());
             let first = block.vertices.len();
             self.tubes.push(&rings, vertex as u32, along, block);
-            let length = rings.rings.last().map_or(1.0, |r| r.along).max(1e-6);
+            let length = rings.length().unwrap_or(1.0).max(1e-6);
             if self.settings.wind {
                 let wind = wind::of_stem(self.tree, i);
                 block.wind.extend(block.vertices[first..].iter().map(|v| {

@@ -29,8 +29,10 @@ pub struct MeshSettings {
     pub min_sides: u32,
     /// Most sides of a stem, at least `min_sides`, at most [`MeshSettings::MAX_SIDES`].
     pub max_sides: u32,
-    /// How leaves and blossoms are drawn.
+    /// How leaves are drawn, and blossoms where [`MeshSettings::blossoms`] says nothing else.
     pub leaves: LeafStyle,
+    /// How blossoms are drawn, if not as leaves are.
+    pub blossoms: Option<LeafStyle>,
     /// Whether each corner carries wind data.
     pub wind: bool,
     /// What of the tree becomes triangles.
@@ -64,6 +66,7 @@ impl Default for MeshSettings {
             min_sides: 4,
             max_sides: 48,
             leaves: LeafStyle::Outline,
+            blossoms: None,
             wind: false,
             parts: Parts::LEAFY,
         }

@@ -199,7 +199,8 @@ impl Species {
         params::declared(py, self.space(), params::find(self.space(), name)?)
     }
 
-    /// Grows a tree: that of `seed`, by default of `tree_seed` or 1. The same seed gives the same tree, bit for bit.
+    /// Grows a tree: that of `seed`, by default of `tree_seed` or 1; with leaves unless the species file says `bare`
+    /// or `leaves` something else. The same seed gives the same tree, bit for bit.
     ///
     /// Raises `GrowError` for trees that are too large.
     ///
@@ -207,9 +208,10 @@ impl Species {
     /// >>> tree = pleach.species("silver_birch").grow(7)
     /// >>> tree.knots.shape[1], len(tree.leaf_positions) > 1000
     /// (3, True)
-    #[pyo3(signature = (seed = None, *, leaves = true))]
-    pub(crate) fn grow(&self, py: Python<'_>, seed: Option<u64>, leaves: bool) -> PyResult<Tree> {
+    #[pyo3(signature = (seed = None, *, leaves = None))]
+    pub(crate) fn grow(&self, py: Python<'_>, seed: Option<u64>, leaves: Option<bool>) -> PyResult<Tree> {
         let seed = seed.or(self.inner.tree_seed).unwrap_or(1);
+        let leaves = leaves.unwrap_or(self.inner.foliage == Foliage::All);
         let foliage = if leaves { Foliage::All } else { Foliage::None };
         let grown = py.detach(|| self.inner.grow_with(&Growth { foliage, ..Growth::seed(seed) }));
         Ok(Tree { species: self.clone(), seed, leaves, inner: grown.map_err(of_growth)? })
@@ -288,7 +290,7 @@ impl Species {
 
     /// In a notebook a species shows its tree.
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        self.grow(py, None, true)?._repr_png_(py)
+        self.grow(py, None, None)?._repr_png_(py)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {

@@ -228,7 +228,7 @@ impl Tree {
     /// For pickles: the tree of a species.
     #[staticmethod]
     fn _again(py: Python<'_>, species: &Species, seed: u64, leaves: bool) -> PyResult<Self> {
-        species.grow(py, Some(seed), leaves)
+        species.grow(py, Some(seed), Some(leaves))
     }
 }
 

@@ -1,4 +1,4 @@
-//! The fast path against the referee, for the fifteen species, with leaves and without.
+//! The fast path against the referee, for the fifteen species, with leaves and without, and for curves with corners.
 //!
 //! At 256² the referee has 16 × 16 samples per pixel, at 512² 11 × 11.
 
@@ -80,4 +80,31 @@ fn first_half_at_512() {
 #[test]
 fn second_half_at_512() {
     judge((512, 11), &fifteen()[8..]);
+}
+
+/// Stems that turn by up to 180 degrees at their knots. Some are thinner than a pixel, so that which pixels are
+/// black is left to chance; the covered area is not.
+#[test]
+fn curves_with_corners_cover_what_they_should() {
+    let mut wrong = Vec::new();
+    for name in [
+        "abop_hilbert",
+        "abop_hilbert_space",
+        "abop_sierpinski",
+        "abop_gosper",
+        "abop_dragon",
+        "abop_koch_island",
+        "abop_row_of_trees",
+        "abop_plant_c",
+        "abop_ternary_c",
+    ] {
+        let tree = pleach_generators::species(name).unwrap().grow(1).unwrap();
+        for (size, fineness) in [(256, 16), (512, 11)] {
+            let case = compare(name, &tree, Parts::BARE, size, fineness);
+            if (case.coverage - 1.0).abs() > 0.03 {
+                wrong.push(format!("{}: coverage {:.4}", case.name, case.coverage));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }

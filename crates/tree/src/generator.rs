@@ -6,6 +6,7 @@
 use crate::grow_error::{Conflict, GrowError};
 use crate::growth::{Growth, Workspace};
 use crate::individual::{Individual, Spread};
+use crate::leafless::Leafless;
 use crate::model::ModelId;
 use crate::param::{CheckedParams, ParamSpace, Slot};
 use crate::plant::Tree;
@@ -94,6 +95,13 @@ pub trait Generator: Send + Sync + fmt::Debug {
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
         let _ = values;
         Ok(())
+    }
+
+    /// The number because of which no tree of these `values`, each allowed by its declaration, has leaves, if
+    /// others ask for leaves: most likely that is not meant. None where leaves grow or are not asked for.
+    fn leafless(&self, values: &[f64]) -> Option<Leafless> {
+        let _ = values;
+        None
     }
 
     /// Changes `values` so that their tree grows `factor` times as large and nearly the same in all

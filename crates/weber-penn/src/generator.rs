@@ -2,13 +2,15 @@
 
 use crate::blame;
 use crate::grow::{Scratch, grow};
+use crate::leafless::leafless;
 use crate::model::Model;
 use crate::params::active::is_active;
 use crate::params::space;
 use crate::solid::{Solid, Surroundings};
 use crate::spread::spreads;
 use pleach_tree::{
-    CheckedParams, Conflict, Generator, GrowError, Growth, ParamSpace, Slot, Spread, Tree, Workspace,
+    CheckedParams, Conflict, Generator, GrowError, Growth, Leafless, ParamSpace, Slot, Spread, Tree,
+    Workspace,
 };
 use std::sync::Arc;
 
@@ -46,6 +48,10 @@ impl Generator for WeberPenn {
 
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
         check(&Model::new(values))
+    }
+
+    fn leafless(&self, values: &[f64]) -> Option<Leafless> {
+        leafless(&Model::new(values))
     }
 
     fn spreads(&self, values: &[f64]) -> Vec<Spread> {

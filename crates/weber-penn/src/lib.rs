@@ -23,6 +23,7 @@ mod generator;
 mod grow;
 mod leaf_batch;
 mod leaf_fan;
+mod leafless;
 mod leaves;
 mod model;
 mod params;

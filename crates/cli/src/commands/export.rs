@@ -16,7 +16,7 @@ use pleach_mesh::{
 };
 use pleach_render::{Billboards, billboard, leaf_picture, png_file};
 use pleach_tree::species::Season;
-use pleach_tree::{Parts, Species, Tree};
+use pleach_tree::{Foliage, Parts, Species, Tree};
 use serde_json::json;
 use std::io::Write;
 use std::path::Path;
@@ -144,9 +144,10 @@ impl MeshArgs {
         self.forest.is_some()
     }
 
-    /// Whether trees are to be grown without leaves.
-    pub(super) fn is_bare(&self) -> bool {
-        self.leaves == Some(Leaves::None)
+    /// Whether trees are to be grown with leaves, if `--leaves` says how they are drawn.
+    pub(super) fn foliage(&self) -> Option<Foliage> {
+        let leaves = self.leaves?;
+        Some(if leaves == Leaves::None { Foliage::None } else { Foliage::All })
     }
 
     /// What of a tree is drawn.

@@ -3,7 +3,7 @@
 use super::export::SEASONS;
 use super::gallery;
 use crate::choice::{Choice, one_of};
-use crate::input::LimitArgs;
+use crate::input::{LeafArgs, LimitArgs};
 use crate::{files, input, output};
 use anyhow::{Context, bail};
 use pleach_generators::GeneratorChoice;
@@ -12,7 +12,7 @@ use pleach_render::preview::{Background, Ground};
 use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_silhouette::View;
 use pleach_tree::species::{Color, Season};
-use pleach_tree::{Foliage, Growth, Parts, Species, Tree};
+use pleach_tree::{Growth, Parts, Species, Tree};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -43,7 +43,7 @@ pub(crate) struct Render {
     #[arg(required_unless_present = "gallery")]
     species: Option<String>,
     /// One sheet of the dissertation's fifteen species, leafy and in winter
-    #[arg(long, conflicts_with_all = ["species", "season", "no_leaves", "turntable", "background", "ground"])]
+    #[arg(long, conflicts_with_all = ["species", "season", "no_leaves", "leafy", "turntable", "background", "ground"])]
     gallery: bool,
     /// In a gallery: the species of this generator instead, or of `all`
     #[arg(long, value_name = "NAME", requires = "gallery", conflicts_with = "species")]
@@ -69,9 +69,8 @@ pub(crate) struct Render {
     /// Season; by default the species file's own, or summer with all its blossom
     #[arg(long, value_parser = one_of(SEASONS))]
     season: Option<Season>,
-    /// Draw stems only
-    #[arg(long)]
-    no_leaves: bool,
+    #[command(flatten)]
+    leaves: LeafArgs,
     /// Draw roots too, where the generator grows any
     #[arg(long)]
     roots: bool,
@@ -122,9 +121,7 @@ impl Render {
         let seed = self.seed.or(species.tree_seed).unwrap_or(1);
         let file = self.file()?;
         let mut tree = self.grow(species, seed)?;
-        let mut palette = Palette::new(species, self.season);
-        palette.leaves &= !self.no_leaves;
-        palette.blossoms &= !self.no_leaves;
+        let palette = Palette::new(species, self.season);
         palette.apply_season(&mut tree);
         let preview = Preview::with_parts(&tree, &palette, self.size, self.parts());
         let name = |what: &str| format!("{}-{seed}{what}.png", species.name);
@@ -184,7 +181,8 @@ impl Render {
     }
 
     fn grow(&self, species: &Species, seed: u64) -> anyhow::Result<Tree> {
-        let foliage = if self.no_leaves { Foliage::None } else { Foliage::All };
+        let foliage = self.leaves.foliage(species);
+        input::note_leafless(species, foliage);
         let growth = Growth { parallel: true, foliage, limits: self.limits.limits(), ..Growth::seed(seed) };
         species.grow_with(&growth).with_context(|| format!("{} does not grow from seed {seed}", species.name))
     }

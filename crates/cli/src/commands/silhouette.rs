@@ -1,10 +1,10 @@
 //! `pleach silhouette`: the binary picture of a tree.
 
-use crate::input::LimitArgs;
+use crate::input::{LeafArgs, LimitArgs};
 use crate::{files, input, output};
 use anyhow::{Context, bail};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View, four_views};
-use pleach_tree::{Foliage, Growth, Parts};
+use pleach_tree::{Growth, Parts};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
@@ -39,9 +39,8 @@ pub(crate) struct Silhouette {
     /// Four views in one picture: from the south, the south-east, the east and above
     #[arg(long, conflicts_with = "view")]
     four_views: bool,
-    /// Draw stems only
-    #[arg(long)]
-    no_leaves: bool,
+    #[command(flatten)]
+    leaves: LeafArgs,
     /// Draw roots too, where the generator grows any
     #[arg(long)]
     roots: bool,
@@ -56,13 +55,14 @@ impl Silhouette {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let species = input::species(&self.species)?;
         let seed = self.seed.or(species.tree_seed).unwrap_or(1);
-        let foliage = if self.no_leaves { Foliage::None } else { Foliage::All };
+        let foliage = self.leaves.foliage(&species);
+        input::note_leafless(&species, foliage);
         let growth = Growth { limits: self.limits.limits(), foliage, parallel: true, ..Growth::seed(seed) };
         let tree = species
             .grow_with(&growth)
             .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
 
-        let parts = Parts::with_foliage(!self.no_leaves);
+        let parts = Parts::from(foliage);
         let parts = if self.roots { parts | Parts::ROOTS } else { parts };
         let draw = |size: u32| {
             if self.four_views {

@@ -1,8 +1,8 @@
 //! `pleach species`: what is known, or one species as a file.
 
 use crate::{input, output};
-use pleach_tree::Species;
 use pleach_tree::species::{Form, Key};
+use pleach_tree::{Foliage, Species};
 use serde_json::json;
 
 const EXAMPLES: &str = "Examples:
@@ -68,6 +68,6 @@ fn all_values(species: &Species) -> serde_json::Value {
     let looks: serde_json::Map<_, _> = species.appearance.said().into_iter().map(look).collect();
     json!({
         "species": species.name, "generator": species.generator.family(), "parameters": values,
-        "description": species.description, "tree_seed": species.tree_seed, "appearance": looks,
+        "description": species.description, "tree_seed": species.tree_seed, "bare": species.foliage == Foliage::None, "appearance": looks,
     })
 }

@@ -4,8 +4,8 @@ use glam::DVec3;
 use pleach_tree::param::Effect;
 use pleach_tree::species::Appearance;
 use pleach_tree::{
-    CheckedParams, Generator, GrowError, Growth, Kind, Knot, Param, ParamSpace, Species, Stem, StemKind,
-    Tree, Unit, Workspace,
+    CheckedParams, Foliage, Generator, GrowError, Growth, Kind, Knot, Param, ParamSpace, Species, Stem,
+    StemKind, Tree, Unit, Workspace,
 };
 use std::sync::{Arc, LazyLock};
 
@@ -71,6 +71,7 @@ pub(crate) fn pole(name: &str, height: f64, girth: f64) -> Species {
         generator: Arc::new(Pole),
         params: SPACE.check(vec![height, girth]).expect("allowed values"),
         tree_seed: None,
+        foliage: Foliage::All,
         appearance: Appearance::default(),
     }
 }

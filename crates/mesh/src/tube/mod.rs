@@ -2,24 +2,29 @@
 //!
 //! Rings of corners stand along the spline, close enough for a tolerance in metres; their frames are
 //! carried along without twist; faces join neighbouring rings. The base is closed by a flat cap
-//! inside the parent (or below a trunk), the tip by a point or a low dome. A polygon's corners stand a
+//! inside the parent (or below a trunk), the tip by a point or a low dome. Where a stem turns sharply it is
+//! several tubes, each but the last closed by half a ball. A polygon's corners stand a
 //! little outside the model's circle, so that the mean width of the tube, and so its ink in a
 //! silhouette, is the model's.
 
 mod frame;
+mod path;
 mod rings;
 #[cfg(test)]
 #[path = "tests.rs"]
 mod shape_tests;
 
+pub(crate) use path::Path;
 pub(crate) use rings::Rings;
 
 use crate::block::{Block, Vertex};
 use crate::part::Count;
 use crate::settings::MeshSettings;
-use glam::{DVec3, vec2};
+use glam::vec2;
+use path::Ring;
 use pleach_tree::trig::sin_cos;
-use std::f64::consts::{PI, TAU};
+use rings::{End, Run};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// A regular polygon that stands for a circle.
 #[derive(Clone, Debug)]
@@ -28,6 +33,26 @@ struct Polygon {
     corners: Vec<(f64, f64)>,
     /// Corners stand at this times the radius.
     reach: f64,
+}
+
+impl Polygon {
+    /// Appends the corners of `ring`; `slope` is by how much the radius grows per metre there, and v starts at
+    /// `along`.
+    fn push(&self, ring: &Ring, slope: f64, along: f64, block: &mut Block) {
+        let (x, y) = (ring.side, ring.tangent.cross(ring.side));
+        let radius = ring.radius * self.reach;
+        let level = 1.0 / (1.0 + slope * slope).sqrt();
+        let n = self.corners.len() - 1;
+        for (j, &(cos, sin)) in self.corners.iter().enumerate() {
+            let out = x * cos + y * sin;
+            let normal = (out - ring.tangent * slope) * level;
+            block.vertices.push(Vertex {
+                position: (ring.center + out * radius).as_vec3(),
+                normal: normal.as_vec3(),
+                uv: vec2(j as f32 / n as f32, (along + ring.along) as f32),
+            });
+        }
+    }
 }
 
 /// Builds tubes after fixed settings.
@@ -55,70 +80,87 @@ impl Tubes {
 
     /// How many sides these rings get: by their widest.
     fn sides(&self, rings: &Rings) -> u32 {
-        let widest = rings.rings.iter().map(|r| r.radius).fold(0.0, f64::max);
-        sides(widest, self.settings.tolerance).clamp(self.settings.min_sides, self.settings.max_sides)
+        let sides = sides(rings.widest(), self.settings.tolerance);
+        sides.clamp(self.settings.min_sides, self.settings.max_sides)
     }
 
-    /// Whether a blunt tip gets a ring of its own below the top of its dome.
-    fn domed(&self, rings: &Rings) -> bool {
-        rings.rings.last().is_some_and(|tip| tip.radius > 2.0 * self.settings.tolerance)
-    }
-
-    /// Size of the tube over `rings`.
-    pub(crate) fn count(&self, rings: &Rings) -> Count {
-        if rings.rings.is_empty() {
-            return Count::default();
-        }
-        let n = u64::from(self.sides(rings));
-        let wide = rings.rings.len() as u64 - u64::from(rings.pointed) + u64::from(self.domed(rings));
-        Count { vertices: wide * (n + 1) + 1, triangles: (wide - 1) * 2 * n + n + (n - 2) }
-    }
-
-    /// Appends the tube over `rings`; its corners count from `base`, and v starts at `along`.
-    pub(crate) fn push(&self, rings: &Rings, base: u32, along: f64, block: &mut Block) {
-        let Some(tip) = rings.rings.last().copied() else { return };
-        let n = self.sides(rings);
-        let polygon = &self.polygons[n as usize];
-        let mut wide = 0;
-        let mut ring =
-            |center: DVec3, (x, y): (DVec3, DVec3), tangent: DVec3, radius: f64, slope: f64, v: f64| {
-                let radius = radius * polygon.reach;
-                let level = 1.0 / (1.0 + slope * slope).sqrt();
-                for (j, &(cos, sin)) in polygon.corners.iter().enumerate() {
-                    let out = x * cos + y * sin;
-                    let normal = (out - tangent * slope) * level;
-                    let u = j as f32 / n as f32;
-                    block.vertices.push(Vertex {
-                        position: (center + out * radius).as_vec3(),
-                        normal: normal.as_vec3(),
-                        uv: vec2(u, v as f32),
-                    });
+    /// The rings of `n` sides between the last ring of a run and the vertex that closes it.
+    fn cap(&self, run: &Run<'_>, n: u32) -> u32 {
+        let Some(tip) = run.rings.last() else { return 0 };
+        let is_wide = tip.radius > 2.0 * self.settings.tolerance;
+        match run.end {
+            End::Point => 0,
+            End::Dome => u32::from(is_wide),
+            // As many around a quarter of the ball as around a quarter of the stem.
+            End::Ball => {
+                if is_wide {
+                    n.div_ceil(4).max(2) - 1
+                } else {
+                    0
                 }
-                wide += 1;
-            };
-        let blunt = usize::from(!rings.pointed);
-        for (i, r) in rings.rings[..rings.rings.len() - 1 + blunt].iter().enumerate() {
-            let axes = (r.side, r.tangent.cross(r.side));
-            ring(r.center, axes, r.tangent, r.radius, rings.slope(i), along + r.along);
-        }
-        let mut top = tip.center;
-        if !rings.pointed {
-            // A low dome: half an ellipsoid whose height is half the radius.
-            let axes = (tip.side, tip.tangent.cross(tip.side));
-            let height = tip.radius * 0.5;
-            if self.domed(rings) {
-                let half = std::f64::consts::FRAC_1_SQRT_2;
-                let center = tip.center + tip.tangent * (height * half);
-                ring(center, axes, tip.tangent, tip.radius * half, -2.0, along + tip.along + height * half);
             }
-            top += tip.tangent * height;
+        }
+    }
+
+    /// How many rings of `n` sides a run has.
+    fn wide(&self, run: &Run<'_>, n: u32) -> u32 {
+        run.rings.len() as u32 - u32::from(run.end == End::Point) + self.cap(run, n)
+    }
+
+    /// Size of the tubes over `rings`.
+    pub(crate) fn count(&self, rings: &Rings) -> Count {
+        let n = self.sides(rings);
+        let mut count = Count::default();
+        for run in rings.runs() {
+            let (n, wide) = (u64::from(n), u64::from(self.wide(&run, n)));
+            let triangles = (wide - 1) * 2 * n + n + (n - 2);
+            count += Count { vertices: wide * (n + 1) + 1, triangles };
+        }
+        count
+    }
+
+    /// Appends the tubes over `rings`; their corners count from `base`, and v starts at `along`.
+    pub(crate) fn push(&self, rings: &Rings, base: u32, along: f64, block: &mut Block) {
+        let n = self.sides(rings);
+        let before = block.vertices.len();
+        for run in rings.runs() {
+            let first = base + (block.vertices.len() - before) as u32;
+            self.push_run(&run, n, along, block);
+            faces(first, n, self.wide(&run, n), &mut block.triangles);
+        }
+    }
+
+    /// Appends the vertices of one tube.
+    fn push_run(&self, run: &Run<'_>, n: u32, along: f64, block: &mut Block) {
+        let Some(tip) = run.rings.last() else { return };
+        let polygon = &self.polygons[n as usize];
+        let body = run.rings.len() - usize::from(run.end == End::Point);
+        for (i, r) in run.rings[..body].iter().enumerate() {
+            polygon.push(r, run.slope(i), along, block);
+        }
+        // The end is half an ellipsoid: its height, in radii.
+        let height = match run.end {
+            End::Point => 0.0,
+            End::Dome => 0.5,
+            End::Ball => 1.0,
+        };
+        let between = self.cap(run, n);
+        for i in 1..=between {
+            let (sin, cos) = sin_cos(FRAC_PI_2 * f64::from(i) / f64::from(between + 1));
+            let ahead = tip.radius * height * sin;
+            let ring = Ring {
+                center: tip.center + tip.tangent * ahead,
+                radius: tip.radius * cos,
+                along: tip.along + ahead,
+                ..*tip
+            };
+            polygon.push(&ring, -sin / (cos * height), along, block);
         }
         block.vertices.push(Vertex {
-            position: top.as_vec3(),
+            position: (tip.center + tip.tangent * (tip.radius * height)).as_vec3(),
             normal: tip.tangent.as_vec3(),
             uv: vec2(0.5, (along + tip.along) as f32),
         });
-        faces(base, n, wide, &mut block.triangles);
     }
 }
 

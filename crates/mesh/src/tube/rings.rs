@@ -1,144 +1,250 @@
-//! Cross sections along a stem's spline.
+//! From a stem's axis to runs of rings, each of which one tube can go through.
+//!
+//! Two rings whose planes cross inside the stem cannot be joined: faces between them would be inside out. Where
+//! leaving such a ring out would move the axis, and where the stem turns sharply at a knot, the tube ends in half a
+//! ball and another begins at the same place: together they are what a ball that is moved along the axis covers.
 
 use super::frame::{perpendicular, transport};
+use super::path::{Corner, Path, Ring};
 use glam::DVec3;
 use pleach_tree::turtle::rotate;
 use pleach_tree::{Stem, StemKind, Tree};
 
-/// No ring is narrower, in metres: beads of periodic taper meet in points, and single precision
-/// thirty metres from the origin ends at two micrometres.
-const MIN_RADIUS: f64 = 2e-4;
-/// A stem whose tip is thinner than this many metres ends in a point.
-const POINTED: f64 = 5e-4;
 /// Rings are at least this far apart, in metres.
 const MIN_STEP: f64 = 1e-4;
-
+/// Leaving out a ring may move the axis by this part of its radius, or by the tolerance if that is more.
+const SLACK: f64 = 0.1;
+/// Where the axis is that far off, no more rings than this are left out in a row: the way back over
+/// all of them is looked at again for each.
+const MAX_LEFT_OUT: usize = 64;
 /// A turn that never comes back to where it was, in radians.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// One cross section of a stem.
+/// How a tube ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum End {
+    /// In a point; the last ring is that point.
+    Point,
+    /// In a low dome: the blunt tip of a stem.
+    Dome,
+    /// In half a ball, where the stem goes on in another direction.
+    Ball,
+}
+
+/// Rings that one tube goes through.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ring {
-    /// On the spline, in metres.
-    pub(crate) center: DVec3,
-    /// Unit vector along the stem, at right angles to the ring.
-    pub(crate) tangent: DVec3,
-    /// Unit vector in the ring, towards its first corner.
-    pub(crate) side: DVec3,
-    /// In metres, after the model.
-    pub(crate) radius: f64,
-    /// Metres along the stem from its first knot.
-    pub(crate) along: f64,
+pub(crate) struct Run<'a> {
+    /// From base to end, at least two; each can be joined to the next.
+    pub(crate) rings: &'a [Ring],
+    pub(crate) end: End,
 }
 
 /// The rings of one stem, in memory that is used again for the next.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rings {
-    /// From base to tip; at least two unless the stem is too short to be drawn.
-    pub(crate) rings: Vec<Ring>,
-    /// Whether the last ring stands for a point.
-    pub(crate) pointed: bool,
+    path: Path,
+    /// All runs, one after the other; none if the stem is too short to be drawn.
+    rings: Vec<Ring>,
+    /// The end of each run in `rings`.
+    ends: Vec<usize>,
+    /// Places in the path of the rings of the run that grows.
+    places: Vec<usize>,
 }
 
 impl Rings {
-    /// Samples `stem` so that neither its axis nor its outer side strays by more than `tolerance`, with
-    /// rings that a tube can go through.
+    /// Samples `stem` so that neither its axis nor its outer side strays by more than `tolerance` metres, or
+    /// the axis by a tenth of its radius where the stem turns in less room than its own width.
     pub(crate) fn sample(&mut self, tree: &Tree, stem: &Stem, tolerance: f64) {
-        self.trace(tree, stem, tolerance);
-        self.untangle();
+        self.path.trace(tree, stem, tolerance);
+        let last = self.path.rings.len() - 1;
+        if self.path.is_pointed {
+            self.path.rings[last].radius = 0.0;
+        }
+        self.rings.clear();
+        self.ends.clear();
+        let mut from = 0;
+        let mut leaves = self.path.rings[0].tangent;
+        for i in 0..self.path.corners.len() {
+            let corner: Corner = self.path.corners[i];
+            self.stretch(from, corner.ring, leaves, corner.arrives, tolerance);
+            (from, leaves) = (corner.ring, corner.leaves);
+        }
+        self.stretch(from, last, leaves, self.path.rings[last].tangent, tolerance);
         // The clones of a fork leave from one ring; turned against each other, their caps are not one
         // face twice.
         let clone = stem.kind == StemKind::Fork;
         self.turn_frames(if clone { f64::from(stem.first_knot % 1024) * GOLDEN_ANGLE } else { 0.0 });
     }
 
-    /// Samples all of `stem`, sharp turns and places where it stands still among it; sides are not set.
-    pub(crate) fn trace(&mut self, tree: &Tree, stem: &Stem, tolerance: f64) {
-        self.rings.clear();
-        let mut along = 0.0;
-        let mut arrival: Option<DVec3> = None;
-        let knots = tree.knots_of(stem);
-        let pieces = knots.len() - 1;
-        for (k, (piece, from, to)) in tree.pieces_of(stem).enumerate() {
-            let [a, b, c, d] = piece.points;
-            let chord = (d - a).try_normalize().or(arrival).unwrap_or(DVec3::Z);
-            // How far the control polygon turns, in radians, from above for the angles of trees.
-            let legs = [b - a, c - b, d - c].map(|leg| leg.try_normalize().unwrap_or(chord));
-            let turn = legs[0].distance(legs[1]) + legs[1].distance(legs[2]);
-            let outer = (turn * (from.max(to) / (8.0 * tolerance)).sqrt()).ceil();
-            let chords = piece.chords(tolerance).max(outer.min(64.0) as u32);
-            let first = legs[0];
-            for i in u32::from(k > 0)..=chords {
-                let t = f64::from(i) / f64::from(chords);
-                let center = piece.at(t);
-                let mut tangent = match i {
-                    0 => first,
-                    i if i == chords => legs[2],
-                    _ => piece.tangent(t, chord),
-                };
-                // The ring at a knot lies between what arrives and what leaves.
-                if i == chords && k + 1 < pieces {
-                    let (here, next) = (&knots[k + 1], &knots[k + 2]);
-                    let leaves = (here.handle_out - here.point)
-                        .try_normalize()
-                        .or_else(|| (next.point - here.point).try_normalize());
-                    tangent = (tangent + leaves.unwrap_or(tangent)).try_normalize().unwrap_or(tangent);
-                }
-                if let Some(last) = self.rings.last() {
-                    along += center.distance(last.center);
-                }
-                let radius = (from + (to - from) * t).max(MIN_RADIUS);
-                self.rings.push(Ring { center, tangent, side: DVec3::X, radius, along });
-            }
-            arrival = Some(legs[2]);
-        }
-        self.pointed = knots[knots.len() - 1].radius < POINTED;
+    /// The runs of the stem, from its base to its tip.
+    pub(crate) fn runs(&self) -> impl Iterator<Item = Run<'_>> {
+        let begins = std::iter::once(0).chain(self.ends.iter().copied());
+        begins.zip(&self.ends).map(|(first, &end)| {
+            let rings = &self.rings[first..end];
+            let is_tip = end == self.rings.len();
+            let end = match rings.last() {
+                Some(ring) if ring.radius <= 0.0 => End::Point,
+                _ if is_tip => End::Dome,
+                _ => End::Ball,
+            };
+            Run { rings, end }
+        })
     }
 
-    /// Leaves out rings that would cut a neighbour, so that no face turns inside out.
-    fn untangle(&mut self) {
-        let rings = &mut self.rings;
-        let last = rings.len() - 1;
-        let mut kept = 1;
-        for i in 1..last {
-            if apart(&rings[kept - 1], &rings[i]) {
-                rings[kept] = rings[i];
-                kept += 1;
+    /// The widest ring's radius in metres.
+    pub(crate) fn widest(&self) -> f64 {
+        self.rings.iter().map(|ring| ring.radius).fold(0.0, f64::max)
+    }
+
+    /// Length in metres of what is drawn of the stem.
+    pub(crate) fn length(&self) -> Option<f64> {
+        self.rings.last().map(|ring| ring.along)
+    }
+
+    /// Appends runs through rings `first` to `last` of the path, whose tangents there are `leaves` and `arrives`.
+    fn stretch(&mut self, first: usize, last: usize, leaves: DVec3, arrives: DVec3, tolerance: f64) {
+        let ring = |path: &Path, i: usize| match i {
+            i if i == last => Ring { tangent: arrives, ..path.rings[i] },
+            i => path.rings[i],
+        };
+        self.begin(Ring { tangent: leaves, ..self.path.rings[first] }, first);
+        let mut at = first;
+        while at < last {
+            let Some(&before) = self.rings.last() else { return };
+            let reach = Reach::new(&self.path, tolerance);
+            // The first ring that can be joined, and else the farthest to which a straight line may go.
+            let (mut next, mut straight) = (None, None);
+            for to in at + 1..=last {
+                if !reach.may_skip(at, to) {
+                    break;
+                }
+                if apart(&before, &ring(&self.path, to)) {
+                    next = Some(to);
+                    break;
+                }
+                if before.center.distance(self.path.rings[to].center) > MIN_STEP {
+                    straight = Some(to);
+                }
+            }
+            match (next, straight) {
+                (Some(to), _) => {
+                    self.rings.push(ring(&self.path, to));
+                    self.places.push(to);
+                    at = to;
+                }
+                // What is left stands still.
+                (None, None) if reach.may_skip(at, last) => break,
+                (None, None) => at += 1,
+                (None, Some(to)) => {
+                    let end = ring(&self.path, to);
+                    if to < last || !self.join_back(end, to, tolerance) {
+                        self.straight(end, to, arrives, last);
+                    }
+                    at = to;
+                }
             }
         }
-        let mut tip = rings[last];
-        if self.pointed {
-            tip.radius = 0.0;
+        self.close();
+    }
+
+    /// Begins a run at a ring.
+    fn begin(&mut self, ring: Ring, place: usize) {
+        self.rings.push(ring);
+        self.places.clear();
+        self.places.push(place);
+    }
+
+    /// Ends the run that grows, which is nothing if it has but one ring.
+    fn close(&mut self) {
+        let first = self.ends.last().copied().unwrap_or(0);
+        if self.rings.len() > first + 1 {
+            self.ends.push(self.rings.len());
+        } else {
+            self.rings.truncate(first);
         }
-        while kept > 1 && !apart(&rings[kept - 1], &tip) {
-            kept -= 1;
-        }
-        if !apart(&rings[kept - 1], &tip) {
-            // A prism: both rings at right angles to the line between them.
-            let line = tip.center - rings[0].center;
-            if line.length() < MIN_STEP {
-                rings.clear();
-                return;
+    }
+
+    /// Joins `end`, ring `to` of the path, to an earlier ring of the run, if one can be found.
+    fn join_back(&mut self, end: Ring, to: usize, tolerance: f64) -> bool {
+        let first = self.ends.last().copied().unwrap_or(0);
+        let reach = Reach::new(&self.path, tolerance);
+        for (i, &place) in self.places.iter().enumerate().rev() {
+            if !reach.may_skip(place, to) {
+                return false;
             }
-            let line = line.normalize();
-            (rings[0].tangent, tip.tangent) = (line, line);
-            kept = 1;
+            if apart(&self.rings[first + i], &end) {
+                self.rings.truncate(first + i + 1);
+                self.rings.push(end);
+                self.places.truncate(i + 1);
+                self.places.push(to);
+                return true;
+            }
         }
-        rings[kept] = tip;
-        rings.truncate(kept + 1);
+        false
+    }
+
+    /// Ends the run that grows and appends a straight one to `end`, ring `to` of the path, where another
+    /// begins.
+    fn straight(&mut self, end: Ring, to: usize, arrives: DVec3, last: usize) {
+        let Some(&from) = self.rings.last() else { return };
+        self.close();
+        let line = (end.center - from.center).normalize_or(end.tangent);
+        self.begin(Ring { tangent: line, ..from }, to);
+        self.rings.push(Ring { tangent: line, ..end });
+        self.close();
+        let tangent = if to == last { arrives } else { end.tangent };
+        self.begin(Ring { tangent, ..end }, to);
     }
 
     /// Sets the sides of all rings, the first one's turned by `angle` radians.
     fn turn_frames(&mut self, angle: f64) {
         let Some(first) = self.rings.first_mut() else { return };
         first.side = rotate(perpendicular(first.tangent), first.tangent, angle);
-        for i in 1..self.rings.len() {
-            let last = self.rings[i - 1];
-            let ring = &mut self.rings[i];
+        let mut last = *first;
+        for ring in &mut self.rings[1..] {
             ring.side = transport(last.side, last.center, last.tangent, ring.center, ring.tangent);
+            // A stem that goes back the way that it came would have its faces twice.
+            if last.tangent.dot(ring.tangent) < -0.9 {
+                ring.side = rotate(ring.side, ring.tangent, GOLDEN_ANGLE);
+            }
+            last = *ring;
         }
     }
+}
 
+/// What may be left out of a path.
+struct Reach<'a> {
+    path: &'a [Ring],
+    tolerance: f64,
+}
+
+impl<'a> Reach<'a> {
+    fn new(path: &'a Path, tolerance: f64) -> Self {
+        Self { path: &path.rings, tolerance: tolerance.max(MIN_STEP) }
+    }
+
+    /// Whether a straight line from ring `from` to ring `to` passes near enough to the rings between them.
+    fn may_skip(&self, from: usize, to: usize) -> bool {
+        let between = &self.path[from + 1..to];
+        let (a, b) = (self.path[from].center, self.path[to].center);
+        let slack = |ring: &Ring| self.tolerance.max(SLACK * ring.radius);
+        // The way there is as far as it can be.
+        if between.last().is_none_or(|end| end.along - self.path[from].along <= self.tolerance) {
+            return true;
+        }
+        between.len() <= MAX_LEFT_OUT
+            && between.iter().all(|ring| distance_to_line(ring.center, a, b) <= slack(ring))
+    }
+}
+
+/// Metres from `p` to the line from `a` to `b`.
+fn distance_to_line(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let line = b - a;
+    let t = ((p - a).dot(line) / line.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    p.distance(a + line * t)
+}
+
+impl Run<'_> {
     /// Change of radius per metre at ring `i`, from its neighbours.
     pub(crate) fn slope(&self, i: usize) -> f64 {
         let (a, b) = (&self.rings[i.saturating_sub(1)], &self.rings[(i + 1).min(self.rings.len() - 1)]);

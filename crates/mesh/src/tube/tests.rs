@@ -1,7 +1,7 @@
 //! Every tube is closed and right side out, whatever the spline does.
 
 use super::*;
-use glam::dvec3;
+use glam::{DVec3, dvec3};
 use pleach_tree::{Knot, Stem, StemKind, Tree};
 use proptest::prelude::*;
 use std::collections::HashMap;
@@ -92,26 +92,26 @@ proptest! {
         let (rings, count, block) = tube(knots, tolerance);
         prop_assert_eq!(count.vertices, block.vertices.len() as u64);
         prop_assert_eq!(count.triangles, block.triangles.len() as u64);
-        if !rings.rings.is_empty() {
-            broken(&block).map_err(TestCaseError::fail)?;
-            for pair in rings.rings.windows(2) {
+        for (tube, run) in tubes(&block, &rings) {
+            broken(&tube).map_err(TestCaseError::fail)?;
+            for pair in run.rings.windows(2) {
                 prop_assert!((pair[1].center - pair[0].center).dot(pair[0].tangent) > 0.0);
                 prop_assert!((pair[1].center - pair[0].center).dot(pair[1].tangent) > 0.0);
                 prop_assert!(pair[0].side.dot(pair[0].tangent).abs() < 1e-9);
             }
-            faces_outwards(&block, &rings).map_err(TestCaseError::fail)?;
+            faces_outwards(&tube, run.rings).map_err(TestCaseError::fail)?;
         }
     }
 }
 
 /// No face between two rings is inside out: the corners of each ring lie ahead of the plane of the
 /// one before and behind the plane of the one after.
-fn faces_outwards(block: &Block, rings: &Rings) -> Result<(), String> {
+fn faces_outwards(block: &Block, rings: &[Ring]) -> Result<(), String> {
     let corner = |i: u32| block.vertices[i as usize].position.as_dvec3();
     let apex = block.vertices.len() as u32 - 1;
     let sides = block.triangles.iter().filter(|t| t.contains(&apex)).count() as u32;
     for (k, t) in block.triangles.iter().enumerate().skip(sides as usize - 2) {
-        let ring = |i: u32| &rings.rings[((i / (sides + 1)) as usize).min(rings.rings.len() - 1)];
+        let ring = |i: u32| &rings[((i / (sides + 1)) as usize).min(rings.len() - 1)];
         let lowest = ring(t.iter().copied().min().unwrap_or(0));
         let highest = ring(t.iter().copied().max().unwrap_or(0));
         for edge in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
@@ -126,6 +126,37 @@ fn faces_outwards(block: &Block, rings: &Rings) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// The closed surfaces of a stem with their rings; the last vertex of each is the one that closes it.
+fn tubes<'a>(block: &Block, rings: &'a Rings) -> Vec<(Block, Run<'a>)> {
+    let mut apexes = Vec::new();
+    let mut end = 0;
+    for t in &block.triangles {
+        // Each tube's triangles begin with its base, whose vertices follow the tube before.
+        if t[0] > end {
+            apexes.push(end);
+        }
+        end = end.max(t[0]).max(t[1]).max(t[2]);
+    }
+    if !block.triangles.is_empty() {
+        apexes.push(end);
+    }
+    let mut first = 0;
+    let part = |end: u32| {
+        let own = first..=end;
+        let triangles = block.triangles.iter().filter(|t| own.contains(&t[0]));
+        let tube = Block {
+            vertices: block.vertices[first as usize..=end as usize].to_vec(),
+            triangles: triangles.map(|t| t.map(|i| i - first)).collect(),
+            ..Block::default()
+        };
+        first = end + 1;
+        tube
+    };
+    let parts: Vec<Block> = apexes.into_iter().map(part).collect();
+    assert_eq!(parts.len(), rings.runs().count());
+    parts.into_iter().zip(rings.runs()).collect()
 }
 
 fn straight(radii: &[f64]) -> Vec<Knot> {
@@ -175,7 +206,10 @@ fn texture_runs_along_in_metres_and_once_around() {
 fn a_blunt_tip_gets_a_dome_and_a_thin_one_a_point() {
     let top = |radii: &[f64]| {
         let (rings, _, block) = tube(straight(radii), 1e-3);
-        (rings.pointed, block.vertices.iter().map(|v| v.position.z).fold(0.0, f32::max))
+        (
+            rings.runs().last().is_some_and(|run| run.end == End::Point),
+            block.vertices.iter().map(|v| v.position.z).fold(0.0, f32::max),
+        )
     };
     assert_eq!(top(&[0.1, 0.05, 0.0]), (true, 2.0));
     let (pointed, height) = top(&[0.1, 0.1, 0.1]);
@@ -189,7 +223,7 @@ fn stems_too_short_to_draw_are_left_out() {
         (knot.point, knot.handle_in, knot.handle_out) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
     }
     let (rings, count, block) = tube(knots, 1e-3);
-    assert!(rings.rings.is_empty() && count == Count::default() && block == Block::default());
+    assert!(rings.runs().next().is_none() && count == Count::default() && block == Block::default());
 }
 
 /// A stem that turns through three quarters of a circle keeps all its rings.
@@ -202,9 +236,11 @@ fn a_stem_that_turns_back_follows_its_spline() {
         Knot { point, handle_in: point - along, handle_out: point + along, radius: 0.01 }
     });
     let (rings, ..) = tube(knots.collect(), 1e-3);
-    let length = rings.rings.last().unwrap().along;
-    assert!(rings.rings.len() > 20 && (length - 1.5 * PI).abs() < 0.02, "{length}");
-    for ring in &rings.rings {
+    let runs: Vec<Run<'_>> = rings.runs().collect();
+    let [Run { rings, .. }] = runs[..] else { panic!("it is one tube") };
+    let length = rings.last().unwrap().along;
+    assert!(rings.len() > 20 && (length - 1.5 * PI).abs() < 0.02, "{length}");
+    for ring in rings {
         assert!((ring.center.length() - 1.0).abs() < 1e-3);
     }
 }

@@ -14,7 +14,7 @@ mod stitch;
 mod tetrahedra;
 
 use crate::block::{Block, Vertex};
-use crate::tube::Rings;
+use crate::tube::Path;
 use cone::Cone;
 use glam::{Vec3, vec2};
 use grid::Grid;
@@ -108,7 +108,7 @@ fn cones(tree: &Tree, settings: &WeldSettings) -> Result<(Vec<Cone>, Vec<Range<u
     if extent > cell * f64::from(grid::MAX_ALONG) {
         return Err(WeldError::TooFine { cell });
     }
-    let mut rings = Rings::default();
+    let mut path = Path::default();
     for stem in &tree.stems {
         let first = cones.len();
         if !parts.has_stem(stem.kind) {
@@ -116,8 +116,8 @@ fn cones(tree: &Tree, settings: &WeldSettings) -> Result<(Vec<Cone>, Vec<Range<u
             continue;
         }
         // Not only what a tube can show: a trunk without a height still is a ball that its roots begin in.
-        rings.trace(tree, stem, 0.25 * cell);
-        for pair in rings.rings.windows(2) {
+        path.trace(tree, stem, 0.25 * cell);
+        for pair in path.rings.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);
             cones.push(Cone::new(a.center, b.center, [a.radius, b.radius].map(|r| r.max(cell))));
         }

@@ -42,6 +42,8 @@ impl<'a> Scene<'a> {
             tolerance: (0.2 * pixel).clamp(2e-4, 0.02),
             min_sides: 5,
             leaves: leaf_style(tree, pixel),
+            // Far fewer than leaves, and the brightest there is: a square is seen for what it is.
+            blossoms: Some(LeafStyle::Outline),
             parts,
             ..MeshSettings::default()
         };
@@ -202,4 +204,31 @@ fn areas(tree: &Tree) -> impl Iterator<Item = (Vec3, f32)> {
         (middle.as_vec3(), (length * (pair[0].radius + pair[1].radius)) as f32)
     });
     leaves.chain(blossoms).chain(pieces)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Leaves of two triangles are for crowns that are seen from afar; blossoms keep their petals there.
+    #[test]
+    fn blossoms_have_their_petals_however_small_the_picture() {
+        let species = pleach_generators::preset("hill_cherry").unwrap();
+        let tree = species.grow(1).unwrap();
+        assert!(!tree.blossoms.is_empty());
+        let triangles = |mesher: &Mesher<'_>, material: Material| {
+            let part = mesher.parts(0).into_iter().find(|part| part.material == material);
+            part.map_or(0, |part| part.count.triangles)
+        };
+        let mesh = Mesher::new(&tree, MeshSettings::default());
+        for size in [64, 512] {
+            let scene = Scene::new(&tree, &Palette::new(&species, None), size, Parts::LEAFY);
+            assert_eq!(
+                triangles(&scene.mesher, Material::Blossom),
+                triangles(&mesh, Material::Blossom),
+                "{size}"
+            );
+            assert_eq!(triangles(&scene.mesher, Material::Leaf), 2 * tree.leaves.len() as u64, "{size}");
+        }
+    }
 }

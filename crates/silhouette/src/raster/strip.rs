@@ -7,12 +7,17 @@ use crate::view::Camera;
 use glam::{DVec3, Vec2};
 use pleach_tree::math;
 use pleach_tree::spline::Cubic;
-use pleach_tree::{Stem, Tree};
+use pleach_tree::{Knot, Stem, Tree};
 
 /// Farthest that a chord may stray from the curve, in pixels.
 const TOLERANCE: f64 = 0.1;
 /// Cross-sections smaller than this many pixels to a side are not drawn at the ends of stems.
 const MIN_CAP: f32 = 0.25;
+
+/// Where a stem turns farther than this at a knot (23 degrees, by its cosine), what leaves the knot begins with a
+/// rib of its own, and a ball joins it to what arrives. Below it one rib serves both: it is at most so
+/// much narrower than what leaves, so that of a stroke of two equal pieces less than 2 % of the ink is missing.
+const SHARP: f64 = 0.92;
 
 /// A point of a stem's outline in pixels.
 #[derive(Clone, Copy, Debug)]
@@ -27,11 +32,16 @@ pub(super) fn draw(grid: &mut Grid, camera: &Camera, scale: Vec2, tree: &Tree, s
     let mut last: Option<Rib> = None;
     let knots = tree.knots_of(stem);
     let straight = knots[knots.len() - 1].point - knots[0].point;
-    for (piece, r0, r1) in tree.pieces_of(stem) {
+    for (k, (piece, r0, r1)) in tree.pieces_of(stem).enumerate() {
         let chords = piece.chords(TOLERANCE / camera.pixels_per_meter());
         if last.is_none() {
             last = rib(camera, &piece, 0.0, r0, straight);
             cap(grid, camera, scale, &piece, 0.0, r0);
+        } else if k > 0 && is_sharp([&knots[k - 1], &knots[k], &knots[k + 1]]) {
+            last = rib(camera, &piece, 0.0, r0, knots[k + 1].point - knots[k].point);
+            if let Some(rib) = &last {
+                ball(grid, scale, rib);
+            }
         }
         for i in 1..=chords {
             let t = f64::from(i) / f64::from(chords);
@@ -45,6 +55,14 @@ pub(super) fn draw(grid: &mut Grid, camera: &Camera, scale: Vec2, tree: &Tree, s
     if let Some((piece, _, r1)) = tree.pieces_of(stem).last() {
         cap(grid, camera, scale, &piece, 1.0, r1);
     }
+}
+
+/// Whether a stem turns sharply in space at the second of three knots in a row.
+fn is_sharp([before, here, after]: [&Knot; 3]) -> bool {
+    let way = |handle: DVec3, chord: DVec3| handle.try_normalize().or_else(|| chord.try_normalize());
+    let arrives = way(here.point - here.handle_in, here.point - before.point);
+    let leaves = way(here.handle_out - here.point, after.point - here.point);
+    arrives.zip(leaves).is_some_and(|(arrives, leaves)| arrives.dot(leaves) < SHARP)
 }
 
 /// The rib at `t`; none behind a perspective camera. `fallback` is the way of a curve that stands
@@ -74,6 +92,20 @@ fn quad(grid: &mut Grid, scale: Vec2, from: &Rib, to: &Rib) {
         grid.fill(&[corner(a), corner(c), corner(d)]);
         grid.fill(&[corner(a), corner(b), corner(d)]);
     }
+}
+
+/// The ball at a corner, as wide as `rib`.
+fn ball(grid: &mut Grid, scale: Vec2, rib: &Rib) {
+    const MAX_CORNERS: usize = 64;
+    let radius = rib.side.length();
+    // Edges stray from the circle by at most half of the tolerance, up to a radius of 40 pixels.
+    let corners = (std::f32::consts::PI * (radius / TOLERANCE as f32).sqrt()).ceil();
+    let count = corners.clamp(8.0, MAX_CORNERS as f32) as usize;
+    let corners: [Corner; MAX_CORNERS] = std::array::from_fn(|i| {
+        let (sin, cos) = math::sin_cos_f32(i as f32 * std::f32::consts::TAU / count as f32);
+        ((rib.center + Vec2::new(cos, sin) * radius) * scale).to_array()
+    });
+    grid.fill(&corners[..count]);
 }
 
 /// The cross-section at `t`, an ellipse where the stem points at the viewer or away.

@@ -88,6 +88,9 @@ pub fn shapes(tree: &Tree, view: &View, frame: &Frame, parts: Parts, mut fill: i
         let pieces: Vec<_> = tree.pieces_of(stem).collect();
         for (i, (piece, r0, r1)) in pieces.iter().enumerate() {
             strip(eye, piece, *r0, *r1, straight, &mut fill);
+            if i > 0 {
+                joint(eye, &pieces[i - 1].0, piece, *r0, &mut fill);
+            }
             if i == 0 {
                 disc(eye, piece, 0.0, *r0, &mut fill);
             }
@@ -161,6 +164,21 @@ fn strip(eye: &Eye, piece: &Cubic, r0: f64, r1: f64, straight: DVec3, fill: &mut
         fill(&[p + u, p - u, q - v]);
         fill(&[p + u, q - v, q + v]);
     }
+}
+
+/// The ball between two pieces of a stem that turns there.
+fn joint(eye: &Eye, before: &Cubic, after: &Cubic, radius: f64, fill: &mut impl FnMut(&[DVec2])) {
+    let ways = before.derivative(1.0).try_normalize().zip(after.derivative(0.0).try_normalize());
+    // Smooth stems have none, up to rounding.
+    if ways.is_none_or(|(arrives, leaves)| arrives.distance(leaves) < 0.01) {
+        return;
+    }
+    let point = after.at(0.0);
+    let Some((center, magnification)) = seen(eye, point).zip(eye.camera.magnification(point)) else { return };
+    let wide = radius * eye.camera.pixels_per_meter() * magnification;
+    let corners: [DVec2; 64] =
+        std::array::from_fn(|i| center + DVec2::from_angle(i as f64 * std::f64::consts::TAU / 64.0) * wide);
+    fill(&corners);
 }
 
 /// The round end of a stem, seen at an angle.

@@ -65,6 +65,7 @@ pub fn written_files_are_read_back(family: &dyn Family) {
         assert_eq!(species.description, again.description, "{name}");
         assert_eq!(species.params, again.params, "{name}: parameters survive the file");
         assert_eq!(species.tree_seed, again.tree_seed, "{name}");
+        assert_eq!(species.foliage, again.foliage, "{name}");
         assert_eq!(species.appearance, again.appearance, "{name}: its looks survive the file");
         assert_eq!(species.generator.model(), again.generator.model(), "{name}: its model survives the file");
         for group in species.generator.space().groups() {

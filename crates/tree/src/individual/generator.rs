@@ -4,6 +4,7 @@ use super::{Draws, Individual, Spread};
 use crate::generator::Generator;
 use crate::grow_error::{Conflict, GrowError};
 use crate::growth::{Growth, Workspace};
+use crate::leafless::Leafless;
 use crate::param::{CheckedParams, ParamSpace, Slot};
 use crate::plant::Tree;
 use crate::variation::Variation;
@@ -64,6 +65,10 @@ impl Generator for WithIndividual {
 
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
         self.kind.check(values)
+    }
+
+    fn leafless(&self, values: &[f64]) -> Option<Leafless> {
+        self.kind.leafless(values)
     }
 
     fn resize(&self, values: &mut [f64], factor: f64) -> bool {

@@ -122,6 +122,12 @@ pub const KEYS: &[Key] = &[
         doc: "the seed of one particular tree, grown where no other seed is asked for",
     },
     Key {
+        name: "bare",
+        form: Form::Switch,
+        default: "false",
+        doc: "whether trees are grown without leaves and blossoms where nothing else is asked for",
+    },
+    Key {
         name: "appearance",
         form: Form::Table(&appearance::KEYS),
         default: "none",

@@ -8,7 +8,7 @@
 //!
 //! Parameters stand at the top level by their names; lists are arrays of as many numbers as they
 //! have, vectors arrays of three; what is missing takes the generator's default. Beside them a file may say
-//! `name`, `description`, `tree_seed` (the seed of one particular tree), a table `[appearance]` (see
+//! `name`, `description`, `tree_seed` (the seed of one particular tree), `bare` (grown without leaves), a table `[appearance]` (see
 //! [`Appearance`]), and whatever tables its generator knows: [`KEYS`] and
 //! [`Family::keys`] declare them.
 
@@ -51,17 +51,20 @@ pub struct Species {
     pub params: CheckedParams,
     /// The seed of one particular tree, where the file says so.
     pub tree_seed: Option<u64>,
+    /// Whether trees have leaves where nothing else is asked for: [`Foliage::None`] where the file says
+    /// `bare = true`.
+    pub foliage: Foliage,
     /// Colours and season, where the file says so.
     pub appearance: Appearance,
 }
 
 impl Species {
-    /// Grows the tree of `seed` on this thread; see [`Generator::grow`] for reuse of memory.
+    /// Grows the tree of `seed` on this thread, with the leaves that [`Species::foliage`] says; see [`Generator::grow`] for reuse of memory.
     ///
     /// # Errors
     /// See [`GrowError`].
     pub fn grow(&self, seed: u64) -> Result<Tree, GrowError> {
-        self.grow_with(&Growth::seed(seed))
+        self.grow_with(&Growth { foliage: self.foliage, ..Growth::seed(seed) })
     }
 
     /// Grows the tree without leaves.
@@ -72,7 +75,7 @@ impl Species {
         self.grow_with(&Growth { foliage: Foliage::None, ..Growth::seed(seed) })
     }
 
-    /// Grows a tree as `growth` asks.
+    /// Grows a tree as `growth` asks, with leaves or without whatever the species says.
     ///
     /// # Errors
     /// See [`GrowError`].

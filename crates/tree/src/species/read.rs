@@ -7,6 +7,7 @@ use super::error::{Issue, SpeciesError};
 use super::family::Family;
 use super::key::{Form, KEYS, Key, MAX_SEED};
 use super::name::check_name;
+use crate::growth::Foliage;
 use crate::individual::Individual;
 use crate::param::{Kind, ParamSpace, Problem, Shape, Slot, is_hidden, nearest};
 
@@ -31,6 +32,8 @@ impl SpeciesDoc {
         let name = kept(self.said_name(), &mut issues).flatten();
         let description = kept(self.said_description(), &mut issues).flatten();
         let tree_seed = kept(self.said_tree_seed(), &mut issues).flatten();
+        let is_bare = kept(self.said_bare(), &mut issues).flatten().unwrap_or(false);
+        let foliage = if is_bare { Foliage::None } else { Foliage::All };
         let appearance = Appearance::read(self, &mut issues);
         let individual = Individual::read(self, &mut issues);
         if let (Some(node), None) = (self.get("individual"), tree_seed) {
@@ -44,7 +47,7 @@ impl SpeciesDoc {
         {
             let text = |said: Option<&str>| said.unwrap_or_default().to_owned();
             let (name, description) = (text(name), text(description));
-            let kind = Species { name, description, generator, params, tree_seed, appearance };
+            let kind = Species { name, description, generator, params, tree_seed, foliage, appearance };
             let Some(seed) = tree_seed.filter(|_| !individual.is_empty()) else { return Ok(kind) };
             if !kind.generator.spreads(kind.params.values()).is_empty() {
                 return Ok(kind.with_individual(seed, individual));
@@ -102,6 +105,18 @@ impl SpeciesDoc {
                 "tree_seed",
                 Problem::OutOfRange { value: seed, min: 0.0, max },
             ))
+        }
+    }
+
+    /// What stands under `bare`, if it is there.
+    ///
+    /// # Errors
+    /// If it is there and neither `true` nor `false`.
+    fn said_bare(&self) -> Result<Option<bool>, Issue> {
+        let Some(node) = self.get("bare") else { return Ok(None) };
+        match &node.value {
+            Value::Switch(bare) => Ok(Some(*bare)),
+            other => Err(self.wrong_type("bare", node, "true or false", other)),
         }
     }
 

@@ -20,15 +20,16 @@ fn a_file_that_says_nothing_is_the_default_species() {
     assert_eq!((species.name.as_str(), species.description.as_str()), ("", ""));
     assert_eq!(species.params.values(), space().defaults());
     assert_eq!((species.tree_seed, species.appearance), (None, Appearance::default()));
+    assert_eq!(species.foliage, Foliage::All);
 }
 
 #[test]
 fn what_every_file_may_say_is_read_for_the_family() {
-    let text = "name = \"a b\"\ndescription = \"of two\\nlines\"\ntree_seed = 9007199254740992\nside = \"right\"\n\
+    let text = "name = \"a b\"\ndescription = \"of two\\nlines\"\ntree_seed = 9007199254740992\nbare = true\nside = \"right\"\n\
                 lean = [1_0, -2.5]\npairs = \"yes\"\n[appearance]\nbark = \"#010203\"";
     let species = read(text).unwrap();
     assert_eq!((species.name.as_str(), species.description.as_str()), ("a b", "of two\nlines"));
-    assert_eq!(species.tree_seed, Some(1 << 53));
+    assert_eq!((species.tree_seed, species.foliage), (Some(1 << 53), Foliage::None));
     assert_eq!(species.params.of(3), [10.0, -2.5]);
     assert_eq!(species.params.of(6), [2.0], "a choice by its name");
     assert_eq!(species.appearance.bark.map(|color| color.0), Some([1, 2, 3]));
@@ -59,6 +60,7 @@ fn mistakes_are_told_with_their_places() {
             "tree_seed = -1",
             "1:13: `tree_seed` is -1, which is out of range: allowed is 0 to 9007199254740992",
         ),
+        ("bare = 1", "1:8: `bare` is a number, expected true or false"),
         ("name = 3", "1:8: `name` is a number, expected a string"),
         ("pairs = 3", "1:9: `pairs` is a number, expected a string"),
     ] {
@@ -99,6 +101,7 @@ proptest! {
         name in "[a-z_ ]{1,20}",
         description in "[ -~\n]{0,60}",
         tree_seed in proptest::option::of(0_u64..1 << 53),
+        is_bare in proptest::bool::ANY,
     ) {
         let value = |(slot, unit): (crate::Slot, &f64)| {
             let kind = space().kind_of(slot);
@@ -107,13 +110,15 @@ proptest! {
         };
         let values = space().slots().zip(&units).map(value).collect();
         let params = space().check(values).unwrap();
-        let species = Species { name, description, params, tree_seed, ..read("pairs = \"yes\"").unwrap() };
+        let foliage = if is_bare { Foliage::None } else { Foliage::All };
+        let species = Species { name, description, params, tree_seed, foliage, ..read("pairs = \"yes\"").unwrap() };
         let text = species.to_toml(&[]);
         let again = read(&text).map_err(|error| TestCaseError::fail(format!("{error}\nin\n{text}")))?;
         prop_assert_eq!(&again.name, &species.name);
         prop_assert_eq!(&again.description, &species.description);
         prop_assert_eq!(&again.params, &species.params);
         prop_assert_eq!(again.tree_seed, species.tree_seed);
+        prop_assert_eq!(again.foliage, species.foliage);
         prop_assert_eq!(again.generator.model(), species.generator.model());
     }
 

@@ -2,6 +2,7 @@
 
 use super::Species;
 use super::name::safe_name;
+use crate::growth::Foliage;
 use crate::param::{Kind, Shape, is_hidden};
 use std::fmt::Write as _;
 
@@ -20,6 +21,9 @@ pub(super) fn species(species: &Species, comments: &[String]) -> String {
     }
     if let Some(seed) = species.tree_seed {
         line(&mut text, "tree_seed", &seed.to_string());
+    }
+    if species.foliage == Foliage::None {
+        line(&mut text, "bare", "true");
     }
     for group in space.groups() {
         text.push_str("\n# ");

@@ -108,7 +108,7 @@ impl Choice {
     }
 }
 
-/// The table. `--no-leaves`, `--seed`, `--seeds` and the limits are for everything.
+/// The table. `--no-leaves`, `--leafy`, `--seed`, `--seeds` and the limits are for everything.
 #[rustfmt::skip]
 static CHOICES: [Choice; 14] = {
     const fn choice(

@@ -5,7 +5,7 @@ mod in_order;
 mod statistics;
 
 use super::export::{Export, MeshArgs};
-use crate::input::LimitArgs;
+use crate::input::{LeafArgs, LimitArgs};
 use crate::{files, input, output, skeleton};
 use anyhow::{Context, bail, ensure};
 use formats::{Format, Goes};
@@ -79,9 +79,8 @@ pub(crate) struct Grow {
     /// Print the statistics as JSON, one object per line
     #[arg(long, conflicts_with = "forest")]
     json: bool,
-    /// Grow stems only
-    #[arg(long)]
-    no_leaves: bool,
+    #[command(flatten)]
+    leaves: LeafArgs,
     /// Height and width of a .png in pixels [default: 1024]
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=8192))]
     size: Option<u32>,
@@ -100,6 +99,7 @@ impl Grow {
         }
         let species = input::species(&self.species)?;
         let seed = self.seed.or(species.tree_seed).unwrap_or(1);
+        input::note_leafless(&species, self.foliage(&species));
         match &self.seeds {
             _ if self.mesh.is_forest() => self.forest(&species, seed),
             None => self.one(&species, seed),
@@ -155,7 +155,7 @@ impl Grow {
 
     fn one(&self, species: &Species, seed: u64) -> anyhow::Result<()> {
         let mut tree = species
-            .grow_with(&Growth { parallel: true, ..self.growth(seed) })
+            .grow_with(&Growth { parallel: true, ..self.growth(species, seed) })
             .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
         self.apply_season(species, &mut tree);
         let written = if self.stats_only { Vec::new() } else { self.write_all(species, seed, &tree)? };
@@ -190,7 +190,7 @@ impl Grow {
         let make = |(workspace, tree): &mut (Workspace, Tree), seed| {
             species
                 .generator
-                .grow(&species.params, &self.growth(seed), workspace, tree)
+                .grow(&species.params, &self.growth(species, seed), workspace, tree)
                 .with_context(|| format!("{} does not grow from seed {seed}", species.name))?;
             self.apply_season(species, tree);
             if is_written {
@@ -215,17 +215,20 @@ impl Grow {
         };
         let trees = self.mesh.write_forest(path, species, seed, |seed| {
             species
-                .grow_with(&Growth { parallel: true, ..self.growth(seed) })
+                .grow_with(&Growth { parallel: true, ..self.growth(species, seed) })
                 .with_context(|| format!("{} does not grow from seed {seed}", species.name))
         })?;
         output::note(format!("wrote {}: {trees} trees", path.display()));
         Ok(())
     }
 
-    fn growth(&self, seed: u64) -> Growth<'static> {
-        let bare = self.no_leaves || self.mesh.is_bare();
-        let foliage = if bare { Foliage::None } else { Foliage::All };
-        Growth { limits: self.limits.limits(), foliage, ..Growth::seed(seed) }
+    fn growth(&self, species: &Species, seed: u64) -> Growth<'static> {
+        Growth { limits: self.limits.limits(), foliage: self.foliage(species), ..Growth::seed(seed) }
+    }
+
+    /// Whether leaves grow: how they are drawn says so, too.
+    fn foliage(&self, species: &Species) -> Foliage {
+        self.mesh.foliage().unwrap_or_else(|| self.leaves.foliage(species))
     }
 
     /// Takes off what the tree does not wear in the season.

@@ -36,14 +36,14 @@ fn a_palm_keeps_the_volume_of_its_trunk() {
     let mut tree = pleach_generators::preset("palm").unwrap().grow_bare(1).unwrap();
     tree.stems.truncate(1);
     let wanted: f64 = {
-        let mut rings = Rings::default();
-        rings.sample(&tree, &tree.stems[0], 0.001);
+        let mut path = Path::default();
+        path.trace(&tree, &tree.stems[0], 0.001);
         let slice = |i: usize| {
-            let (a, b) = (&rings.rings[i], &rings.rings[i + 1]);
+            let (a, b) = (&path.rings[i], &path.rings[i + 1]);
             let (r, s) = (a.radius, b.radius);
             a.center.distance(b.center) * std::f64::consts::PI * (r * r + r * s + s * s) / 3.0
         };
-        (0..rings.rings.len() - 1).map(slice).sum()
+        (0..path.rings.len() - 1).map(slice).sum()
     };
     let found = volume(&surface(&tree, &WeldSettings::new(0.02)).unwrap());
     assert!((found / wanted - 1.0).abs() < 0.02, "{found} {wanted}");

@@ -3,7 +3,7 @@
 //! A Bézier curve's projection is the Bézier curve of its projected control points, so that all that is left to do
 //! is in two dimensions and, at a picture's size, in single precision.
 
-use super::{Rib, TOLERANCE, cap, quad};
+use super::{Rib, SHARP, TOLERANCE, ball, cap, is_sharp, quad};
 use crate::raster::grid::Grid;
 use crate::raster::occlusion::Occlusion;
 use crate::view::Camera;
@@ -36,6 +36,15 @@ impl FlatKnot {
             radius: (knot.radius * camera.pixels_per_meter()) as f32,
         }
     }
+
+    /// Whether what arrives at the knot and what leaves it are seen as a sharp turn; or not at all, along the
+    /// line of sight. What is smooth in space may seem so, too.
+    fn seems_sharp(&self) -> bool {
+        const SQUARE: f32 = (SHARP * SHARP) as f32;
+        let (arrives, leaves) = (self.point - self.handle_in, self.handle_out - self.point);
+        let dot = arrives.dot(leaves);
+        dot <= 0.0 || dot * dot < SQUARE * arrives.length_squared() * leaves.length_squared()
+    }
 }
 
 /// Draws `stem` as [`super::draw`] does, up to rounding, without the pieces that are known to be hidden. `camera` is
@@ -60,7 +69,7 @@ pub(in crate::raster) fn draw(
     };
     let mut last = Some(rib(from.point, from.handle_out - from.point, from.radius));
     cap(grid, camera, scale, &piece(first, second), 0.0, first.radius);
-    for knot in &knots[1..] {
+    for (k, knot) in knots.iter().enumerate().skip(1) {
         let to = FlatKnot::new(camera, knot);
         if occlusion.is_known() && is_hidden(occlusion, scale, &from, &to) {
             (last, from) = (None, to);
@@ -69,6 +78,12 @@ pub(in crate::raster) fn draw(
         occlusion.add(1);
         // After a hidden piece the rib that would have been its last.
         let mut before = last.unwrap_or_else(|| rib(from.point, from.point - from.handle_in, from.radius));
+        if k > 1 && from.seems_sharp() && is_sharp([&knots[k - 2], &knots[k - 1], knot]) {
+            let leaves = from.handle_out - from.point;
+            let leaves = if leaves == Vec2::ZERO { to.point - from.point } else { leaves };
+            before = rib(from.point, leaves, from.radius);
+            ball(grid, scale, &before);
+        }
         let (a, b, c, d) = (from.point, from.handle_out, to.handle_in, to.point);
         // As `Cubic::chords`, of the bend that can be seen.
         let (bend, bend_after) = (a - b * 2.0 + c, b - c * 2.0 + d);
