@@ -31,6 +31,9 @@ pub(super) fn cannot(photo: &Path) -> String {
 pub(super) fn means(mask: &Mask) -> String {
     match mask.segmentation {
         Segmentation::Opacity => "the picture has an alpha channel: the tree is what is opaque".to_owned(),
+        Segmentation::TwoTones => {
+            "the picture has two tones: the tree is the one that its edge does not have".to_owned()
+        }
         Segmentation::Color { threshold, horizon } => {
             let behind = horizon.map_or_else(
                 || "one background".to_owned(),

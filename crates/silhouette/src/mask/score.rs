@@ -43,17 +43,39 @@ pub(super) struct Foreground {
     pub(super) loose: Bitmap,
 }
 
-/// Tells what stands out from the background.
-pub(super) fn foreground(photo: &Photo, background: Background) -> Result<Foreground, MaskError> {
-    let (width, height) = (photo.width(), photo.height());
+impl Foreground {
+    /// What the picture itself says: its ink, and what is firmly and loosely so.
+    pub(super) const fn told(ink: Bitmap, firm: Bitmap, loose: Bitmap) -> Self {
+        Self { ink, horizon: None, threshold: 0.0, firm, loose }
+    }
+}
+
+/// Tells what stands out from the background, for each way in which that may be seen, the clearest horizon
+/// first and none last.
+pub(super) fn foregrounds(
+    photo: &Photo,
+    background: Background,
+) -> impl Iterator<Item = Result<Foreground, MaskError>> + '_ {
     let frame = Frame::of(photo);
-    let clear = match background {
-        Background::Plain => None,
-        Background::Sky => Some(StepThreshold::LENIENT),
-        Background::Auto => Some(StepThreshold::STRICT),
+    let (left, right) = (frame.side(0), frame.side(photo.width() - frame.width));
+    let detect = |clear| Horizon::detect(&left, &right, clear);
+    let mut horizons = match background {
+        Background::Plain => vec![None],
+        Background::Sky => vec![detect(StepThreshold::LENIENT)],
+        Background::Auto => vec![detect(StepThreshold::STRICT), detect(StepThreshold::LENIENT), None],
     };
-    let horizon =
-        clear.and_then(|clear| Horizon::detect(&frame.side(0), &frame.side(width - frame.width), clear));
+    if horizons[0].is_none() {
+        // The same as the last one.
+        horizons.rotate_left(1);
+    }
+    horizons.dedup();
+    horizons.into_iter().map(move |horizon| foreground(&frame, horizon))
+}
+
+/// Tells what stands out from the background above and below a horizon, or from one background.
+fn foreground(frame: &Frame<'_>, horizon: Option<Horizon>) -> Result<Foreground, MaskError> {
+    let photo = frame.photo;
+    let (width, height) = (photo.width(), photo.height());
     let (above, below) = frame.samples(horizon);
     let untold = MaskError::NoTree { why: "the frame has too few pixels to tell the background by" };
     let above = Backdrop::fit(&above).ok_or(untold)?;
