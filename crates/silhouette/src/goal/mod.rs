@@ -165,9 +165,8 @@ impl Goal {
         }
         warnings.extend(treated);
         if (tones.width, tones.height) != size {
-            let resized = |of: &Bitmap| resample::resampled(of, size.0, size.1);
-            ink = resized(&ink);
-            inside = inside.as_ref().map(resized);
+            ink = resample::resampled(&ink, size.0, size.1);
+            inside = inside.map(|inside| resample::resampled(&inside, size.0, size.1));
         }
         drop(tones);
         let goal = Self::build(ink, inside.as_ref(), split, &name, options, warnings)?;

@@ -4,6 +4,7 @@
 //!    and corners that were made transparent are left out.
 //! 2. The horizon is where colours step at the picture's sides, if they do. Unless the background is said to
 //!    be plain or a sky, no horizon, a clear and a faint one are tried, and the most confident mask is taken.
+//!    If that is still doubtful, so is what has other colours than all of the picture's edges.
 //! 3. What the background looks like is read off the picture's frame, above and below the horizon,
 //!    and continued behind the tree; colours are compared in Oklab.
 //! 4. What is farther from it than Otsu's threshold on that distance, and than half of what is usual
@@ -12,13 +13,15 @@
 //!    hang apart from the crown are tree. The largest is the tree, or the one at the seed point.
 //! 6. Small holes are filled, such as glints on leaves; the sky between leaves stays.
 //!
-//! It takes an even background: sky, clouds, haze, a wall. Houses and other trees behind the tree
-//! are beyond it.
+//! It takes an even background: sky, clouds, haze, a wall. Before houses and other trees it finds what differs
+//! from them in colour, and says that it is doubtful.
 
 mod backdrop;
+mod colors;
 mod confidence;
 mod error;
 mod horizon;
+mod mixture;
 mod oklab;
 mod photo;
 mod prepare;
@@ -89,6 +92,8 @@ pub enum Segmentation {
         /// Where the ground begins, if it was seen.
         horizon: Option<Horizon>,
     },
+    /// The tree is what is in the middle and has other colours than the picture's edges.
+    Colors,
 }
 
 /// A tree in a photograph.
@@ -142,7 +147,7 @@ impl Mask {
         }
         let prepared = Prepared::new(photo, options.alpha);
         let mut made = match prepared.told {
-            Some((foreground, segmentation)) => Self::of_told(foreground, segmentation)?,
+            Some(foreground) => Self::of_told(foreground)?,
             None => Self::most_confident(&prepared.photo, options)?,
         };
         let said = said(&made.bitmap, photo, prepared.warnings, made.confidence);
@@ -156,8 +161,8 @@ impl Mask {
     }
 
     /// A mask that the picture itself tells.
-    fn of_told(foreground: Foreground, segmentation: Segmentation) -> Result<Self, MaskError> {
-        if segmentation == Segmentation::TwoTones {
+    fn of_told(foreground: Foreground) -> Result<Self, MaskError> {
+        if foreground.segmentation == Segmentation::TwoTones {
             check(&foreground.ink)?;
         }
         let evidence = Evidence::of(&foreground.ink, &foreground);
@@ -165,7 +170,7 @@ impl Mask {
             touches: touches(&foreground.ink),
             warnings: Vec::new(),
             bitmap: foreground.ink,
-            segmentation,
+            segmentation: foreground.segmentation,
             dropped: 0,
             filled: 0,
             confidence: evidence.of_a_cutout().confidence(),
@@ -184,12 +189,19 @@ impl Mask {
                 Err(error) => failed = failed.or(Some(error)),
             }
         }
-        match (best, failed) {
-            (Some(best), None) => Ok(best),
-            (Some(best), Some(_)) if best.confidence >= DOUBTFUL => Ok(best),
-            (_, Some(error)) => Err(error),
-            (None, None) => Err(MaskError::NoTree { why: "nothing stands out from the background" }),
+        if failed.is_some() {
+            best = best.filter(|mask| mask.confidence >= DOUBTFUL);
         }
+        if options.background == Background::Auto && best.as_ref().is_none_or(|b| b.confidence < DOUBTFUL) {
+            let found = Foreground::of_other_colors(photo);
+            let mask = found.and_then(|foreground| Self::by_color(&foreground, options).ok());
+            let least = best.as_ref().map_or(LEAST, |best| best.confidence);
+            if let Some(mask) = mask.filter(|mask| mask.confidence > least) {
+                best = Some(Self { confidence: BY_COLORS * mask.confidence, ..mask });
+            }
+        }
+        let none = MaskError::NoTree { why: "nothing stands out from the background" };
+        best.ok_or_else(|| failed.unwrap_or(none))
     }
 
     fn by_color(foreground: &Foreground, options: &MaskOptions) -> Result<Self, MaskError> {
@@ -212,10 +224,7 @@ impl Mask {
             touches: touches(&bitmap),
             warnings: Vec::new(),
             bitmap,
-            segmentation: Segmentation::Color {
-                threshold: foreground.threshold,
-                horizon: foreground.horizon,
-            },
+            segmentation: foreground.segmentation,
             dropped,
             filled,
             confidence,
@@ -266,6 +275,11 @@ fn check(ink: &Bitmap) -> Result<(), MaskError> {
 
 /// Masks of less confidence are called doubtful.
 const DOUBTFUL: f64 = 0.45;
+
+/// Of masks by other colours than the edges', this part of the confidence is told: they are seldom wholly right.
+const BY_COLORS: f64 = 0.5;
+/// Where no other way finds a tree, they need more than this; before an empty lawn they have nothing.
+const LEAST: f64 = 0.05;
 
 /// What is to be said of a mask, beside what was done to its picture.
 fn said(ink: &Bitmap, photo: &Photo, treated: Vec<GoalWarning>, confidence: f64) -> Vec<GoalWarning> {

@@ -19,7 +19,7 @@ pub(super) struct Prepared<'a> {
     /// The pixels that are of the picture; all if there is none.
     pub(super) inside: Option<Bitmap>,
     /// What is tree, where the picture itself tells.
-    pub(super) told: Option<(Foreground, Segmentation)>,
+    pub(super) told: Option<Foreground>,
     pub(super) warnings: Vec<GoalWarning>,
 }
 
@@ -42,7 +42,7 @@ impl<'a> Prepared<'a> {
         let (width, height) = (photo.width(), photo.height());
         let beyond = |least: u8| Bitmap::from_fn(width, height, |x, y| photo.opacity(x, y) >= least);
         let below = |most: u8| Bitmap::from_fn(width, height, |x, y| photo.opacity(x, y) < most);
-        let told = |ink, firm, loose| (Foreground::told(ink, firm, loose), Segmentation::Opacity);
+        let told = |ink, firm, loose| Foreground::told(Segmentation::Opacity, ink, firm, loose);
         let opaque = beyond(OPAQUE);
         match (alpha::role(&opaque, |x, y| photo.light(x, y)), use_of_alpha) {
             (Alpha::Picture, _) => {
@@ -86,7 +86,7 @@ fn places(width: u32, height: u32) -> impl Iterator<Item = (u32, u32)> {
 }
 
 /// The tree in a picture of two greys, which is a mask already, however near to each other they are.
-fn two_tones(photo: &Photo) -> Option<(Foreground, Segmentation)> {
+fn two_tones(photo: &Photo) -> Option<Foreground> {
     let mut seen: Vec<[u8; 3]> = Vec::new();
     for &[r, g, b, _] in photo.pixels() {
         if !seen.contains(&[r, g, b]) {
@@ -103,5 +103,5 @@ fn two_tones(photo: &Photo) -> Option<(Foreground, Segmentation)> {
     // Of one tone, there is no tree.
     let reading = (seen.len() == 2).then(|| ink::ink_of(&mut tones, Polarity::Auto).ok()).flatten()?;
     let ink = reading.ink;
-    Some((Foreground::told(ink.clone(), ink.clone(), ink), Segmentation::TwoTones))
+    Some(Foreground::told(Segmentation::TwoTones, ink.clone(), ink.clone(), ink))
 }

@@ -20,9 +20,10 @@ const EXAMPLES: &str = "Examples:
   pleach fit oak.jpg --mask auto                      the same in one go
 
 The tree is what differs from the background, and that is what the picture's edges show: a sky, with or \
-without a ground below it, or a wall. Houses, hills, shadows and other trees are taken for tree. A picture \
-from which something is cut out (an alpha channel) is its own mask; a frame around it, and corners that are \
-transparent since it was turned, are left out and told.
+without a ground below it, or a wall. Where that is doubtful, as before houses and other trees, the tree is \
+what has other colours than the edges; what has the tree's own colours is taken for tree. A picture from \
+which something was cut out (an alpha channel) is its own mask, and so is one of two tones. A frame, and \
+corners that are transparent since a picture was turned, are left out.
 
 Confidence says how likely a mask is a good one, from 0 to 1; sort by it, and look at those below 0.45.
 
@@ -63,7 +64,7 @@ pub(crate) struct MaskCommand {
 }
 
 const BACKGROUNDS: &[Choice<Background>] = &[
-    ("auto", "Sky with a ground below it, and plain: whichever mask is more confident", Background::Auto),
+    ("auto", "Sky, plain and other colours than the edges': the most confident mask", Background::Auto),
     ("sky", "A sky, probably with a ground below it: a faint step at the sides is enough", Background::Sky),
     ("plain", "One smooth background all around", Background::Plain),
 ];
@@ -191,6 +192,7 @@ impl Made {
         let (mask, goal) = (&self.mask, &self.goal);
         let (by, threshold, horizon) = match mask.segmentation {
             Segmentation::Opacity => ("opacity", None, None),
+            Segmentation::Colors => ("colours", None, None),
             Segmentation::TwoTones => ("two-tones", None, None),
             Segmentation::Color { threshold, horizon } => ("colour", Some(threshold), horizon),
         };
