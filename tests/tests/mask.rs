@@ -213,3 +213,55 @@ fn a_fit_tells_what_its_mask_tells() {
     let _ = fit.ok();
     assert!(fit.stderr().contains("warning: cut.png: the crown touches the frame: left"), "{fit}");
 }
+
+/// Transparent corners, a frame and near values: told, and no longer taken for tree.
+#[test]
+fn what_is_not_of_the_picture_is_left_out() {
+    let dir = Dir::new();
+    photograph(&dir, 0);
+    let photo = image::open(dir.path("photo.png")).unwrap().to_rgba8();
+    let (width, height) = photo.dimensions();
+    let corners = image::RgbaImage::from_fn(width, height, |x, y| {
+        let Rgba([r, g, b, _]) = *photo.get_pixel(x, y);
+        let corner = x.min(width - 1 - x) + y.min(height - 1 - y) < 9;
+        Rgba([r, g, b, if corner { 0 } else { 255 }])
+    });
+    corners.save(dir.path("corners.png")).unwrap();
+    let framed = image::RgbaImage::from_fn(width, height, |x, y| {
+        let edge = x.min(y).min(width - 1 - x).min(height - 1 - y) < 3;
+        if edge { Rgba([0, 0, 0, 255]) } else { *photo.get_pixel(x, y) }
+    });
+    framed.save(dir.path("framed.png")).unwrap();
+    for (name, kind) in [("corners", "alpha-ignored"), ("framed", "frame")] {
+        let found = dir.run(["mask", &format!("{name}.png"), "-o", "m.png", "--json"]).json();
+        let kinds: Vec<_> = found["warnings"].as_array().unwrap().iter().map(|w| w["kind"].clone()).collect();
+        assert!(kinds.contains(&kind.into()), "{found}");
+        assert!(found["confidence"].as_f64().unwrap() < 1.0, "{found}");
+        assert!(iou(&dir, "m.png", "truth.png") > 0.9, "{name}");
+    }
+    // An alpha channel that is a mask is one no more if it is to be ignored.
+    let ignored = dir.run(["mask", "tree.png", "-o", "m.png", "--alpha", "ignore", "--json"]);
+    assert!(!ignored.stdout().contains("\"by\":\"opacity\""), "{ignored}");
+    dir.run(["mask", "tree.png", "-o", "m.png", "--alpha", "none"]).fails(2, &["auto", "ignore"]);
+    let truth = image::open(dir.path("truth.png")).unwrap().to_luma8();
+    let labels = image::GrayImage::from_fn(width, height, |x, y| {
+        image::Luma([u8::from(truth.get_pixel(x, y)[0] == 0)])
+    });
+    labels.save(dir.path("labels.png")).unwrap();
+    assert!(dir.run(["mask", "labels.png", "-o", "m.png"]).ok().contains("two tones"));
+    assert!(iou(&dir, "m.png", "truth.png") > 0.999);
+}
+
+/// What the picture warns of, `mask` has an option for, or names the command that has one.
+#[test]
+fn warnings_of_masks_advise_nothing_that_mask_has_not() {
+    let dir = Dir::new();
+    let disc = image::RgbaImage::from_fn(100, 100, |x, y| {
+        let inside = x.abs_diff(50).pow(2) + y.abs_diff(50).pow(2) < 900;
+        Rgba([40, 90, 30, if inside { 255 } else { 0 }])
+    });
+    disc.save(dir.path("disc.png")).unwrap();
+    let mask = dir.run(["mask", "disc.png", "-o", "m.png"]);
+    let _ = mask.ok();
+    assert!(mask.stderr().contains("`pleach fit` has --tree dark"), "{mask}");
+}

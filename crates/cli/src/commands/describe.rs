@@ -34,6 +34,14 @@ pub(super) fn cannot(photo: &Path) -> String {
 pub(super) fn means(mask: &Mask) -> String {
     match mask.segmentation {
         Segmentation::Opacity => "the picture has an alpha channel: the tree is what is opaque".to_owned(),
+        Segmentation::TwoTones => {
+            "the picture has two tones: the tree is the one that its edge does not have".to_owned()
+        }
+        Segmentation::Colors => format!(
+            "the tree is what has other colours than the picture's edges\n\
+             {} other pixels dropped, {} in small holes filled",
+            mask.dropped, mask.filled
+        ),
         Segmentation::Color { threshold, horizon } => {
             let behind = horizon.map_or_else(
                 || "one background".to_owned(),

@@ -19,6 +19,9 @@ const FEW: usize = 200;
 const FREE_LOOKS: usize = 64;
 /// So many more are a step.
 const LOOKS_PER_STEP: usize = 8;
+/// A dart that misses takes a step, and one more for so many nodes wanted: cells of many are not in the
+/// processor's cache.
+const NODES_PER_STEP: usize = 400_000;
 /// Steps that are counted before they are taken from the meter.
 const AT_A_TIME: usize = 4096;
 /// The part of nodes that lie along an axis.
@@ -88,6 +91,7 @@ impl Nodes {
         }
         let darts = key.child(DART, 0);
         let (mut throws, mut spent) = (0, Spent::default());
+        let miss = 1 + count / NODES_PER_STEP;
         while self.points.len() < count && throws < MAX_THROWS * count {
             if spent.due() >= AT_A_TIME {
                 spent.pay(meter)?;
@@ -98,7 +102,7 @@ impl Nodes {
             let u = [dart.unit(0, 0), dart.unit(0, 1), dart.unit(0, 2)];
             let pick = if volume.parts.len() > 1 { dart.unit(0, 3) } else { 0.0 };
             let Some((p, part)) = volume.dart(pick, u) else {
-                spent.misses += 1;
+                spent.misses += miss;
                 spent.crowding += steps_of(looks);
                 continue;
             };
@@ -119,7 +123,7 @@ impl Nodes {
             };
             spent.crowding += steps_of(looks);
             if is_crowded {
-                spent.misses += 1;
+                spent.misses += miss;
             } else {
                 self.put(p, part as u16);
                 if !few {

@@ -23,6 +23,19 @@ pub enum GoalError {
         /// The file.
         path: PathBuf,
     },
+    /// The file is a picture of a format that is not read, but that other programs convert.
+    #[error(
+        "{path} is a {format} picture, and PNG, JPEG, WebP and TIFF are read: convert it; {converter}",
+        path = path.display()
+    )]
+    OtherFormat {
+        /// The file.
+        path: PathBuf,
+        /// What the format is called.
+        format: &'static str,
+        /// What converts it to PNG, and by which command.
+        converter: &'static str,
+    },
     /// The file is a picture of a kind that its decoder does not know.
     #[error("{path} is a kind of picture that cannot be read here: {detail}; save it as an ordinary PNG", path = path.display())]
     Unsupported {
@@ -89,7 +102,8 @@ pub enum GoalError {
     },
     /// The mask does not lie on the picture.
     #[error(
-        "the mask {mask} has {} × {} pixels, and the picture has {} × {}",
+        "the mask {mask} has {} × {} pixels, and the picture has {} × {}: it may be larger or smaller, but \
+         must have the same shape",
         mask_size.0, mask_size.1, image_size.0, image_size.1, mask = mask.display()
     )]
     MaskSize {
@@ -111,6 +125,19 @@ pub enum GoalError {
     AllInk {
         /// The file, or what the picture is.
         name: String,
+    },
+    /// The picture has several tones, all about as bright as each other.
+    #[error(
+        "{name} shows no tree: its values go from {darkest} to {lightest} of 255, which is too little to tell \
+         a tree from its background; use a picture of two tones, or with more contrast"
+    )]
+    LowContrast {
+        /// The file, or what the picture is.
+        name: String,
+        /// The least brightness, 0 to 255.
+        darkest: u8,
+        /// The greatest brightness, 0 to 255.
+        lightest: u8,
     },
     /// A place set by hand lies outside the picture.
     #[error("{what} {value} is not in the picture, which reaches from 0 to {limit}")]

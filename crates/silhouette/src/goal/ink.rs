@@ -1,6 +1,9 @@
 //! What in a picture is tree: opacity, or brightness split in two.
 
+use super::alpha::{self, Alpha, OPAQUE};
+use super::border;
 use super::read::Tones;
+use super::warning::GoalWarning;
 use crate::bitmap::Bitmap;
 
 /// Which of the two tones of a picture is the tree.
@@ -18,7 +21,7 @@ pub enum Polarity {
 /// How the tree was told from the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Split {
-    /// The tree is what is at least half opaque.
+    /// The tree is what is at least half opaque, or the hole in it.
     Opacity,
     /// The tree is what is on one side of a brightness.
     Brightness {
@@ -27,6 +30,8 @@ pub enum Split {
         /// Whether the dark part is the tree.
         dark_tree: bool,
     },
+    /// The tree is what differs from the paper in colour, since brightness did not tell.
+    Color,
     /// The picture was one-bit already.
     None,
 }
@@ -36,22 +41,74 @@ const MIN_CONTRAST: u8 = 16;
 /// Opacities farther apart than this make an alpha channel that says something.
 pub(crate) const MIN_ALPHA_RANGE: u8 = 128;
 
-/// The tree in a picture, and how it was told from the paper.
-pub(super) fn ink_of(tones: &Tones, polarity: Polarity) -> (Bitmap, Split) {
+/// What was made of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Reading {
+    /// The tree, continued over what is not of the picture.
+    pub(crate) ink: Bitmap,
+    pub(crate) split: Split,
+    /// The pixels that are of the picture; all if there is none.
+    pub(crate) inside: Option<Bitmap>,
+    /// What was done to the picture on the way.
+    pub(crate) warnings: Vec<GoalWarning>,
+}
+
+/// A picture has several tones, but so near to each other that no split can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct LowContrast {
+    /// The least brightness, 0 to 255.
+    pub(crate) darkest: u8,
+    /// The greatest.
+    pub(crate) lightest: u8,
+}
+
+/// The tree in a picture, and how it was told from the paper. What is not of the picture, such as a frame,
+/// gets the tones of what is next to it.
+pub(crate) fn ink_of(tones: &mut Tones, polarity: Polarity) -> Result<Reading, LowContrast> {
+    let mut warnings = Vec::new();
+    let mut inside = None;
     let least = tones.opacity.iter().copied().min().unwrap_or(255);
     let most = tones.opacity.iter().copied().max().unwrap_or(255);
     if polarity == Polarity::Auto && most - least >= MIN_ALPHA_RANGE {
-        return (bitmap(tones, |i| tones.opacity[i] >= 128), Split::Opacity);
+        let opaque = bitmap(tones, |i| tones.opacity[i] >= OPAQUE);
+        let width = tones.width as usize;
+        match alpha::role(&opaque, |x, y| tones.light[y as usize * width + x as usize]) {
+            Alpha::Tree => {
+                return Ok(Reading { ink: opaque, split: Split::Opacity, inside, warnings });
+            }
+            Alpha::Around => {
+                let ink = bitmap(tones, |i| tones.opacity[i] < OPAQUE);
+                warnings.push(GoalWarning::TransparentTree);
+                return Ok(Reading { ink, split: Split::Opacity, inside, warnings });
+            }
+            Alpha::Picture => {
+                let opacity = |x: u32, y: u32| tones.opacity[y as usize * width + x as usize];
+                let certain = alpha::certain(tones.width, tones.height, opacity);
+                warnings.push(GoalWarning::AlphaIgnored {
+                    transparent: 1.0 - opaque.ink() as f64 / opaque.area() as f64,
+                });
+                border::extend(&mut tones.light, &certain);
+                tones.opacity.fill(255);
+                inside = Some(certain);
+            }
+        }
     }
     // Transparent parts show the paper: white under a dark tree, black under a light one.
     let paper = if polarity == Polarity::LightTree { 0 } else { 255 };
-    let brightness: Vec<u8> =
+    let mut brightness: Vec<u8> =
         tones.light.iter().zip(&tones.opacity).map(|(&l, &a)| over(l, a, paper)).collect();
+    if let Some(frame) = border::frame(&brightness, tones.width, tones.height) {
+        let picture = frame.inside(tones.width, tones.height);
+        border::extend(&mut brightness, &picture);
+        border::extend(&mut tones.light, &picture);
+        inside = Some(inside.map_or_else(|| picture.clone(), |other| border::within(&other, &picture)));
+        warnings.push(GoalWarning::Frame(frame));
+    }
     let mut histogram = [0_u64; 256];
     for &b in &brightness {
         histogram[usize::from(b)] += 1;
     }
-    let threshold = otsu(&histogram).unwrap_or(127);
+    let threshold = threshold(&histogram)?;
     let dark = bitmap(tones, |i| brightness[i] <= threshold);
     let dark_tree = match polarity {
         Polarity::DarkTree => true,
@@ -59,7 +116,18 @@ pub(super) fn ink_of(tones: &Tones, polarity: Polarity) -> (Bitmap, Split) {
         Polarity::Auto => dark.ink() == dark.area() || !edge_is_ink(&dark),
     };
     let ink = if dark_tree { dark } else { bitmap(tones, |i| brightness[i] > threshold) };
-    (ink, Split::Brightness { threshold, dark_tree })
+    Ok(Reading { ink, split: Split::Brightness { threshold, dark_tree }, inside, warnings })
+}
+
+/// The greatest brightness of the dark part: between two values if there are no more, however near they
+/// are; anything if there is one; else Otsu's.
+fn threshold(histogram: &[u64; 256]) -> Result<u8, LowContrast> {
+    let levels: Vec<u8> = (0..=255).filter(|&level| histogram[usize::from(level)] > 0).collect();
+    match levels[..] {
+        [darkest, lightest] => Ok(darkest.midpoint(lightest)),
+        [darkest, .., lightest] => otsu(histogram).ok_or(LowContrast { darkest, lightest }),
+        _ => Ok(127),
+    }
 }
 
 fn over(light: u8, opacity: u8, paper: u8) -> u8 {
@@ -142,12 +210,26 @@ mod tests {
         (8..12).contains(&x) && y > 5
     }
 
+    /// Reads a picture that has enough contrast.
+    fn read(mut t: Tones, polarity: Polarity) -> (Bitmap, Split) {
+        let reading = ink_of(&mut t, polarity).unwrap();
+        assert_eq!((reading.inside, reading.warnings), (None, vec![]));
+        (reading.ink, reading.split)
+    }
+
     #[test]
     fn either_polarity_is_told_by_the_edge() {
         let expected = Bitmap::from_fn(20, 20, tree);
-        for (on, off, dark_tree) in [(10, 240, true), (250, 30, false), (100, 130, true)] {
+        for (on, off, dark_tree) in [
+            (10, 240, true),
+            (250, 30, false),
+            (100, 130, true),
+            (1, 0, false),
+            (0, 1, true),
+            (255, 254, false),
+        ] {
             let t = tones(20, 20, |x, y| (if tree(x, y) { on } else { off }, 255));
-            let (ink, split) = ink_of(&t, Polarity::Auto);
+            let (ink, split) = read(t, Polarity::Auto);
             assert_eq!(ink, expected, "{on} on {off}");
             let threshold = ((on as u16 + off as u16) / 2) as u8;
             let Split::Brightness { threshold: t, dark_tree: d } = split else { panic!("{split:?}") };
@@ -155,17 +237,25 @@ mod tests {
             assert!(t.abs_diff(threshold) <= 1, "{t} and {threshold}");
         }
         let t = tones(20, 20, |x, y| (if tree(x, y) { 10 } else { 240 }, 255));
-        assert_eq!(ink_of(&t, Polarity::LightTree).0.ink(), 400 - expected.ink());
+        assert_eq!(read(t, Polarity::LightTree).0.ink(), 400 - expected.ink());
     }
 
     #[test]
     fn opacity_goes_before_brightness_unless_told_otherwise() {
         // A white tree on transparent black.
         let t = tones(20, 20, |x, y| if tree(x, y) { (255, 255) } else { (0, 0) });
-        assert_eq!(ink_of(&t, Polarity::Auto), (Bitmap::from_fn(20, 20, tree), Split::Opacity));
+        assert_eq!(read(t, Polarity::Auto), (Bitmap::from_fn(20, 20, tree), Split::Opacity));
         // A black tree on white paper with one transparent corner, told to be dark.
         let t = tones(20, 20, |x, y| (if tree(x, y) { 0 } else { 255 }, if x + y < 3 { 0 } else { 255 }));
-        assert_eq!(ink_of(&t, Polarity::DarkTree).0, Bitmap::from_fn(20, 20, tree));
+        assert_eq!(read(t, Polarity::DarkTree).0, Bitmap::from_fn(20, 20, tree));
+    }
+
+    #[test]
+    fn several_tones_that_are_too_near_are_refused() {
+        let mut t = tones(20, 20, |x, y| (if tree(x, y) { 7 } else { 9 + (x % 3) as u8 }, 255));
+        assert_eq!(ink_of(&mut t, Polarity::Auto), Err(LowContrast { darkest: 7, lightest: 11 }));
+        let mut even = tones(20, 20, |_, _| (200, 255));
+        assert_eq!(ink_of(&mut even, Polarity::Auto).map(|reading| reading.ink.ink()), Ok(0));
     }
 
     #[test]

@@ -2,8 +2,9 @@
 //!
 //! 1. The file is read to its end and its structure checked; then it is decoded within limits: at most
 //!    [`MAX_SIDE`] pixels wide and high and [`MAX_BYTES`]. Of an animation or of pages, the first is taken.
-//! 2. What is tree is told by opacity where that varies, else by Otsu's threshold on brightness; or
-//!    a mask file says.
+//! 2. A frame around the picture is left out. What is tree is told by opacity where that cuts something out,
+//!    else by Otsu's threshold on brightness, or between two values if there are no more; or a mask file says.
+//!    Where brightness makes a doubtful tree, what differs from the paper around it is tried.
 //! 3. Ground row and axis column are read off the ink, unless set by hand.
 //! 4. What is not as in a silhouette of a tree is told: [`GoalWarning`].
 //! 5. On request the picture is replaced by the tree and a margin: [`Crop`].
@@ -11,12 +12,17 @@
 //!
 //! How tall the tree is cannot be seen in a silhouette: [`Goal::frame`] takes it in metres.
 
+pub(crate) mod alpha;
 mod anchor;
+pub(crate) mod border;
 mod error;
+mod formats;
+mod hollow;
 pub(crate) mod ink;
 mod photograph;
 pub(crate) mod read;
 mod region;
+mod resample;
 pub(crate) mod shape;
 mod shrink;
 mod source;
@@ -24,9 +30,11 @@ mod specks;
 mod structure;
 #[cfg(test)]
 mod tests;
+mod uneven;
 mod warning;
 
 pub use anchor::Origin;
+pub use border::FrameWidths;
 pub use error::GoalError;
 pub use ink::{Polarity, Split};
 pub use read::{MAX_BYTES, MAX_SIDE, MIN_SIDE};
@@ -37,6 +45,7 @@ pub use warning::GoalWarning;
 use crate::bitmap::Bitmap;
 use crate::view::Frame;
 use anchor::Snapping;
+use ink::{LowContrast, Reading};
 use region::Region;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -44,7 +53,8 @@ use std::path::{Path, PathBuf};
 /// What may be set by hand about a goal image.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GoalOptions {
-    /// A picture of the same size that says what is tree; read in the same way as a goal.
+    /// A picture of the same size, or of the same shape at another size, that says what is tree; read in the
+    /// same way as a goal.
     pub mask: Option<PathBuf>,
     /// Which of the two tones is the tree, in the mask if there is one.
     pub polarity: Polarity,
@@ -135,18 +145,24 @@ impl Goal {
     /// # Errors
     /// As [`Goal::load`].
     pub fn from_encoded(source: &Encoded, options: &GoalOptions) -> Result<Self, GoalError> {
-        let (name, tones) = if let Some(mask) = &options.mask {
+        let (name, mut tones, size) = if let Some(mask) = &options.mask {
             let image_size = read::dimensions(source)?;
             let tones = read::tones(&Encoded::load(mask)?)?;
             let mask_size = (tones.width, tones.height);
-            if mask_size != image_size {
+            if !resample::is_alike(mask_size, image_size) {
                 return Err(GoalError::MaskSize { mask: mask.clone(), mask_size, image_size });
             }
-            (mask.as_path(), tones)
+            (mask.as_path(), tones, image_size)
         } else {
-            (source.name(), read::tones(source)?)
+            let tones = read::tones(source)?;
+            let size = (tones.width, tones.height);
+            (source.name(), tones, size)
         };
-        let (ink, split) = ink::ink_of(&tones, options.polarity);
+        let name = name.display().to_string();
+        let Reading { mut ink, split, mut inside, warnings: treated } =
+            ink::ink_of(&mut tones, options.polarity).map_err(|LowContrast { darkest, lightest }| {
+                GoalError::LowContrast { name: name.clone(), darkest, lightest }
+            })?;
         let mut warnings = Vec::new();
         if let Split::Brightness { threshold, dark_tree } = split
             && options.mask.is_none()
@@ -157,8 +173,14 @@ impl Goal {
         if tones.several {
             warnings.push(GoalWarning::SeveralPictures);
         }
+        warnings.extend(treated);
+        if (tones.width, tones.height) != size {
+            ink = resample::resampled(&ink, size.0, size.1);
+            inside = inside.map(|inside| resample::resampled(&inside, size.0, size.1));
+        }
         drop(tones);
-        Self::build(ink, split, &name.display().to_string(), options, warnings)
+        let goal = Self::build(ink, inside.as_ref(), split, &name, options, warnings)?;
+        Ok(uneven::by_color(source, &goal, options).unwrap_or(goal))
     }
 
     /// A goal from a picture of ink at hand, its places detected.
@@ -174,11 +196,12 @@ impl Goal {
     /// # Errors
     /// As [`Goal::from_bitmap`], and for places set by hand that are not in the picture.
     pub fn from_ink(bitmap: Bitmap, options: &GoalOptions) -> Result<Self, GoalError> {
-        Self::build(bitmap, Split::None, "the picture", options, Vec::new())
+        Self::build(bitmap, None, Split::None, "the picture", options, Vec::new())
     }
 
     fn build(
         ink: Bitmap,
+        inside: Option<&Bitmap>,
         split: Split,
         name: &str,
         options: &GoalOptions,
@@ -200,6 +223,8 @@ impl Goal {
         let is_noisy = warnings.iter().any(|warning| matches!(warning, GoalWarning::Noise { .. }));
         let clean = is_noisy.then(|| specks::cleaned(&ink)).filter(|clean| clean.ink() > 0);
         let ink = clean.unwrap_or(ink);
+        // A tree that a frame cuts off was continued into it, so that what was said above knows.
+        let ink = inside.map(|inside| border::within(&ink, inside)).unwrap_or(ink);
         let bounds = ink.ink_box().ok_or_else(|| GoalError::NoInk { name: name() })?;
         let (top, bottom) = specks::rows(&ink, bounds.1, bounds.3);
         let bounds = (bounds.0, top, bounds.2, bottom);

@@ -1,7 +1,7 @@
 //! From bytes to brightness and opacity, without trusting them.
 
 use super::error::GoalError;
-use super::source::Encoded;
+use super::source::{self, Encoded};
 use super::structure::{Structure, structure};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
@@ -21,16 +21,16 @@ const MAX_SAMPLES: usize = 1 << 17;
 
 /// A decoded picture: per pixel how bright and how opaque it is, 0 to 255, row by row.
 #[derive(Debug)]
-pub(super) struct Tones {
-    pub(super) width: u32,
-    pub(super) height: u32,
-    pub(super) light: Vec<u8>,
-    pub(super) opacity: Vec<u8>,
+pub(crate) struct Tones {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) light: Vec<u8>,
+    pub(crate) opacity: Vec<u8>,
     /// Colours of every `stride`-th pixel.
-    pub(super) colors: Vec<[u8; 3]>,
-    pub(super) stride: usize,
+    pub(crate) colors: Vec<[u8; 3]>,
+    pub(crate) stride: usize,
     /// Whether the file holds further pictures.
-    pub(super) several: bool,
+    pub(crate) several: bool,
 }
 
 /// Decodes a picture to what goals are made of.
@@ -99,7 +99,7 @@ pub(super) fn dimensions(source: &Encoded) -> Result<(u32, u32), GoalError> {
 /// A decoder of a picture whose structure and size are right, and whether there are further pictures.
 fn open(source: &Encoded) -> Result<(impl ImageDecoder, bool), GoalError> {
     let path = || source.name().into();
-    let format = source.format().ok_or_else(|| GoalError::NotAnImage { path: path() })?;
+    let format = source.format().ok_or_else(|| source::refused(path(), source.bytes()))?;
     let Structure { size, several, end } = structure(format, source.bytes())
         .map_err(|detail| GoalError::Damaged { path: path(), detail: detail.to_owned() })?;
     if let Some(size) = size {

@@ -3,6 +3,7 @@
 //! The thresholds are such that nothing is said of the pictures in `targets/` and `tests/data/silhouettes`,
 //! which are of trees of many kinds, leafy and bare (`tests/warnings.rs`).
 
+use super::hollow;
 use super::warning::GoalWarning;
 use crate::bitmap::Bitmap;
 use crate::pieces;
@@ -38,6 +39,13 @@ const SPECKLED: f64 = 0.0017;
 const APART: u32 = 2;
 /// Ink per convex hull from which on a shape is solid.
 const SOLID: f64 = 0.95;
+/// From this part of a picture on, ink is more likely the paper. Goals have at most 0.47, tightly cropped 0.63.
+const MOSTLY: f64 = 0.7;
+/// Side of the corners of the ink's box that are looked at, as a part of its shorter side.
+const CORNER: u32 = 20;
+/// Trees leave the corners of their box free, but for what lies at their feet; paper has three or four, each
+/// to at least half.
+const MAX_CORNERS: usize = 2;
 /// Rows narrower than this part of the widest are bare trunk.
 const BARE: f64 = 0.25;
 /// Least part of the height that is bare trunk at the top of a tree upside down.
@@ -67,11 +75,24 @@ pub(crate) fn warnings(ink: &Bitmap) -> Vec<GoalWarning> {
     let solidity = shape.solidity();
     if solidity > SOLID {
         found.push(GoalWarning::Solid { solidity });
+    } else {
+        let share = ink.ink() as f64 / ink.area() as f64;
+        if share > MOSTLY || shape.corners() > MAX_CORNERS {
+            found.push(GoalWarning::MostlyInk { share });
+        }
+    }
+    if let Some(hollow) = hollow::hollow(ink) {
+        found.push(GoalWarning::Outline { hollow });
     }
     if shape.is_upside_down() {
         found.push(GoalWarning::UpsideDown);
     }
     found
+}
+
+/// Ink per area of its convex hull, in 0..=1; none is not solid.
+pub(crate) fn solidity(ink: &Bitmap) -> f64 {
+    Shape::of(ink).map_or(0.0, |shape| shape.solidity())
 }
 
 /// Pixels of ink that touch none.
@@ -242,6 +263,23 @@ impl<'a> Shape<'a> {
             }
         }
         lone as f64 / (f64::from(width) * f64::from(height))
+    }
+
+    /// How many corners of the ink's box are ink.
+    fn corners(&self) -> usize {
+        let (right, bottom) = (self.right + 1, self.bottom + 1);
+        let side = ((right - self.left).min(bottom - self.top) / CORNER).max(1);
+        let is_inked = |&(left, top): &(u32, u32)| {
+            let pixels = (top..top + side).flat_map(|y| (left..left + side).map(move |x| (x, y)));
+            2 * pixels.filter(|&(x, y)| self.ink.get(x, y)).count() >= (side * side) as usize
+        };
+        let corners = [
+            (self.left, self.top),
+            (right - side, self.top),
+            (self.left, bottom - side),
+            (right - side, bottom - side),
+        ];
+        corners.iter().filter(|corner| is_inked(corner)).count()
     }
 
     /// Ink per area of its convex hull.

@@ -1,14 +1,12 @@
 //! Pictures as they come: bytes with a name, from a file or a pipe, and never more than may be.
 
 use super::error::GoalError;
+use super::formats::{self, HEAD};
 use super::read::MAX_BYTES;
 use image::ImageFormat;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-
-/// Bytes that are enough to tell formats apart.
-const HEAD: u64 = 16;
 
 /// A picture that is not yet decoded: its bytes, and what errors call it.
 ///
@@ -53,17 +51,17 @@ impl Encoded {
     pub fn read(name: impl Into<PathBuf>, mut from: impl Read) -> Result<Self, GoalError> {
         let (path, mut bytes) = (name.into(), Vec::new());
         let read = (|| {
-            from.by_ref().take(HEAD).read_to_end(&mut bytes)?;
+            from.by_ref().take(HEAD as u64).read_to_end(&mut bytes)?;
             if format(&bytes).is_none() {
                 return Ok(false);
             }
             // One byte more tells whether there is too much.
-            from.take(MAX_BYTES + 1 - HEAD).read_to_end(&mut bytes)?;
+            from.take(MAX_BYTES + 1 - HEAD as u64).read_to_end(&mut bytes)?;
             Ok(true)
         })();
         match read {
             Err(cause) => Err(GoalError::Unreadable { path, cause }),
-            Ok(false) => Err(GoalError::NotAnImage { path }),
+            Ok(false) => Err(refused(path, &bytes)),
             Ok(true) if bytes.len() as u64 > MAX_BYTES => {
                 Err(GoalError::TooManyBytes { path, bytes: bytes.len() as u64, limit: MAX_BYTES })
             }
@@ -86,6 +84,14 @@ impl Encoded {
     /// The format, told by how it begins; none if it is not one of those that are read.
     pub(super) fn format(&self) -> Option<ImageFormat> {
         format(&self.bytes)
+    }
+}
+
+/// Why bytes that begin like none of the formats that are read are refused.
+pub(super) fn refused(path: PathBuf, bytes: &[u8]) -> GoalError {
+    match formats::foreign(&bytes[..bytes.len().min(HEAD)]) {
+        Some((format, converter)) => GoalError::OtherFormat { path, format, converter },
+        None => GoalError::NotAnImage { path },
     }
 }
 

@@ -1,5 +1,6 @@
 //! What about a goal is not as a fit expects, so that its user may look again.
 
+use super::border::FrameWidths;
 use crate::touches::Touches;
 use serde::Serialize;
 use serde::ser::{SerializeStruct, Serializer};
@@ -16,6 +17,21 @@ pub enum GoalWarning {
     Photograph,
     /// The file holds further pictures, and the first was taken.
     SeveralPictures,
+    /// A frame around the picture, as of a print or a scanner, that was left out.
+    Frame(FrameWidths),
+    /// The transparent part is no background, as where a picture was turned; it was left out, and the tree
+    /// was told by its tone or colour.
+    AlphaIgnored {
+        /// Share of the picture that is transparent, in 0..=1.
+        transparent: f64,
+    },
+    /// The tree is the transparent part, a hole in what is around it.
+    TransparentTree,
+    /// Brightness did not tell the tree from its paper, and colour did, as in a photograph.
+    ByColor {
+        /// See [`Mask::confidence`](crate::mask::Mask::confidence).
+        confidence: f64,
+    },
     /// The crown is cut off by the picture's edge.
     TouchesFrame(Touches),
     /// Several pieces of similar size, all taken for one tree.
@@ -38,6 +54,16 @@ pub enum GoalWarning {
         /// Share of the shape's convex hull that is ink, in 0..=1.
         solidity: f64,
     },
+    /// Most of the picture is ink, or the corners of what is ink are: the paper may have been taken for the tree.
+    MostlyInk {
+        /// Share of the picture that is ink, in 0..=1.
+        share: f64,
+    },
+    /// A closed line with paper inside, as in an outline drawing.
+    Outline {
+        /// Share of the shape, its holes filled, that is its largest hole, in 0..=1.
+        hollow: f64,
+    },
     /// A bare stem at the top and the crown at the bottom.
     UpsideDown,
     /// A mask of which little is certain.
@@ -54,11 +80,17 @@ impl GoalWarning {
         match self {
             Self::Photograph => "photograph",
             Self::SeveralPictures => "several-pictures",
+            Self::Frame(_) => "frame",
+            Self::AlphaIgnored { .. } => "alpha-ignored",
+            Self::TransparentTree => "transparent-tree",
+            Self::ByColor { .. } => "by-color",
             Self::TouchesFrame(_) => "touches-frame",
             Self::SeveralPieces { .. } => "several-pieces",
             Self::Ground { .. } => "ground",
             Self::Noise { .. } => "noise",
             Self::Solid { .. } => "solid",
+            Self::MostlyInk { .. } => "mostly-ink",
+            Self::Outline { .. } => "outline",
             Self::UpsideDown => "upside-down",
             Self::DoubtfulMask { .. } => "doubtful-mask",
         }
@@ -75,6 +107,29 @@ impl fmt::Display for GoalWarning {
             Self::SeveralPictures => f.write_str(
                 "the file holds several pictures, as an animation or as pages; only the first was read, so \
                  save the one you mean as a file of its own",
+            ),
+            Self::Frame(frame) => write!(
+                f,
+                "there is a frame around the picture, in pixels: {}; it was left out, and a picture that is \
+                 cropped to what is inside of it makes the same goal",
+                frame.sides()
+            ),
+            Self::AlphaIgnored { transparent } => write!(
+                f,
+                "the transparent part of the picture ({:.1} %) is not a background, as where a picture was \
+                 turned or its corners were rounded; it was left out, and what is opaque is not all tree",
+                100.0 * transparent
+            ),
+            Self::TransparentTree => f.write_str(
+                "the transparent part of the picture was taken for the tree, since the opaque part is all \
+                 around it; if that is wrong, save the picture without transparency",
+            ),
+            Self::ByColor { confidence } => write!(
+                f,
+                "brightness did not tell the tree from the paper, as where light is uneven, and the tree was \
+                 told by what differs from the paper around it, as `pleach mask --background plain` does \
+                 (confidence {confidence:.2} of 1); `pleach fit --tree dark` or `--tree light` splits by \
+                 brightness all the same"
             ),
             Self::TouchesFrame(touches) => write!(
                 f,
@@ -94,14 +149,26 @@ impl fmt::Display for GoalWarning {
             ),
             Self::Noise { specks } => write!(
                 f,
-                "there were specks all over the picture, {specks} of one pixel; those, and holes of one pixel, \
-                 were taken out, and a cleaner picture or a --mask FILE makes a better goal"
+                "there were specks all over the picture, {specks} of one pixel; a fit leaves those out, and fills \
+                 holes of one pixel, and a cleaner picture or a mask made by hand makes a better goal"
             ),
             Self::Solid { solidity } => write!(
                 f,
                 "the shape has neither gaps nor notches ({:.0} % of its convex hull is ink), and trees have \
-                 both; if tree and background were mixed up, use --tree dark or --tree light",
+                 both; if tree and background were mixed up, `pleach fit` has --tree dark and --tree light",
                 100.0 * solidity
+            ),
+            Self::MostlyInk { share } => write!(
+                f,
+                "{:.0} % of the picture counts as tree, up to the corners, so that the paper may have been taken \
+                 for it; if it was, `pleach fit` has --tree dark and --tree light",
+                100.0 * share
+            ),
+            Self::Outline { hollow } => write!(
+                f,
+                "this looks like an outline drawing: {:.0} % of the shape is one piece of paper within a line, and \
+                 a fit takes lines for branches; fill the outline with its own tone",
+                100.0 * hollow
             ),
             Self::UpsideDown => f.write_str(
                 "the tree seems to stand on its crown, with its trunk at the top; turn the picture by 180 \

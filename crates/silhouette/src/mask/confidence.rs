@@ -27,6 +27,10 @@ const TRUNK: f64 = 0.35;
 /// How far above the horizon that is looked at, as a part of the height.
 const ABOVE: f64 = 0.03;
 
+/// Opacities from which on a pixel is firmly, or just so, what is opaque.
+pub(super) const FIRM_OPACITY: u8 = 192;
+pub(super) const LOOSE_OPACITY: u8 = 64;
+
 impl Evidence {
     /// What there is of a mask that was made of `foreground`.
     pub(super) fn of(mask: &Bitmap, foreground: &Foreground) -> Self {
@@ -47,6 +51,11 @@ impl Evidence {
             foot: ((foot - TRUNK) / (1.0 - TRUNK)).max(0.0),
             dropped: part(standing_ink.saturating_sub(mask.intersection(&foreground.ink)), standing_ink),
         }
+    }
+
+    /// The same of a tree that somebody cut out: bushes are, too, and their feet are no hills.
+    pub(super) const fn of_a_cutout(self) -> Self {
+        Self { foot: 0.0, dropped: 0.0, ..self }
     }
 
     /// All of it in one number, in 0..=1.

@@ -1,7 +1,10 @@
 //! From a photograph of a tree to its silhouette, by classical means.
 //!
-//! 1. A picture with an alpha channel that says something is its own mask.
-//! 2. The horizon is where colours step at the picture's sides, if they do.
+//! 1. A picture whose alpha channel cuts something out is its own mask, and so is one of two tones. A frame
+//!    and corners that were made transparent are left out.
+//! 2. The horizon is where colours step at the picture's sides, if they do. Unless the background is said to
+//!    be plain or a sky, no horizon, a clear and a faint one are tried, and the most confident mask is taken.
+//!    If that is still doubtful, so is what has other colours than all of the picture's edges.
 //! 3. What the background looks like is read off the picture's frame, above and below the horizon,
 //!    and continued behind the tree; colours are compared in Oklab.
 //! 4. What is farther from it than Otsu's threshold on that distance, and than half of what is usual
@@ -10,15 +13,18 @@
 //!    hang apart from the crown are tree. The largest is the tree, or the one at the seed point.
 //! 6. Small holes are filled, such as glints on leaves; the sky between leaves stays.
 //!
-//! It takes an even background: sky, clouds, haze, a wall. Houses and other trees behind the tree
-//! are beyond it.
+//! It takes an even background: sky, clouds, haze, a wall. Before houses and other trees it finds what differs
+//! from them in colour, and says that it is doubtful.
 
 mod backdrop;
+mod colors;
 mod confidence;
 mod error;
 mod horizon;
+mod mixture;
 mod oklab;
 mod photo;
+mod prepare;
 mod score;
 #[cfg(test)]
 mod tests;
@@ -28,16 +34,18 @@ pub use horizon::Horizon;
 pub use photo::Photo;
 
 use crate::bitmap::Bitmap;
-use crate::goal::ink::MIN_ALPHA_RANGE;
-use crate::goal::{GoalWarning, shape};
+use crate::goal::{GoalWarning, border, shape};
 use crate::picture::{MISSED, Picture};
 use crate::pieces;
 pub use crate::touches::Touches;
+use confidence::Evidence;
+use prepare::Prepared;
+use score::{Foreground, foregrounds};
 
 /// What is behind the tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Background {
-    /// A sky with a ground below it if colours step clearly at the sides, else one background.
+    /// Whichever of a sky with a ground below it and one background gives the more confident mask.
     #[default]
     Auto,
     /// A sky, probably with a ground below it: a faint step at the sides is a horizon, too.
@@ -46,11 +54,23 @@ pub enum Background {
     Plain,
 }
 
+/// What an alpha channel is taken for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum AlphaUse {
+    /// The mask, unless what is transparent is no background: corners of a picture that was turned, say.
+    #[default]
+    Auto,
+    /// Nothing. The colours of what is transparent are looked at as all others are.
+    Ignore,
+}
+
 /// How a mask is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MaskOptions {
     /// What is behind the tree.
     pub background: Background,
+    /// What an alpha channel is taken for.
+    pub alpha: AlphaUse,
     /// A pixel on the tree: column from the left and row from the top, from 0. The largest piece is
     /// the tree if it is not given.
     pub seed_point: Option<(u32, u32)>,
@@ -61,8 +81,10 @@ pub struct MaskOptions {
 /// How the tree was told from the background.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Segmentation {
-    /// The tree is what is at least half opaque.
+    /// The tree is what is at least half opaque, or the hole in it.
     Opacity,
+    /// The picture has two tones, and the tree is the one that the picture's edge does not have.
+    TwoTones,
     /// The tree is what differs in colour.
     Color {
         /// Distance that all of the tree has from the background, in spreads of that.
@@ -70,6 +92,8 @@ pub enum Segmentation {
         /// Where the ground begins, if it was seen.
         horizon: Option<Horizon>,
     },
+    /// The tree is what is in the middle and has other colours than the picture's edges.
+    Colors,
 }
 
 /// A tree in a photograph.
@@ -89,7 +113,8 @@ pub struct Mask {
     ///
     /// It falls with what would be tree or not if the least distance from the background were a little
     /// other, with what else stood out, with how much of the picture's edge is tree, and with a foot that
-    /// is wide as a hill's. 1 for a mask that is an alpha channel.
+    /// is wide as a hill's. Of an alpha channel, what counts as the least distance is half opaque, and a foot
+    /// may be as wide as it likes.
     pub confidence: f64,
     /// What about the mask is not as a fit expects, as of a goal.
     pub warnings: Vec<GoalWarning>,
@@ -120,20 +145,67 @@ impl Mask {
         {
             return Err(MaskError::SeedOutside { x, y, width, height });
         }
-        let (least, most) = photo.opacities();
-        if most.saturating_sub(least) >= MIN_ALPHA_RANGE {
-            let bitmap = Bitmap::from_fn(width, height, |x, y| photo.opacity(x, y) >= 128);
-            return Ok(Self {
-                touches: touches(&bitmap),
-                warnings: warnings(&bitmap, photo, 1.0),
-                bitmap,
-                segmentation: Segmentation::Opacity,
-                dropped: 0,
-                filled: 0,
-                confidence: 1.0,
-            });
+        let prepared = Prepared::new(photo, options.alpha);
+        let mut made = match prepared.told {
+            Some(foreground) => Self::of_told(foreground)?,
+            None => Self::most_confident(&prepared.photo, options)?,
+        };
+        let said = said(&made.bitmap, photo, prepared.warnings, made.confidence);
+        made.warnings = said;
+        if let Some(inside) = &prepared.inside {
+            made.bitmap = border::within(&made.bitmap, inside);
+            made.touches = touches(&made.bitmap);
+            check(&made.bitmap)?;
         }
-        let foreground = score::foreground(photo, options.background)?;
+        Ok(made)
+    }
+
+    /// A mask that the picture itself tells.
+    fn of_told(foreground: Foreground) -> Result<Self, MaskError> {
+        if foreground.segmentation == Segmentation::TwoTones {
+            check(&foreground.ink)?;
+        }
+        let evidence = Evidence::of(&foreground.ink, &foreground);
+        Ok(Self {
+            touches: touches(&foreground.ink),
+            warnings: Vec::new(),
+            bitmap: foreground.ink,
+            segmentation: foreground.segmentation,
+            dropped: 0,
+            filled: 0,
+            confidence: evidence.of_a_cutout().confidence(),
+        })
+    }
+
+    /// The best mask by colour. Of equals the one with the clearest horizon. Where one way finds no tree, a
+    /// doubtful mask by another is none, either: before a meadow without a tree, the meadow stands out.
+    fn most_confident(photo: &Photo, options: &MaskOptions) -> Result<Self, MaskError> {
+        let mut best: Option<Self> = None;
+        let mut failed = None;
+        for foreground in foregrounds(photo, options.background) {
+            match foreground.and_then(|foreground| Self::by_color(&foreground, options)) {
+                Ok(mask) if best.as_ref().is_none_or(|b| mask.confidence > b.confidence) => best = Some(mask),
+                Ok(_) => {}
+                Err(error) => failed = failed.or(Some(error)),
+            }
+        }
+        if failed.is_some() {
+            best = best.filter(|mask| mask.confidence >= DOUBTFUL);
+        }
+        if options.background == Background::Auto && best.as_ref().is_none_or(|b| b.confidence < DOUBTFUL) {
+            let found = Foreground::of_other_colors(photo);
+            let mask = found.and_then(|foreground| Self::by_color(&foreground, options).ok());
+            let least = best.as_ref().map_or(LEAST, |best| best.confidence);
+            if let Some(mask) = mask.filter(|mask| mask.confidence > least) {
+                best = Some(Self { confidence: BY_COLORS * mask.confidence, ..mask });
+            }
+        }
+        let none = MaskError::NoTree { why: "nothing stands out from the background" };
+        best.ok_or_else(|| failed.unwrap_or(none))
+    }
+
+    fn by_color(foreground: &Foreground, options: &MaskOptions) -> Result<Self, MaskError> {
+        let (width, height) = (foreground.ink.width(), foreground.ink.height());
         let ink = pieces::without_specks(&foreground.ink, foreground.ink.area() / SPECK);
         let near = (NEAR * f64::from(width.min(height)) / 2.0).round() as u32;
         let grounds = pieces::widened(&ink, near);
@@ -147,15 +219,12 @@ impl Mask {
         check(&bitmap)?;
         let largest = options.fill_holes.unwrap_or(bitmap.area() / HOLE);
         let filled = pieces::fill_holes(&mut bitmap, largest);
-        let confidence = confidence::Evidence::of(&bitmap, &foreground).confidence();
+        let confidence = Evidence::of(&bitmap, foreground).confidence();
         Ok(Self {
             touches: touches(&bitmap),
-            warnings: warnings(&bitmap, photo, confidence),
+            warnings: Vec::new(),
             bitmap,
-            segmentation: Segmentation::Color {
-                threshold: foreground.threshold,
-                horizon: foreground.horizon,
-            },
+            segmentation: foreground.segmentation,
             dropped,
             filled,
             confidence,
@@ -207,12 +276,18 @@ fn check(ink: &Bitmap) -> Result<(), MaskError> {
 /// Masks of less confidence are called doubtful.
 const DOUBTFUL: f64 = 0.45;
 
-/// What is to be said of a mask.
-fn warnings(ink: &Bitmap, photo: &Photo, confidence: f64) -> Vec<GoalWarning> {
+/// Of masks by other colours than the edges', this part of the confidence is told: they are seldom wholly right.
+const BY_COLORS: f64 = 0.5;
+/// Where no other way finds a tree, they need more than this; before an empty lawn they have nothing.
+const LEAST: f64 = 0.05;
+
+/// What is to be said of a mask, beside what was done to its picture.
+fn said(ink: &Bitmap, photo: &Photo, treated: Vec<GoalWarning>, confidence: f64) -> Vec<GoalWarning> {
     let mut warnings = Vec::new();
     if photo.has_further() {
         warnings.push(GoalWarning::SeveralPictures);
     }
+    warnings.extend(treated);
     warnings.extend(shape::warnings(ink));
     if confidence < DOUBTFUL {
         warnings.push(GoalWarning::DoubtfulMask { confidence });

@@ -1,7 +1,8 @@
 //! A photograph in memory.
 
-use crate::goal::read;
+use crate::bitmap::Bitmap;
 use crate::goal::{Encoded, GoalError};
+use crate::goal::{border, read};
 use std::path::{Path, PathBuf};
 
 /// A picture in colour with opacity.
@@ -81,6 +82,26 @@ impl Photo {
 
     pub(super) fn opacity(&self, x: u32, y: u32) -> u8 {
         self.pixels[y as usize * self.width as usize + x as usize][3]
+    }
+
+    /// Brightness from 0 to 255.
+    pub(super) fn light(&self, x: u32, y: u32) -> u8 {
+        // As the decoder of goals has it (Rec. 709).
+        let [r, g, b] = self.rgb(x, y).map(u32::from);
+        ((2126 * r + 7152 * g + 722 * b) / 10_000) as u8
+    }
+
+    /// The picture with the nearest colours inside in place of those that are not, all of it opaque.
+    pub(super) fn extended(&self, inside: &Bitmap) -> Self {
+        let mut out = self.clone();
+        border::extend(&mut out.pixels, inside);
+        out.opaque()
+    }
+
+    /// The picture with all of its colours shown.
+    pub(super) fn opaque(mut self) -> Self {
+        self.pixels.iter_mut().for_each(|pixel| pixel[3] = 255);
+        self
     }
 
     /// Least and greatest opacity.

@@ -4,7 +4,7 @@ use super::backdrop::{Backdrop, Sample};
 use super::horizon::{Horizon, StepThreshold};
 use super::oklab::{Converter, Oklab};
 use super::photo::Photo;
-use super::{Background, MaskError};
+use super::{Background, MaskError, Segmentation, colors};
 use crate::bitmap::Bitmap;
 use crate::goal::ink::otsu;
 
@@ -16,7 +16,7 @@ const MAX_SAMPLES: usize = 20_000;
 /// ground.
 const HAZE: f64 = 0.01;
 /// Nothing nearer to the background than this, in spreads, is tree.
-const MIN_DISTANCE: f64 = 3.5;
+pub(super) const MIN_DISTANCE: f64 = 3.5;
 /// Side of the parts of a picture in which tree is told by its own tone, as a part of the shorter side.
 const TILE: f64 = 0.05;
 /// What is half way between background and tree, as a part of the mean level of what stands out: a
@@ -35,25 +35,52 @@ const MAX_LEVEL: u8 = 254;
 pub(super) struct Foreground {
     pub(super) ink: Bitmap,
     pub(super) horizon: Option<Horizon>,
-    /// Distance, in spreads of the background, from which on pixels are tree.
-    pub(super) threshold: f64,
+    /// How it was told.
+    pub(super) segmentation: Segmentation,
     /// What stands out even if the least distance is half as far again.
     pub(super) firm: Bitmap,
     /// What stands out if the least distance is a third nearer.
     pub(super) loose: Bitmap,
 }
 
-/// Tells what stands out from the background.
-pub(super) fn foreground(photo: &Photo, background: Background) -> Result<Foreground, MaskError> {
-    let (width, height) = (photo.width(), photo.height());
+impl Foreground {
+    /// What the picture itself says: its ink, and what is firmly and loosely so.
+    pub(super) const fn told(segmentation: Segmentation, ink: Bitmap, firm: Bitmap, loose: Bitmap) -> Self {
+        Self { ink, horizon: None, segmentation, firm, loose }
+    }
+
+    /// What has other colours than the picture's edges; none if nothing has.
+    pub(super) fn of_other_colors(photo: &Photo) -> Option<Self> {
+        colors::foreground(&Frame::of(photo))
+    }
+}
+
+/// Tells what stands out from the background, for each way in which that may be seen, the clearest horizon
+/// first and none last.
+pub(super) fn foregrounds(
+    photo: &Photo,
+    background: Background,
+) -> impl Iterator<Item = Result<Foreground, MaskError>> + '_ {
     let frame = Frame::of(photo);
-    let clear = match background {
-        Background::Plain => None,
-        Background::Sky => Some(StepThreshold::LENIENT),
-        Background::Auto => Some(StepThreshold::STRICT),
+    let (left, right) = (frame.side(0), frame.side(photo.width() - frame.width));
+    let detect = |clear| Horizon::detect(&left, &right, clear);
+    let mut horizons = match background {
+        Background::Plain => vec![None],
+        Background::Sky => vec![detect(StepThreshold::LENIENT)],
+        Background::Auto => vec![detect(StepThreshold::STRICT), detect(StepThreshold::LENIENT), None],
     };
-    let horizon =
-        clear.and_then(|clear| Horizon::detect(&frame.side(0), &frame.side(width - frame.width), clear));
+    if horizons[0].is_none() {
+        // The same as the last one.
+        horizons.rotate_left(1);
+    }
+    horizons.dedup();
+    horizons.into_iter().map(move |horizon| foreground(&frame, horizon))
+}
+
+/// Tells what stands out from the background above and below a horizon, or from one background.
+fn foreground(frame: &Frame<'_>, horizon: Option<Horizon>) -> Result<Foreground, MaskError> {
+    let photo = frame.photo;
+    let (width, height) = (photo.width(), photo.height());
     let (above, below) = frame.samples(horizon);
     let untold = MaskError::NoTree { why: "the frame has too few pixels to tell the background by" };
     let above = Backdrop::fit(&above).ok_or(untold)?;
@@ -96,10 +123,11 @@ pub(super) fn foreground(photo: &Photo, background: Background) -> Result<Foregr
         })
     };
     let (ink, firm, loose) = (beyond(1.0), beyond(FIRM), beyond(LOOSE));
-    Ok(Foreground { ink, horizon, threshold: f64::from(level) / LEVELS, firm, loose })
+    let segmentation = Segmentation::Color { threshold: f64::from(level) / LEVELS, horizon };
+    Ok(Foreground { ink, horizon, segmentation, firm, loose })
 }
 
-fn less(color: Oklab, other: [f64; 3]) -> [f64; 3] {
+pub(super) fn less(color: Oklab, other: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| f64::from(color[i]) - other[i])
 }
 
@@ -116,11 +144,11 @@ fn between(above: &Backdrop, below: &Backdrop, at: [f64; 2], color: Oklab) -> f6
 }
 
 /// The pixels along the picture's edges.
-struct Frame<'a> {
-    photo: &'a Photo,
-    converter: Converter,
+pub(super) struct Frame<'a> {
+    pub(super) photo: &'a Photo,
+    pub(super) converter: Converter,
     /// In pixels.
-    width: u32,
+    pub(super) width: u32,
 }
 
 impl<'a> Frame<'a> {
@@ -131,7 +159,7 @@ impl<'a> Frame<'a> {
     }
 
     /// A pixel's place from −1 to 1 in both directions.
-    fn place(&self, x: u32, y: u32) -> [f64; 2] {
+    pub(super) fn place(&self, x: u32, y: u32) -> [f64; 2] {
         let part = |at: u32, of: u32| (2.0 * f64::from(at) + 1.0) / f64::from(of) - 1.0;
         [part(x, self.photo.width()), part(y, self.photo.height())]
     }
@@ -150,7 +178,7 @@ impl<'a> Frame<'a> {
     }
 
     /// Samples of the background above and below the horizon; all are above if there is none.
-    fn samples(&self, horizon: Option<Horizon>) -> (Vec<Sample>, Vec<Sample>) {
+    pub(super) fn samples(&self, horizon: Option<Horizon>) -> (Vec<Sample>, Vec<Sample>) {
         let (w, h, f) = (self.photo.width(), self.photo.height(), self.width);
         let gap = 2.0 * (HAZE * f64::from(h)).max(1.0);
         let stride = (2 * (w as usize + h as usize) * f as usize).div_ceil(MAX_SAMPLES).max(1);

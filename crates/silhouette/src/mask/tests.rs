@@ -241,3 +241,74 @@ fn an_overlay_keeps_the_tree_and_fades_the_rest() {
     assert_eq!(overlay.get(69, 60), MISSED);
     assert!(overlay.get(24, 60).iter().all(|v| *v > 170));
 }
+
+/// A tree in autumn before a wood in sun and shade with a ragged rim, a road and a meadow.
+#[test]
+fn a_tree_before_a_wood_is_found_by_its_colours() {
+    let behind = |x: u32, y: u32| {
+        let row = f64::from(y) / f64::from(SIDE);
+        let rim = 0.5 + 0.15 * waves(x, 7, 9.0);
+        if row < rim {
+            sky(x, y)
+        } else if row < 0.75 {
+            mix([20.0, 35.0, 20.0], [125.0, 150.0, 80.0], chance(x / 3, y / 3, 71))
+        } else if row < GROUND {
+            [140.0, 140.0, 145.0]
+        } else {
+            sky_and_lawn(x, y)
+        }
+    };
+    let is_tree = |x: u32, y: u32| {
+        let (dx, dy) = (f64::from(x) - 128.0, f64::from(y) - 115.0);
+        dx.hypot(dy) < 85.0 + 8.0 * waves(x, y, 6.0) || dx.abs() < 7.0 && (180..235).contains(&y)
+    };
+    let truth = Bitmap::from_fn(SIDE, SIDE, is_tree);
+    for leaf in [[200.0, 90.0, 30.0], [220.0, 130.0, 70.0], [150.0, 40.0, 50.0]] {
+        let photo = Photo::from_fn(SIDE, SIDE, |x, y| {
+            let light = 0.75 + 0.25 * waves(x, y, 5.0) + 0.3 * (chance(x, y, 73) - 0.5);
+            let tone = if y < 180 { leaf } else { [80.0, 65.0, 55.0] };
+            let seen = if is_tree(x, y) { tone.map(|v| v * light) } else { behind(x, y) };
+            let [r, g, b] = [0, 1, 2].map(|c| (seen[c] + 4.0 * noise(x, y, 74 + c as u32)) as u8);
+            [r, g, b, 255]
+        });
+        let made =
+            |background| Mask::from_photo(&photo, &MaskOptions { background, ..MaskOptions::default() });
+        let found = made(Background::Auto).unwrap();
+        let other =
+            [Background::Sky, Background::Plain].map(|b| made(b).map_or(0.0, |m| iou(&m.bitmap, &truth)));
+        let found_iou = iou(&found.bitmap, &truth);
+        assert_eq!(found.segmentation, Segmentation::Colors, "{leaf:?}");
+        assert!(
+            found_iou > 0.85 && other.iter().all(|o| *o < found_iou),
+            "{leaf:?}: {found_iou:.3} {other:.3?}"
+        );
+    }
+}
+
+#[test]
+fn the_more_confident_of_two_backgrounds_is_kept() {
+    for background in [sky, sky_and_lawn, wall, cloudy] {
+        let scene = scene("quaking_aspen", 4.0, background);
+        let made = |background| {
+            Mask::from_photo(&scene.photo, &MaskOptions { background, ..MaskOptions::default() })
+        };
+        let auto = made(Background::Auto).unwrap().confidence;
+        for one in [Background::Sky, Background::Plain] {
+            assert!(made(one).is_ok_and(|mask| mask.confidence <= auto) || made(one).is_err(), "{one:?}");
+        }
+    }
+}
+
+#[test]
+fn an_alpha_channel_can_be_ignored() {
+    // A cut-out of the wrong thing: the right half of the picture.
+    let photo = Photo::from_fn(120, 100, |x, y| {
+        let [r, g, b, _] = posts(20).pixels()[(y * 120 + x) as usize];
+        [r, g, b, if x > 60 { 255 } else { 0 }]
+    });
+    let cut = Mask::from_photo(&photo, &MaskOptions::default()).unwrap();
+    assert_eq!((cut.segmentation, cut.bitmap.ink()), (Segmentation::Opacity, 59 * 100));
+    let options = MaskOptions { alpha: AlphaUse::Ignore, ..MaskOptions::default() };
+    let seen = Mask::from_photo(&photo, &options).unwrap();
+    assert_eq!(seen.bitmap, Mask::from_photo(&posts(20), &MaskOptions::default()).unwrap().bitmap);
+}

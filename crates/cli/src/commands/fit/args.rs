@@ -23,7 +23,7 @@ pub(super) struct GoalArgs {
     /// scale
     #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(16..=2048))]
     pub(super) size: u32,
-    /// A picture of the goal's size that says what is tree: white on black. With `auto` the goal is a
+    /// A picture of the goal's size, or of its shape, that says what is tree: white on black. With `auto` the goal is a
     /// photograph, and its mask is made as by `pleach mask`
     #[arg(long, value_name = "FILE|auto")]
     pub(super) mask: Option<MaskSource>,

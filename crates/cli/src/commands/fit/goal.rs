@@ -112,6 +112,7 @@ fn means(goal: &Goal) -> String {
             let side = if dark_tree { "up to" } else { "above" };
             format!("the tree is what is {side} brightness {threshold} of 255")
         }
+        Split::Color => "the tree is what differs from the paper around it".to_owned(),
         Split::None => "the picture has one bit per pixel".to_owned(),
     };
     how + if goal.detection.masked { ", in the mask" } else { "" }

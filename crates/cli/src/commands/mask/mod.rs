@@ -7,7 +7,7 @@ use crate::choice::{Choice, one_of};
 use crate::{files, input, output};
 use anyhow::{Context, bail, ensure};
 use pleach_silhouette::goal::{Goal, GoalWarning};
-use pleach_silhouette::mask::{Background, Mask, MaskOptions, Photo, Segmentation};
+use pleach_silhouette::mask::{AlphaUse, Background, Mask, MaskOptions, Photo, Segmentation};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -20,8 +20,10 @@ const EXAMPLES: &str = "Examples:
   pleach fit oak.jpg --mask auto                      the same in one go
 
 The tree is what differs from the background, and that is what the picture's edges show: a sky, with or \
-without a ground below it, or a wall. Houses, hills, shadows and other trees are taken for tree. A picture \
-with an alpha channel is its own mask.
+without a ground below it, or a wall. Where that is doubtful, as before houses and other trees, the tree is \
+what has other colours than the edges; what has the tree's own colours is taken for tree. A picture from \
+which something was cut out (an alpha channel) is its own mask, and so is one of two tones. A frame, and \
+corners that are transparent since a picture was turned, are left out.
 
 Confidence says how likely a mask is a good one, from 0 to 1; sort by it, and look at those below 0.45.
 
@@ -46,6 +48,9 @@ pub(crate) struct MaskCommand {
     /// What is behind the tree
     #[arg(long, value_parser = one_of(BACKGROUNDS), default_value = "auto")]
     background: Background,
+    /// What an alpha channel is taken for
+    #[arg(long, value_parser = one_of(ALPHA), default_value = "auto")]
+    alpha: AlphaUse,
     /// A pixel on the tree: column from the left and row from the top, from 0. By default the largest
     /// thing is the tree
     #[arg(long, value_name = "X,Y", value_parser = point)]
@@ -59,9 +64,14 @@ pub(crate) struct MaskCommand {
 }
 
 const BACKGROUNDS: &[Choice<Background>] = &[
-    ("auto", "Sky and ground if colours step clearly at the sides, else plain", Background::Auto),
+    ("auto", "Sky, plain and other colours than the edges': the most confident mask", Background::Auto),
     ("sky", "A sky, probably with a ground below it: a faint step at the sides is enough", Background::Sky),
     ("plain", "One smooth background all around", Background::Plain),
+];
+
+const ALPHA: &[Choice<AlphaUse>] = &[
+    ("auto", "What is opaque is the tree, if the rest is a background", AlphaUse::Auto),
+    ("ignore", "Look at the colours of all pixels, transparent ones too", AlphaUse::Ignore),
 ];
 
 fn point(text: &str) -> Result<(u32, u32), String> {
@@ -157,6 +167,7 @@ impl MaskCommand {
     fn make(&self, photo: &Path) -> anyhow::Result<Made> {
         let options = MaskOptions {
             background: self.background,
+            alpha: self.alpha,
             seed_point: self.seed_point,
             fill_holes: self.fill_holes,
         };
@@ -181,6 +192,8 @@ impl Made {
         let (mask, goal) = (&self.mask, &self.goal);
         let (by, threshold, horizon) = match mask.segmentation {
             Segmentation::Opacity => ("opacity", None, None),
+            Segmentation::Colors => ("colours", None, None),
+            Segmentation::TwoTones => ("two-tones", None, None),
             Segmentation::Color { threshold, horizon } => ("colour", Some(threshold), horizon),
         };
         Found {

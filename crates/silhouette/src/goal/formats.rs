@@ -1,0 +1,61 @@
+//! Pictures that are not read, told by how they begin, and what turns them into such that are.
+
+/// Bytes at a file's start that [`foreign`] looks at.
+pub(super) const HEAD: usize = 16;
+
+/// The name of a format that is not read, and a command that converts it to PNG.
+pub(super) fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
+    const MAGICK: &str = "ImageMagick does: magick IN out.png";
+    if head.get(4..8) == Some(b"ftyp") {
+        return match head.get(8..12)? {
+            b"avif" | b"avis" => Some(("AVIF", "libavif does: avifdec IN out.png")),
+            b"heic" | b"heix" | b"heim" | b"heis" | b"hevc" | b"hevx" | b"mif1" | b"msf1" => {
+                Some(("HEIC", "libheif and ImageMagick do: heif-convert IN out.png, or magick IN out.png"))
+            }
+            _ => None,
+        };
+    }
+    // White space and a mark of the order of bytes may go before a tag.
+    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
+    let begins = |with: &[u8]| head.starts_with(with);
+    if begins(b"GIF8") {
+        Some(("GIF", "ImageMagick does: magick IN[0] out.png"))
+    } else if begins(b"BM") && head.get(6..10) == Some(&[0; 4]) {
+        Some(("BMP", MAGICK))
+    } else if begins(b"\x00\x00\x00\x0cjP  ") || begins(b"\xff\x4f\xff\x51") {
+        Some(("JPEG 2000", MAGICK))
+    } else if begins(b"\xff\x0a") || begins(b"\x00\x00\x00\x0cJXL ") {
+        Some(("JPEG XL", "libjxl does: djxl IN out.png"))
+    } else if begins(b"8BPS") {
+        Some(("Photoshop", "ImageMagick does: magick IN[0] out.png"))
+    } else if begins(b"%PDF") {
+        Some(("PDF", "poppler does: pdftoppm -png -singlefile IN out"))
+    } else if text.starts_with(b"<svg") || text.starts_with(b"<?xml") {
+        Some(("SVG", "librsvg does: rsvg-convert IN -o out.png"))
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_are_told_by_how_they_begin() {
+        for (head, name) in [
+            (&b"\0\0\0\x18ftypheic\0\0\0\0"[..], Some("HEIC")),
+            (b"\0\0\0\x20ftypavif\0\0\0\0", Some("AVIF")),
+            (b"\0\0\0\x20ftypisom\0\0\0\0", None),
+            (b"GIF89a\x01\0\x01\0", Some("GIF")),
+            (b"BM\x36\x01\0\0\0\0\0\0\x36", Some("BMP")),
+            (b"BMW and other cars", None),
+            (b"\n <svg xmlns=", Some("SVG")),
+            (b"\xef\xbb\xbf<?xml versio", Some("SVG")),
+            (b"plain text", None),
+            (b"", None),
+        ] {
+            assert_eq!(foreign(head).map(|found| found.0), name, "{head:?}");
+        }
+    }
+}
