@@ -24,7 +24,7 @@
 //! give the same bits on any number of threads, interrupted and resumed or not.
 //!
 //! Files of this crate use each other in one direction: problem, space, method, search, evaluator, run.
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod begun;
 mod budget;
