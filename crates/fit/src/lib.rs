@@ -45,6 +45,7 @@ mod genome;
 mod guess;
 mod history;
 mod individual;
+mod instead;
 mod judged;
 mod method;
 mod nuisance;
