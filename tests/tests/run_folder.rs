@@ -124,6 +124,14 @@ fn a_summary_says_what_it_is_of_and_is_replaced_only_by_the_same() {
     let before = files(&dir.path("run"));
     let other = dir.run(fit("b/tree.png", &["--evaluations", "30", "--out", "run"]));
     other.fails(1, &["its goal was a/tree.png and is b/tree.png", "--overwrite"]);
+    // A picture that is held out has no part in the search, and what is said of it does.
+    let held_out = |direction: &str| {
+        let picture = format!("{direction}=acer.png");
+        let options = ["--evaluations", "30", "--out", "held-out", "--holdout-view", picture.as_str()];
+        dir.run(fit("acer.png", &options))
+    };
+    let _ = held_out("45").ok();
+    held_out("90").fails(1, &["--holdout-view was 45,0=acer.png and is 90,0=acer.png", "--overwrite"]);
     assert!(files(&dir.path("run")) == before);
 
     // The same once more loses nothing, nor is the same picture from another place.

@@ -69,7 +69,7 @@ mod verdict;
 pub use begun::Begun;
 pub use budget::{Budget, Clock, StopReason};
 pub use cancellable::Until;
-pub use checkpoint::{BodyProblem, CheckpointError};
+pub use checkpoint::{BodyProblem, CheckpointError, is_checkpoint};
 pub use control::{CheckpointSettings, Control, Outcome};
 pub use ending::{Aftermath, Ending, Kept};
 pub use error::{FitError, ObserverError};

@@ -190,6 +190,15 @@ impl Fit {
             folder: RunFolder::at(path.clone()),
         };
         let mode = self.mode();
+        if mode == Mode::Resume
+            && let Some(summary) = task.done_before(self, settings)?
+        {
+            output::note(format!(
+                "{} holds a finished fit of the same; --continue searches on",
+                path.display()
+            ));
+            return if self.json { output::json(&summary) } else { Ok(()) };
+        }
         let mut library = library().for_one_goal();
         let ended = task.run(self, settings, mode, &mut library, &signals::catch()?)?;
         let (summary, interrupted) = match ended {
