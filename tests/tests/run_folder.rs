@@ -77,13 +77,19 @@ fn a_refused_command_changes_no_file() {
         (&["--evaluations", "40"], "--evaluations was 30 and is 40"),
         (&["--evaluations", "30", "--seed", "2"], "--overwrite"),
         (&["--evaluations", "30", "--view", "90=none.png"], "none.png"),
-        (&["--evaluations", "30", "--resume"], "--continue"),
+        (&["--evaluations", "40", "--resume"], "--overwrite instead of --resume"),
     ];
     for (more, word) in refused {
         dir.run(fit("acer.png", &[more, &["--out", "run"]].concat())).fails(1, &[word]);
         assert!(files(&dir.path("run")) == before, "{more:?}");
     }
-    // Nor does it leave a folder behind.
+    // Nor does one that has nothing to do.
+    let again = dir.run(fit("acer.png", &["--evaluations", "30", "--resume", "--out", "run"]));
+    assert!(again.ok().is_empty() && again.stderr().contains("--continue"), "{again}");
+    let again = dir.run(fit("acer.png", &["--evaluations", "30", "--resume", "--out", "run", "--json"]));
+    assert_eq!(serde_json::from_str::<Value>(&again.ok()).unwrap(), summary(&dir.path("run")));
+    assert!(files(&dir.path("run")) == before, "a finished fit is left as it is");
+    // A refused command does not leave a folder behind.
     dir.run(fit("acer.png", &["--free", "brances", "--out", "new/run"])).fails(1, &["brances"]);
     dir.run(fit("missing.png", &["--out", "new/run"])).fails(1, &["missing.png"]);
     assert!(!dir.path("new").exists());

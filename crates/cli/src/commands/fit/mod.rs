@@ -111,7 +111,7 @@ pub(crate) struct Fit {
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Go on from the checkpoint in the run folder, or start if the fit was stopped before there was
-    /// one; with several goals, skip those that are finished
+    /// one; a fit that is finished is left as it is
     #[arg(long)]
     resume: bool,
     /// Search on from where a finished fit ended: budgets count from there. Ends as one longer fit
