@@ -83,7 +83,11 @@ fn what_is_missing_unfinished_or_failed_is_named() {
     let _ = shard(&dir, "runs", "1/4").ok();
     // What a worker leaves that was killed in the middle.
     std::fs::create_dir(dir.path("runs/3")).unwrap();
-    let _ = dir.file("runs/3/checkpoint", "something");
+    let _ = dir.file("runs/3/checkpoint", "pleach-checkpoint 6 weber-penn/evolution 0 00000000\n");
+    // What is only called so is nobody's run.
+    std::fs::create_dir_all(dir.path("runs/source/checkpoint")).unwrap();
+    std::fs::create_dir(dir.path("runs/notes")).unwrap();
+    let _ = dir.file("runs/notes/checkpoint", "something");
 
     let run = dir.run(["collect", "runs", "--list", "goals.csv", "-o", "all.csv"]);
     run.fails(1, &["of 4 goals 1 missing, 1 unfinished, 1 failed"]);

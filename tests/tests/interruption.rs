@@ -64,7 +64,13 @@ fn an_interrupted_run_resumes_to_the_same_bits() {
     }
     assert!(results(&whole) == results(&dir.path("parts")), "interrupted and whole run differ");
     assert!(!dir.path("parts/checkpoint").exists(), "a finished fit leaves no checkpoint");
-    dir.run(small(&goal, "parts", &resume)).fails(1, &["no checkpoint to resume from"]);
+    // Once more, as a scheduler does until all is well: nothing is done, and that is said.
+    let before = results(&dir.path("parts"));
+    let again = dir.run(small(&goal, "parts", &resume));
+    assert!(again.ok().is_empty() && again.stderr().contains("holds a finished fit of the same"), "{again}");
+    let other = [&resume[..], &["--seed", "4"]].concat();
+    dir.run(small(&goal, "parts", &other)).fails(1, &["--seed was", "--overwrite"]);
+    assert!(results(&dir.path("parts")) == before, "a finished fit was changed");
 }
 
 /// Runs the program and kills it without warning after `life`; whether it came to its end before.

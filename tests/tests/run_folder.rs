@@ -77,13 +77,19 @@ fn a_refused_command_changes_no_file() {
         (&["--evaluations", "40"], "--evaluations was 30 and is 40"),
         (&["--evaluations", "30", "--seed", "2"], "--overwrite"),
         (&["--evaluations", "30", "--view", "90=none.png"], "none.png"),
-        (&["--evaluations", "30", "--resume"], "--continue"),
+        (&["--evaluations", "40", "--resume"], "--overwrite instead of --resume"),
     ];
     for (more, word) in refused {
         dir.run(fit("acer.png", &[more, &["--out", "run"]].concat())).fails(1, &[word]);
         assert!(files(&dir.path("run")) == before, "{more:?}");
     }
-    // Nor does it leave a folder behind.
+    // Nor does one that has nothing to do.
+    let again = dir.run(fit("acer.png", &["--evaluations", "30", "--resume", "--out", "run"]));
+    assert!(again.ok().is_empty() && again.stderr().contains("--continue"), "{again}");
+    let again = dir.run(fit("acer.png", &["--evaluations", "30", "--resume", "--out", "run", "--json"]));
+    assert_eq!(serde_json::from_str::<Value>(&again.ok()).unwrap(), summary(&dir.path("run")));
+    assert!(files(&dir.path("run")) == before, "a finished fit is left as it is");
+    // A refused command does not leave a folder behind.
     dir.run(fit("acer.png", &["--free", "brances", "--out", "new/run"])).fails(1, &["brances"]);
     dir.run(fit("missing.png", &["--out", "new/run"])).fails(1, &["missing.png"]);
     assert!(!dir.path("new").exists());
@@ -124,6 +130,14 @@ fn a_summary_says_what_it_is_of_and_is_replaced_only_by_the_same() {
     let before = files(&dir.path("run"));
     let other = dir.run(fit("b/tree.png", &["--evaluations", "30", "--out", "run"]));
     other.fails(1, &["its goal was a/tree.png and is b/tree.png", "--overwrite"]);
+    // A picture that is held out has no part in the search, and what is said of it does.
+    let held_out = |direction: &str| {
+        let picture = format!("{direction}=acer.png");
+        let options = ["--evaluations", "30", "--out", "held-out", "--holdout-view", picture.as_str()];
+        dir.run(fit("acer.png", &options))
+    };
+    let _ = held_out("45").ok();
+    held_out("90").fails(1, &["--holdout-view was 45,0=acer.png and is 90,0=acer.png", "--overwrite"]);
     assert!(files(&dir.path("run")) == before);
 
     // The same once more loses nothing, nor is the same picture from another place.

@@ -34,7 +34,7 @@
 //! Nothing here prints, reads the clock or draws unseeded random numbers, and results do not depend
 //! on the number of threads. No generator is known by name: what is special about a parameter comes
 //! from its declaration or from [`pleach_tree::Generator`]. `linfa` and `ndarray` stay inside.
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 pub mod coding;
 pub mod draw;

@@ -231,7 +231,8 @@ pub(crate) fn conclude(
         control.observers.iter_mut().for_each(|observer| observer.judging());
         let (clock, stop) = (control.clock, control.stop);
         let judging = Judging { time: rest.for_judging(judging.time), ..judging };
-        let judge = Judge { begun: &begun, judging, candidates: &settings.candidates, clock, stop };
+        let (finalists, candidates) = (&outcome.finalists, &settings.candidates);
+        let judge = Judge { begun: &begun, finalists, judging, candidates, clock, stop };
         match judge.judge(&best, library) {
             Ok((kept, of_kept)) => (best, judged) = (kept, Some(of_kept)),
             // The search may have come to its end, the fit has not.

@@ -10,10 +10,12 @@ use rayon::{ScopeFifo, Yield};
 use std::collections::VecDeque;
 use std::slice;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-/// How long a thread sleeps that has found nothing to do while it waits for the others.
+/// How long a thread of the pool sleeps that has found nothing to do while it waits for the others.
 const NAP: Duration = Duration::from_millis(1);
+/// How long a thread sleeps that is none of the pool's, before it asks again whether it should go on waiting.
+const SLEEP: Duration = Duration::from_millis(20);
 
 /// Gives `work` a flight of individuals that `objective` scores, and ends when the last thread has let go of it.
 ///
@@ -71,29 +73,29 @@ impl<O: Evaluate + Sync + ?Sized> Flight<'_, '_, O> {
         }
     }
 
-    /// Takes the scores of the oldest `wanted` individuals, in their order; after `patience` only those that
-    /// have come, up to the first that has not. None if scoring has panicked.
-    pub(crate) fn land(&self, wanted: usize, patience: Duration) -> Option<Vec<Score>> {
-        let deadline = Instant::now() + patience;
+    /// Takes the scores of the oldest `wanted` individuals, in their order; once `is_late` says so, only those
+    /// that have come, up to the first that has not. None if scoring has panicked.
+    ///
+    /// `is_late` is asked after each tree and after every few milliseconds of sleep: this module has no clock.
+    pub(crate) fn land(&self, wanted: usize, is_late: impl Fn() -> bool) -> Option<Vec<Score>> {
         let mut landings = self.board.lock();
         landings.wanted = wanted.min(landings.scores.len());
         landings.missing =
             landings.scores.iter().take(landings.wanted).filter(|score| score.is_none()).count();
         while landings.missing > 0 && !landings.failed {
-            let left = deadline.saturating_duration_since(Instant::now());
-            if left.is_zero() {
-                break;
-            }
             // On one of the pool's own threads to wait is to work.
             if rayon::current_thread_index().is_some() {
                 drop(landings);
                 let idle = rayon::yield_now() != Some(Yield::Executed);
                 landings = self.board.lock();
                 if idle && landings.missing > 0 {
-                    landings = self.board.wait(landings, NAP.min(left));
+                    landings = self.board.wait(landings, NAP);
                 }
             } else {
-                landings = self.board.wait(landings, left);
+                landings = self.board.wait(landings, SLEEP);
+            }
+            if is_late() {
+                break;
             }
         }
         if landings.failed {
@@ -197,7 +199,16 @@ mod tests {
         rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap()
     }
 
-    const LONG: Duration = Duration::from_secs(60);
+    /// Never late.
+    fn patient() -> bool {
+        false
+    }
+
+    /// Late from the `turns`-th question on.
+    fn late_after(turns: usize) -> impl Fn() -> bool {
+        let asked = AtomicUsize::new(0);
+        move || asked.fetch_add(1, Ordering::Relaxed) >= turns
+    }
 
     #[test]
     fn scores_are_taken_in_order_whichever_comes_first() {
@@ -209,12 +220,11 @@ mod tests {
                 while gate.scored.load(Ordering::Relaxed) < 3 {
                     std::thread::yield_now();
                 }
-                let soon = Duration::from_millis(5);
-                assert_eq!(costs(flight.land(4, soon)), [5.0], "the second is not there");
-                assert_eq!(costs(flight.land(3, soon)), [0.0; 0]);
+                assert_eq!(costs(flight.land(4, late_after(5))), [5.0], "the second is not there");
+                assert_eq!(costs(flight.land(3, late_after(5))), [0.0; 0]);
                 gate.open.store(true, Ordering::Relaxed);
-                assert_eq!(costs(flight.land(2, LONG)), [0.0, 6.0]);
-                assert_eq!(costs(flight.land(9, LONG)), [7.0], "no more are out");
+                assert_eq!(costs(flight.land(2, patient)), [0.0, 6.0]);
+                assert_eq!(costs(flight.land(9, patient)), [7.0], "no more are out");
             });
         });
     }
@@ -225,7 +235,7 @@ mod tests {
         let taken = pool(1).install(|| {
             fly(&gate, |flight| {
                 flight.launch(batch(&genomes(&[1.0, 2.0, 3.0])));
-                costs(flight.land(3, LONG))
+                costs(flight.land(3, patient))
             })
         });
         assert_eq!(taken, [1.0, 2.0, 3.0]);
@@ -237,7 +247,7 @@ mod tests {
         pool(1).install(|| {
             fly(&gate, |flight| {
                 flight.launch(batch(&genomes(&[1.0; 50])));
-                let _ = flight.land(1, LONG);
+                let _ = flight.land(1, patient);
             });
         });
         assert!(gate.scored.into_inner() < 50);
@@ -250,7 +260,7 @@ mod tests {
             pool(2).install(|| {
                 fly(&gate, |flight| {
                     flight.launch(batch(&genomes(&[-1.0])));
-                    assert_eq!(flight.land(1, LONG), None);
+                    assert_eq!(flight.land(1, patient), None);
                 });
             });
         }));

@@ -8,6 +8,7 @@ use crate::error::FitError;
 use crate::fresh::{FreshSeeds, fresh_seeds};
 use crate::genome::Scored;
 use crate::guess::{Candidate, GuessLibrary, References};
+use crate::instead::instead_of;
 use crate::method::Start;
 use crate::problem::FitProblem;
 use crate::profile::{Profile, profile, reset_unidentified};
@@ -61,6 +62,8 @@ const TOLERANCE: f64 = 0.01;
 /// What judging needs beside the result.
 pub(crate) struct Judge<'a> {
     pub(crate) begun: &'a Begun,
+    /// Earlier bests of the search.
+    pub(crate) finalists: &'a [Scored],
     pub(crate) judging: Judging,
     pub(crate) candidates: &'a [Candidate],
     pub(crate) clock: &'a dyn Clock,
@@ -68,7 +71,8 @@ pub(crate) struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Judges `best`; returns it with numbers that the goal does not show back at the start's.
+    /// Judges `best`; returns it with numbers that the goal does not show back at the start's. If it does not grow
+    /// from other seeds, the nearest one that does is judged and returned in its place.
     ///
     /// # Errors
     /// Those of [`crate::fit`], and [`FitError::Interrupted`] once the flag is raised.
@@ -77,13 +81,14 @@ impl Judge<'_> {
         best: &Scored,
         library: &mut GuessLibrary,
     ) -> Result<(Scored, Judged), FitError> {
-        let Self { begun: Begun { problem, settings, guess }, judging, candidates, clock, stop } = *self;
+        let Self { begun: Begun { problem, settings, guess }, judging, candidates, clock, stop, .. } = *self;
         let from = clock.elapsed();
         let until = |share: f64| {
             let time = judging.time.map(|time| from + time.mul_f64(share));
             Until::from(stop).or_late(clock, time)
         };
-        let first = self.held_out(best, until(UNTIL_FRESH))?;
+        let (best, first) = &self.growing(best, until(UNTIL_FRESH))?;
+        let first = *first;
         let tolerance = first.as_ref().map_or(TOLERANCE, |fresh| fresh.cost.sd);
         let profiles = profile(problem, settings, best, tolerance, until(UNTIL_PROFILED))?;
         let (kept, put_back) = match &settings.start {
@@ -95,11 +100,16 @@ impl Judge<'_> {
             _ => (best.clone(), Vec::new()),
         };
         // Numbers that no tree reads went back for the reader of the file; the trees are the same.
-        let held_out = if same_trees(problem, &best.genome.values, &kept.genome.values, &put_back) {
-            first
-        } else {
-            self.held_out(&kept, until(1.0))?
-        };
+        let (kept, put_back, held_out) =
+            if same_trees(problem, &best.genome.values, &kept.genome.values, &put_back) {
+                (kept, put_back, first)
+            } else {
+                match (first, self.held_out(&kept, until(1.0))?) {
+                    // They grew before.
+                    (Some(_), None) => (best.clone(), Vec::new(), first),
+                    (_, held_out) => (kept, put_back, held_out),
+                }
+            };
         let references = match guess {
             Some(guess) => guess.references.clone(),
             // Without trees there is the ellipse.
@@ -109,6 +119,21 @@ impl Judge<'_> {
         let settled = settled(problem, settings, &kept.genome)?;
         let elapsed = clock.elapsed().saturating_sub(from);
         Ok((kept, Judged { held_out, profiles, put_back, settled, references, elapsed }))
+    }
+
+    /// The first of `best` and what may stand for it that grows from other seeds, with how its trees do; `best`
+    /// if none does.
+    fn growing(&self, best: &Scored, until: Until<'_>) -> Result<(Scored, Option<FreshSeeds>), FitError> {
+        let first = self.held_out(best, until)?;
+        if first.is_none() {
+            for other in instead_of(best, self.finalists, &self.begun.problem, &self.begun.settings)? {
+                let held_out = self.held_out(&other, until)?;
+                if held_out.is_some() {
+                    return Ok((other, held_out));
+                }
+            }
+        }
+        Ok((best.clone(), first))
     }
 
     /// Other trees of the same numbers, in the limits of growing: a search gives up trees that are no

@@ -25,7 +25,7 @@
 //! give the same bits on any number of threads, interrupted and resumed or not.
 //!
 //! Files of this crate use each other in one direction: problem, space, method, search, evaluator, run.
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod begun;
 mod budget;
@@ -46,6 +46,7 @@ mod genome;
 mod guess;
 mod history;
 mod individual;
+mod instead;
 mod judged;
 mod method;
 mod nuisance;
@@ -70,7 +71,7 @@ mod verdict;
 pub use begun::Begun;
 pub use budget::{Budget, Clock, StopReason};
 pub use cancellable::Until;
-pub use checkpoint::{BodyProblem, CheckpointError};
+pub use checkpoint::{BodyProblem, CheckpointError, is_checkpoint};
 pub use control::{CheckpointSettings, Control, Outcome};
 pub use ending::{Aftermath, Ending, Kept};
 pub use error::{FitError, ObserverError};

@@ -169,6 +169,48 @@ fn what_is_near_one_goal_is_not_kept_for_the_next() {
     }
 }
 
+/// Goals from elsewhere than the front are named as well, and few trees are grown for their views.
+#[test]
+fn front_views_choose_what_is_compared_from_elsewhere() {
+    let mut names = NAMES.to_vec();
+    names.extend(["lombardy_poplar", "palm", "acer", "bamboo", "small_pine", "apple"]);
+    names.sort_unstable();
+    names.dedup();
+    let many: Vec<Candidate> =
+        names.iter().map(|name| Candidate::from(pleach_generators::preset(name).unwrap())).collect();
+    let how = GuessSettings::default();
+    for (name, azimuths) in
+        [("palm", &[0.0, 90.0][..]), ("lombardy_poplar", &[35.0]), ("acer", &[120.0, 30.0])]
+    {
+        let tree = pleach_generators::preset(name).unwrap().grow(31).unwrap();
+        let mut problem = goal_of(name, 31, 96);
+        problem.goals.clear();
+        for &azimuth in azimuths {
+            let view = View::degrees(azimuth, 0.0);
+            let frame = Frame::automatic(&tree, &view, Parts::LEAFY, 96, 96);
+            let mut drawn = Bitmap::default();
+            Rasterizer::for_searches(Detail::Half).draw(&tree, &view, &frame, Parts::LEAFY, &mut drawn);
+            problem.goals.push(GoalView::new(drawn, view, frame));
+        }
+        let mut told = Vec::new();
+        let tell = |done, all| told.push((done, all));
+        let found = first_guess(&problem, &FitSettings::default(), &many, &how, &GO, tell).unwrap();
+        assert_eq!(found.names[0].0, name, "{:?}", found.names);
+        assert_eq!(found.names.len(), many.len());
+        assert!(found.references.same_species.is_some() && found.references.other_species.is_some());
+        assert_eq!(found.nearest[0].name, name);
+        // Three species closely, of each what a first guess looks at.
+        let closely = 3 * (how.seeds + how.variants) as usize;
+        assert_eq!(told.last(), Some(&(closely, closely)));
+        let mut library = GuessLibrary::new();
+        for _ in 0..2 {
+            let kept =
+                library.first_guess(&problem, &FitSettings::default(), &many, &how, &GO, |_, _| ()).unwrap();
+            assert_eq!(bits(&kept), bits(&found), "{name}");
+        }
+    }
+}
+
 #[test]
 fn a_goal_shows_whether_it_has_leaves() {
     let how = GuessSettings { variants: 0, detect_leaves: true, ..GuessSettings::default() };

@@ -12,7 +12,7 @@
 //! | [`noise`] | the two laws of chance |
 //! | `count` | how many branches are certain, before any grows |
 //! | `grow` | the recursion, as a stack |
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod count;
 mod family;

@@ -1,7 +1,7 @@
 //! The registry of generators: from a species' name or file to something that grows.
 //!
 //! A new generator is one more line in [`families`].
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod choice;
 mod file;

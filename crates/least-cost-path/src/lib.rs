@@ -16,7 +16,7 @@
 //! | `life`, `direction` | how long branches live, what light does, where they point |
 //! | `sketch` | a species that follows the outline of a tree in pictures |
 //! | `skeleton`, `thickness`, `stems`, `leaves` | from paths to a tree |
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod budget;
 mod direction;

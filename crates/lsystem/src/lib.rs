@@ -1,7 +1,7 @@
 //! L-systems: a grammar language, derivation and a turtle that grows trees.
 //!
 //! Prusinkiewicz and Lindenmayer 1990, *The Algorithmic Beauty of Plants*; Hewitt 2017, §3.1.
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod derive;
 pub mod diagnostic;

@@ -20,7 +20,7 @@
 //! A mesh is a function of the tree and the settings: meshing draws no random numbers (planting a
 //! forest does, by address), nothing here reads the clock or prints, and the number of threads changes
 //! nothing. A mesher knows trees, not generators.
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod blobs;
 pub mod block;

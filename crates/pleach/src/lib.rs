@@ -90,6 +90,7 @@
 //!
 //! `fit`, `blend`, `mesh` and `render`, all on by default. Growing and silhouettes are always there.
 //! The crates below this one (`pleach-tree`, `pleach-silhouette`, …) have what is not named here.
+#![cfg_attr(not(test), warn(clippy::disallowed_types))]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 /// The vectors of the public types.

@@ -11,6 +11,7 @@
 //!
 //! A picture is a function of the tree, the palette and the settings: nothing here draws random
 //! numbers, reads the clock or prints, and the number of threads changes nothing.
+#![cfg_attr(not(test), warn(clippy::disallowed_types))]
 
 pub mod billboard;
 mod few_colors;

@@ -9,7 +9,7 @@
 //! | [`raster`] | a tree drawn straight into bits |
 //! | [`goal`] | a picture file becomes ink with a ground and a trunk |
 //! | [`mask`] | a photograph becomes ink |
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 pub mod bitmap;
 mod encode;

@@ -15,7 +15,7 @@
 //!
 //! Inside, lengths are in units of the report's sliders; the parameter `scale` makes metres of them
 //! where the tree is written.
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod draws;
 mod family;

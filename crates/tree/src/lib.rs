@@ -25,7 +25,7 @@
 //! Nothing here reads the clock, the environment or the operating system's randomness, and nothing
 //! here prints. Angles are in radians inside and in degrees in files; the name says which where both
 //! occur.
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 #[cfg(any(test, feature = "conformance"))]
 pub mod conformance;

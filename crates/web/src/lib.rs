@@ -3,6 +3,7 @@
 //! Structured answers are JSON text, bulk is typed arrays, errors are sentences. Nothing here waits or starts
 //! threads: the page runs an instance of this module in each of its workers, and throws a worker away whose module
 //! has panicked.
+#![cfg_attr(not(test), warn(clippy::disallowed_types))]
 
 mod catalogue;
 mod declared;

@@ -44,6 +44,8 @@ pub(crate) struct GrowContext<'a> {
     pub(crate) model: &'a Model,
     surroundings: &'a Surroundings,
     pub(crate) growth: &'a Growth<'a>,
+    /// Whether trunks are pruned, and not their branches alone.
+    prunes_trunks: bool,
 }
 
 /// The tree being grown and the stacks that growing it needs.
@@ -73,7 +75,7 @@ pub(crate) fn grow(
     path.clear();
     forked_stems.clear();
     children.clear();
-    let context = GrowContext { model, surroundings, growth };
+    let context = GrowContext { model, surroundings, growth, prunes_trunks: true };
     let root = Key::root(growth.seed);
 
     let budget = Budget::new(growth.limits, model.prune_ratio > 0.0);
@@ -100,8 +102,21 @@ impl GrowContext<'_> {
     }
 
     /// Grows the trunks; their branches wait.
+    ///
+    /// A trunk may lean so far, by the draws of some seeds, that no length fits into the envelope. It is then pruned
+    /// away if others are left, and stays as it is if nothing would be left: the envelope gives a crown its form and
+    /// does not decide which seeds have a tree. Solids do, since where they stand is where the tree may not.
     fn trunks(&self, buffers: &mut Buffers<'_>, root: Key, sites: &mut Vec<DVec2>) -> Result<(), Exceeded> {
         trunks::sites(self.model, root, sites, &mut buffers.budget)?;
+        self.trunks_at(buffers, root, sites)?;
+        let is_pruned = self.model.prune_ratio > 0.0 && self.surroundings.are_the_envelope();
+        if is_pruned && buffers.tree.stems.is_empty() {
+            Self { prunes_trunks: false, ..*self }.trunks_at(buffers, root, sites)?;
+        }
+        Ok(())
+    }
+
+    fn trunks_at(&self, buffers: &mut Buffers<'_>, root: Key, sites: &[DVec2]) -> Result<(), Exceeded> {
         for (i, site) in sites.iter().enumerate() {
             let trunk = self.trunk(root, i as u32, *site, sites.len() == 1);
             // The first trunk carries no error of `seg_splits`; others start in mid-pattern.
@@ -225,7 +240,9 @@ impl GrowContext<'_> {
         let first_point = buffers.path.len();
         let first_clone = buffers.forked_stems.len();
         let first_child = buffers.children.len();
-        let is_pruned = model.prune_ratio > 0.0 && stem.forked.is_none_or(|_| level.split_angle_v < 0.0);
+        let is_pruned = model.prune_ratio > 0.0
+            && stem.forked.is_none_or(|_| level.split_angle_v < 0.0)
+            && (stem.level > 0 || self.prunes_trunks);
         if is_pruned {
             let carry_before = *carry;
             self.walk(buffers, &stem, child_length, carry);
@@ -414,7 +431,8 @@ mod tests {
         let model = Model::new(values);
         let growth = Growth::seed(seed);
         let surroundings = Surroundings::default();
-        let context = GrowContext { model: &model, surroundings: &surroundings, growth: &growth };
+        let context =
+            GrowContext { model: &model, surroundings: &surroundings, growth: &growth, prunes_trunks: true };
         let (mut tree, mut scratch) = (Tree::default(), Scratch::default());
         let Scratch { path, forked_stems, children, sites } = &mut scratch;
         let budget = Budget::new(Limits::DEFAULT, false);

@@ -11,7 +11,7 @@
 //! assert_eq!(tree.stems[0].level, 0);
 //! assert!(tree.leaves.len() > 10_000);
 //! ```
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod blame;
 mod budget;

@@ -205,3 +205,10 @@ pub struct Surroundings {
     /// A point does not fit if it is inside one of these.
     pub obstacles: Vec<Solid>,
 }
+
+impl Surroundings {
+    /// Whether a tree is pruned by nothing but the envelope of its own numbers.
+    pub(crate) fn are_the_envelope(&self) -> bool {
+        self.inside.is_none() && self.obstacles.is_empty()
+    }
+}

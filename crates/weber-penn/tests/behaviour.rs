@@ -245,6 +245,20 @@ fn pruning_fits_the_envelope_and_the_ratio_fades_it() {
 }
 
 #[test]
+fn pruning_by_the_envelope_leaves_a_trunk_to_every_seed() {
+    // Trunks that lean and bend so far that for some seeds no length of them fits.
+    let text = with("curve = [60, 0, 0, 0]\ncurve_v = [180, 0, 0, 0]\nprune_ratio = 1\nprune_width = 0.3");
+    let species = read(&text).unwrap();
+    let trunks = |seed| species.grow(seed).map(|tree| stems(&tree, 0).len());
+    let trunks: Vec<_> = (1..=100).map(trunks).collect();
+    assert!(trunks.iter().all(|one| *one == Ok(1)), "{trunks:?}");
+    // What stands in the way is in the way of trunks as well.
+    let wall = r#"prune_obstacles = [{ shape = "box", min = [-9, -9, 0], max = [9, 9, 20] }]"#;
+    let error = read(&format!("{text}\n{wall}")).unwrap().grow(1).unwrap_err().to_string();
+    assert!(error.contains("pruning took it"), "{error}");
+}
+
+#[test]
 fn solids_and_obstacles_bound_the_tree() {
     let inside = [
         r#"prune_inside = [{ shape = "sphere", center = [0, 0, 6], radius = 2.5 }]"#,

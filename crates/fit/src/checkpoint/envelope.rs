@@ -16,6 +16,14 @@ pub(crate) fn sealed(of: &str, body: &[u8]) -> Vec<u8> {
     [format!("{start}{checksum:08x}\n").as_bytes(), body].concat()
 }
 
+/// Whether a file that begins with `bytes` is a checkpoint by its first word, of whatever format.
+pub(super) fn begins(bytes: &[u8]) -> bool {
+    bytes.strip_prefix(MAGIC.as_bytes()).is_some_and(|rest| rest.first() == Some(&b' '))
+}
+
+/// Bytes that are enough for [`begins`].
+pub(super) const BEGINNING: usize = MAGIC.len() + 1;
+
 /// The body of `bytes`, if header, length and checksum agree.
 pub(super) fn opened<'a>(path: &Path, bytes: &'a [u8]) -> Result<&'a [u8], CheckpointError> {
     let not_one = || CheckpointError::NotACheckpoint { path: path.to_owned() };

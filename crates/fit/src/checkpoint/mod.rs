@@ -24,11 +24,24 @@ use crate::history::Row;
 use crate::search::SearchState;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::fs::{self, File};
-use std::io::{self, Write as _};
+use std::io::{self, Read as _, Write as _};
 use std::path::Path;
 
 #[cfg(test)]
 pub(crate) use envelope::sealed;
+
+/// Whether there is a checkpoint at `path`: a regular file that begins as one, of whatever format and run.
+///
+/// It may be damaged all the same, or belong to another run, which reading it tells. What cannot be read is none.
+#[must_use]
+pub fn is_checkpoint(path: &Path) -> bool {
+    // A pipe of that name would be waited for.
+    if !path.metadata().is_ok_and(|file| file.is_file()) {
+        return false;
+    }
+    let mut start = [0; envelope::BEGINNING];
+    File::open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok() && envelope::begins(&start)
+}
 
 /// What a checkpoint holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -57,6 +57,10 @@ pub(crate) fn drive<S: MethodSettings<Method: State>>(
     Ok(driver.finish())
 }
 
+/// Longest time by the caller's clock between two looks at the budget and at whether a checkpoint is due. The
+/// threads do not wait for them.
+const LOOK: Duration = Duration::from_millis(100);
+
 /// A method that can be saved.
 pub(crate) trait State: Method + Clone + Serialize + DeserializeOwned {}
 
@@ -138,19 +142,32 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
         self.course.spent(self.elapsed(), self.control.stop.load(Ordering::Relaxed))
     }
 
-    fn verdict(&self) -> Option<StopReason> {
-        self.course.verdict(&self.spent())
+    /// Why to stop now, if so. Where the most that may be kept of the time would end the search, a tree like the
+    /// best is timed first: what follows may need less.
+    fn verdict(&mut self) -> Option<StopReason> {
+        let spent = self.spent();
+        let verdict = self.course.verdict(&spent);
+        if verdict == Some(StopReason::Timeout) && self.course.wants_a_timed_tree(spent.elapsed) {
+            self.time_a_tree();
+            return self.course.verdict(&self.spent());
+        }
+        verdict
+    }
+
+    /// Whether the budget has to be looked at before more scores have come: the time for it is there, or the fit
+    /// was asked to stop.
+    fn until_a_look(&self) -> impl Fn() -> bool + use<'a, M> {
+        let Control { clock, stop, .. } = self.control;
+        let due = clock.elapsed() + LOOK;
+        move || stop.load(Ordering::Relaxed) || clock.elapsed() >= due
     }
 
     fn tell_all(&mut self, tell: impl Fn(&mut dyn Observer)) {
         self.control.observers.iter_mut().for_each(|observer| tell(&mut **observer));
     }
 
-    /// Times a tree like the best, once what is to be left of the time hangs on it.
+    /// Times a tree like the best.
     fn time_a_tree(&mut self) {
-        if !self.course.wants_a_timed_tree(self.elapsed()) {
-            return;
-        }
         if let Some(best) = &self.course.search.state.best {
             let before = self.control.clock.elapsed();
             // On this thread: the others have trees before them.
@@ -190,7 +207,6 @@ impl<'a, 'e, M: State> Driver<'a, 'e, M> {
         if let Some(row) = self.course.after_scores(self.objective, elapsed) {
             self.tell_all(|observer| observer.generation(&row));
         }
-        self.time_a_tree();
         self.tell_progress();
         let now = self.control.clock.elapsed();
         if self.control.checkpoint.as_ref().is_some_and(|file| now - self.saved >= file.interval) {

@@ -5,11 +5,6 @@ use crate::evaluate::Evaluate;
 use crate::flight::Flight;
 use crate::solver::{AskTell as _, EmptyBatch, FitState};
 use argmin::core::{Error, KV, Problem, Solver, TerminationReason, TerminationStatus};
-use std::time::Duration;
-
-/// Longest time between two looks at the clock, at ctrl-C and at whether a checkpoint is due. The threads do not
-/// wait for them.
-const LOOK: Duration = Duration::from_millis(100);
 
 /// One iteration takes the scores of what is left of a brood, or what has come of them by the next look.
 pub(super) struct Streaming<'f, 'scope, 'a, 'e, M, O: ?Sized> {
@@ -38,7 +33,9 @@ impl<'scope, M: State, O: Evaluate + Sync + ?Sized> Solver<&'scope O, FitState>
             }
             flight.launch(batch);
         }
-        let landed = flight.land(search.awaited(), LOOK).ok_or(EmptyBatch)?;
+        let wanted = search.awaited();
+        let landed = flight.land(wanted, driver.until_a_look()).ok_or(EmptyBatch)?;
+        let search = &mut driver.course.search;
         let scores = problem.bulk_problem("cost_count", landed.len(), |_| Ok(landed))?;
         let Some(best) = search.tell(&scores) else { return Ok((state, None)) };
         driver.after_scores();

@@ -20,6 +20,8 @@ use pleach_tree::{Fnv, Foliage, Limits, ModelId, Tree};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
 
+/// Kinds of goals whose trees are kept at a time: those of a goal from another side than the front, and from there.
+const SHELVES: usize = 2;
 /// Trees between two calls of the observer: enough to keep the threads busy.
 const BATCH: usize = 32;
 /// The trees that goals are compared with, kept from goal to goal.
@@ -30,7 +32,7 @@ const BATCH: usize = 32;
 /// goals of 256 pixels.
 #[derive(Debug, Default)]
 pub struct GuessLibrary {
-    shelf: Option<(Key, Vec<Entry>)>,
+    shelves: Vec<(Key, Vec<Entry>)>,
     pub(super) prepared: Option<Drawings>,
     /// Whether trees are kept for no other goal.
     is_for_one: bool,
@@ -161,9 +163,10 @@ impl GuessLibrary {
         let key = Key::new(shown, guess, &list);
         let side = key.side;
         let all = list.iter().filter(|attempt| near.has(attempt)).count();
-        let mut entries = match self.shelf.take() {
-            Some((known, entries)) if known == key => entries,
-            _ => list.into_iter().map(|attempt| Entry { attempt, looks: [None, None] }).collect(),
+        let shelf = self.shelves.iter().position(|(known, _)| *known == key);
+        let mut entries = match shelf.map(|place| self.shelves.remove(place)) {
+            Some((_, entries)) => entries,
+            None => list.into_iter().map(|attempt| Entry { attempt, looks: [None, None] }).collect(),
         };
         let there = |entry: &Entry| {
             !near.has(&entry.attempt) || (0..2).all(|i| !wanted[i] || entry.looks[i].is_some())
@@ -187,13 +190,22 @@ impl GuessLibrary {
         } else if all > 0 {
             progress(all, all);
         }
-        Ok(&self.shelf.insert((key, entries)).1)
+        if self.shelves.len() >= SHELVES {
+            let _ = self.shelves.remove(0);
+        }
+        self.shelves.push((key, entries));
+        Ok(self.latest())
+    }
+
+    /// The trees that were asked for last.
+    pub(super) fn latest(&self) -> &[Entry] {
+        self.shelves.last().map_or(&[], |(_, entries)| entries)
     }
 
     /// A goal has been compared with the trees.
     pub(super) fn close(&mut self) {
         if self.is_for_one {
-            self.shelf = None;
+            self.shelves.clear();
         }
     }
 }
@@ -352,9 +364,9 @@ mod tests {
         {
             let guess = GuessSettings::default();
             let guessed = library.first_guess(&problem, &settings, &candidates, &guess, &stop, |_, _| ());
-            assert_eq!((guessed.unwrap().names[0].0.as_str(), library.shelf.is_some()), ("palm", keeps));
+            assert_eq!((guessed.unwrap().names[0].0.as_str(), !library.shelves.is_empty()), ("palm", keeps));
             let _ = library.references(&problem, &settings, &candidates, &stop).unwrap();
-            assert_eq!(library.shelf.is_some(), keeps);
+            assert_eq!(!library.shelves.is_empty(), keeps);
         }
     }
 }

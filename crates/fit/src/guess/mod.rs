@@ -11,6 +11,10 @@
 //! near. The drawings serve all goals of a [`GuessLibrary`]; those of known species may have been made
 //! before ([`Drawings`]).
 //!
+//! Drawings are from the front. For goals from elsewhere, and for several, trees of all candidates would have to be
+//! grown: the front drawings choose a few candidates instead, whatever the view, and these alone are grown and
+//! compared in the goals' own views (`preview.rs`).
+//!
 //! The same drawings tell whether the goal has leaves, and what its likeness to other trees is worth.
 
 mod candidate;
@@ -18,7 +22,7 @@ mod drawings;
 mod library;
 mod near;
 mod plate;
-pub(crate) use plate::Plate;
+mod preview;
 mod race;
 mod references;
 mod settings;
@@ -28,6 +32,7 @@ mod tries;
 pub use candidate::Candidate;
 pub use drawings::{Drawings, DrawingsError};
 pub use library::GuessLibrary;
+pub(crate) use plate::Plate;
 use pleach_tree::math;
 pub use race::Runner;
 pub use references::{Reference, References};
@@ -148,19 +153,22 @@ impl GuessLibrary {
         let known = known_views(problem);
         let looks = looks(&known, settings)?;
         let shown = Shown::new(&known, candidates, &looks, settings, stop, self.prepared.clone());
-        let both = guess.detect_leaves;
-        let wanted = [Foliage::All, Foliage::None].map(|foliage| both || foliage == known.foliage);
-        let mut near = Near::at_first(&shown);
-        let mut entries = self.entries(&shown, guess, wanted, &near, &mut progress)?;
-        let (foliage, mut found) = leaves(&shown, entries, guess.detect_leaves, &near)?;
-        if near != Near::All {
-            near = Near::nearest(&shown, &ranked(&shown, (entries, &found), 0).0);
-            let wanted = [Foliage::All, Foliage::None].map(|one| one == foliage);
-            entries = self.entries(&shown, guess, wanted, &near, &mut progress)?;
-            found = compare(&shown, entries, foliage, &near)?;
-        }
+        let preview = self.preview(&known, settings, candidates, guess, stop, &mut progress)?;
+        let (entries, foliage, found) = match &preview {
+            None => self.seen(&shown, guess, &mut progress)?,
+            Some(preview) => {
+                let wanted = [Foliage::All, Foliage::None].map(|one| one == preview.foliage);
+                let near = Near::few(&shown, &preview.costs);
+                let entries = self.entries(&shown, guess, wanted, &near, &mut progress)?;
+                (entries, preview.foliage, compare(&shown, entries, preview.foliage, &near)?)
+            }
+        };
         let keep = guess.keep.max(1);
         let (mut costs, alike) = ranked(&shown, (entries, &found), keep);
+        let mut of_species = references::of_species(candidates.len(), entries, &found);
+        if let Some(preview) = preview {
+            preview.complete(&mut costs, &mut of_species);
+        }
         // What looks alike may still stand beside the goal: the objective of the search decides.
         let known = FitProblem { foliage, ..known.clone() };
         let mut all = race::contenders(&shown, scored(&known, &shown, alike)?, &costs, keep);
@@ -182,7 +190,7 @@ impl GuessLibrary {
             species.appearance = candidates[named].species.appearance;
         }
         let pictures = pictures_of(&shown, named, (entries, &found), foliage)?;
-        let references = References::new(&known, candidates, (entries, &found), named, &pictures);
+        let references = References::new(&known, candidates, &of_species, named, &pictures);
         self.close();
         Ok(FirstGuess {
             species,
@@ -217,9 +225,35 @@ impl GuessLibrary {
         let (costs, _) = ranked(&shown, (entries, &found), 0);
         let named = first_of(&costs);
         let pictures = pictures_of(&shown, named, (entries, &found), known.foliage)?;
-        let references = References::new(&known, candidates, (entries, &found), named, &pictures);
+        let of_species = references::of_species(candidates.len(), entries, &found);
+        let references = References::new(&known, candidates, &of_species, named, &pictures);
         self.close();
         Ok(references)
+    }
+
+    /// The trees that the goals that are `shown` are compared with, whether those have leaves, and how they compare.
+    fn seen(
+        &mut self,
+        shown: &Shown<'_>,
+        guess: &GuessSettings,
+        mut progress: impl FnMut(usize, usize),
+    ) -> Result<(&[Entry], Foliage, Vec<Option<Resemblance>>), FitError> {
+        let both = guess.detect_leaves;
+        let wanted = [Foliage::All, Foliage::None].map(|foliage| both || foliage == shown.problem.foliage);
+        let near = Near::at_first(shown);
+        let entries = self.entries(shown, guess, wanted, &near, &mut progress)?;
+        let (foliage, found) = leaves(shown, entries, guess.detect_leaves, &near)?;
+        let near = match near {
+            Near::All => near,
+            _ => Near::nearest(shown, &ranked(shown, (entries, &found), 0).0),
+        };
+        if near == Near::All {
+            return Ok((self.latest(), foliage, found));
+        }
+        let wanted = [Foliage::All, Foliage::None].map(|one| one == foliage);
+        let entries = self.entries(shown, guess, wanted, &near, &mut progress)?;
+        let found = compare(shown, entries, foliage, &near)?;
+        Ok((entries, foliage, found))
     }
 }
 

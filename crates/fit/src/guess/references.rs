@@ -32,25 +32,18 @@ pub struct References {
 }
 
 impl References {
-    /// From the comparisons of `entries` with the goals of `problem`; `named` is the candidate that they
-    /// look like, and `trees` are pictures of it, view by view.
+    /// From what trees of each candidate have to the goals of `problem`; `named` is the candidate that they look
+    /// like, and `trees` are pictures of it, view by view.
     pub(super) fn new(
         problem: &FitProblem,
         candidates: &[Candidate],
-        (entries, found): (&[Entry], &[Option<Resemblance>]),
+        of_species: &[Vec<Reference>],
         named: Option<usize>,
         trees: &[Vec<Bitmap>],
     ) -> Self {
-        let of_species = |candidate: usize| {
-            entries.iter().zip(found).filter_map(move |(entry, found)| {
-                found.as_ref().filter(|_| entry.attempt.is_species && entry.attempt.candidate == candidate)
-            })
-        };
         let others: Vec<Reference> = (0..candidates.len())
             .filter(|&candidate| Some(candidate) != named)
-            .filter_map(|candidate| {
-                mean(of_species(candidate).map(|one| Reference { likeness: one.likeness, iou: one.iou }))
-            })
+            .filter_map(|candidate| mean(of_species[candidate].iter().copied()))
             .collect();
         let pairs = (0..trees.len()).flat_map(|a| (a + 1..trees.len()).map(move |b| (a, b)));
         let same_species = mean(pairs.filter_map(|(a, b)| compare(&trees[a], &trees[b])));
@@ -63,6 +56,21 @@ impl References {
             best_ellipse: compare(&ellipses, &goals).unwrap_or(Reference { likeness: 0.0, iou: 0.0 }),
         }
     }
+}
+
+/// What the trees of each of `count` candidates, as it is, have to the goals.
+pub(super) fn of_species(
+    count: usize,
+    entries: &[Entry],
+    found: &[Option<Resemblance>],
+) -> Vec<Vec<Reference>> {
+    let mut lists = vec![Vec::new(); count];
+    for (Entry { attempt, .. }, found) in entries.iter().zip(found) {
+        if let (true, Some(one)) = (attempt.is_species, found) {
+            lists[attempt.candidate].push(Reference { likeness: one.likeness, iou: one.iou });
+        }
+    }
+    lists
 }
 
 /// The mean over views.

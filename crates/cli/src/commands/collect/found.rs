@@ -2,7 +2,7 @@
 
 use super::run_name;
 use super::table::{FAILED, GOAL, REASON, STATE};
-use crate::commands::fit::run_folder::{RunFolder, SUMMARY};
+use crate::commands::fit::run_folder::RunFolder;
 use crate::text;
 use anyhow::Context;
 use serde_json::Value;
@@ -68,7 +68,7 @@ impl Found {
             self.finished.push(Run { folder: folder.to_owned(), summary });
             return Ok(());
         }
-        if run.is_unfinished() || folder.join(SUMMARY).exists() {
+        if run.was_left_unfinished() {
             self.unfinished.push(folder.to_owned());
             return Ok(());
         }

@@ -187,20 +187,13 @@ fn jobs(goals: Vec<(PathBuf, GoalArgs)>, out: &Path) -> anyhow::Result<Vec<Job>>
 
 /// What there is to do for a goal; an error if its folder holds something that must not be lost.
 fn before(fit: &Fit, settings: &FitSettings, task: &Task, mode: Mode) -> anyhow::Result<State> {
-    let finished = task.folder.finished();
-    if mode == Mode::Resume && !task.folder.is_unfinished() {
-        let Some(summary) = finished else { return Ok(State::Waiting) };
-        let differences = task.request(fit, &input::picture(&task.goal)?, settings)?.differences(&summary);
-        ensure!(
-            differences.is_empty(),
-            "{} was fitted with other options: {}; --resume skips it with the same ones, --overwrite instead of \
-             --resume fits all goals again, and another --out keeps both",
-            task.folder.path().display(),
-            differences.join(", ")
-        );
+    if mode == Mode::Resume
+        && let Some(summary) = task.done_before(fit, settings)?
+    {
         return Ok(State::Finished(summary));
     }
-    if finished.is_some() || task.folder.is_unfinished() {
+    let is_new = mode == Mode::Resume && !task.folder.is_unfinished();
+    if !is_new && (task.folder.finished().is_some() || task.folder.is_unfinished()) {
         // Only then is the goal read: of thousands that wait, each is read when it is fitted.
         task.folder.check(mode, &task.request(fit, &input::picture(&task.goal)?, settings)?)?;
     }

@@ -111,7 +111,7 @@ pub(crate) struct Fit {
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Go on from the checkpoint in the run folder, or start if the fit was stopped before there was
-    /// one; with several goals, skip those that are finished
+    /// one; a fit that is finished is left as it is
     #[arg(long)]
     resume: bool,
     /// Search on from where a finished fit ended: budgets count from there. Ends as one longer fit
@@ -190,6 +190,15 @@ impl Fit {
             folder: RunFolder::at(path.clone()),
         };
         let mode = self.mode();
+        if mode == Mode::Resume
+            && let Some(summary) = task.done_before(self, settings)?
+        {
+            output::note(format!(
+                "{} holds a finished fit of the same; --continue searches on",
+                path.display()
+            ));
+            return if self.json { output::json(&summary) } else { Ok(()) };
+        }
         let mut library = library().for_one_goal();
         let ended = task.run(self, settings, mode, &mut library, &signals::catch()?)?;
         let (summary, interrupted) = match ended {

@@ -9,6 +9,8 @@ use super::run_folder::{Mode, RunFolder};
 use super::summary::{self, Results, Summary};
 use super::watch::Watch;
 use super::{Fit, views};
+use crate::input;
+use anyhow::ensure;
 use pleach_fit::{
     Accuracy, CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalSettings, GoalView,
     GuessLibrary, fit_goal_with,
@@ -44,6 +46,26 @@ impl Task {
         settings: &FitSettings,
     ) -> anyhow::Result<Request> {
         Request::new(fit, &self.goal, source, &self.args, settings)
+    }
+
+    /// The summary of the fit that `--resume` leaves as it is: one that is finished and was asked for the same.
+    ///
+    /// # Errors
+    /// A finished one that was asked for something else.
+    pub(super) fn done_before(&self, fit: &Fit, settings: &FitSettings) -> anyhow::Result<Option<Value>> {
+        if self.folder.is_unfinished() {
+            return Ok(None);
+        }
+        let Some(summary) = self.folder.finished() else { return Ok(None) };
+        let differences = self.request(fit, &input::picture(&self.goal)?, settings)?.differences(&summary);
+        ensure!(
+            differences.is_empty(),
+            "{} was fitted with other options: {}; --resume skips it with the same ones, --overwrite instead of \
+             --resume fits again, and another --out keeps both",
+            self.folder.path().display(),
+            differences.join(", ")
+        );
+        Ok(Some(summary))
     }
 
     /// Fits the goal.

@@ -86,6 +86,13 @@ impl fmt::Display for Direction {
     }
 }
 
+/// As it may be given, in degrees.
+impl fmt::Display for KnownPicture {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Direction::Further(self.0.clone()).fmt(f)
+    }
+}
+
 impl FromStr for KnownPicture {
     type Err = String;
 

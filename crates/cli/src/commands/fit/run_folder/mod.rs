@@ -13,13 +13,14 @@ use crate::{files, output};
 use anyhow::{Context, bail, ensure};
 pub(super) use lock::Busy;
 use lock::Lock;
+use pleach_fit::is_checkpoint;
 use serde_json::Value;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use swap::STAGE;
 
 /// The report of a fit, which says whether it is finished.
-pub(in crate::commands) const SUMMARY: &str = "summary.json";
+pub(super) const SUMMARY: &str = "summary.json";
 /// The state of an unfinished search.
 const CHECKPOINT: &str = "checkpoint";
 /// The same of a finished one, for `--continue`.
@@ -121,8 +122,15 @@ impl RunFolder {
     }
 
     /// Whether there is a fit to go on with.
-    pub(in crate::commands) fn is_unfinished(&self) -> bool {
+    pub(super) fn is_unfinished(&self) -> bool {
         self.checkpoint().is_some()
+    }
+
+    /// Whether what is there was left by a fit that is not finished: a checkpoint, and no other file that is called
+    /// so, or a summary that is not a finished one's.
+    pub(in crate::commands) fn was_left_unfinished(&self) -> bool {
+        let checkpoint = self.checkpoint().map(|place| place.join(CHECKPOINT));
+        checkpoint.is_some_and(|file| is_checkpoint(&file)) || self.home.join(SUMMARY).is_file()
     }
 
     /// The folder in which an unfinished fit is, if there is one.
