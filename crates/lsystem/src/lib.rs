@@ -33,7 +33,13 @@ impl Grammar {
     /// # Errors
     /// Every statement that cannot be read, with its place. `origin` (a file name) is for messages.
     pub fn parse(origin: &str, text: &str) -> Result<Self, Report> {
+        let text = without_mark(text);
         let (grammar, problems) = parse::parse(text);
         if problems.is_empty() { Ok(grammar) } else { Err(Report::new(origin, text, problems)) }
     }
+}
+
+/// `text` without the byte-order mark that some editors put before it.
+pub(crate) fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
 }

@@ -48,6 +48,7 @@ impl LSystem {
     /// # Errors
     /// Every problem that was found, with its place.
     pub fn read(origin: &str, text: &str) -> Result<Self, Report> {
+        let text = crate::without_mark(text);
         let (grammar, mut problems) = crate::parse::parse(text);
         let (program, more) = compile(&grammar);
         problems.extend(more);

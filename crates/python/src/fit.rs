@@ -6,6 +6,7 @@ use crate::frame::KnownFrame;
 use crate::goal::Source;
 use crate::pool;
 use crate::score::of_card;
+use crate::seed::Seed;
 use crate::species::Species;
 use crate::told::{Teller, Told};
 use crate::view::{Direction, view};
@@ -45,8 +46,9 @@ struct Options {
     objective: String,
     free: Vec<String>,
     fix: Vec<String>,
-    seed: u64,
-    tree_seed: Option<u64>,
+    /// Seeds are read later, so that what is wrong with one is told as what is wrong with others.
+    seed: Py<PyAny>,
+    tree_seed: Option<Py<PyAny>>,
     timeout: Option<f64>,
     evaluations: Option<u64>,
     generations: Option<u64>,
@@ -84,11 +86,12 @@ impl How {
             Self::Switch(true) => Effort::Share,
             Self::Switch(false) => Effort::Off,
             Self::Seconds(seconds) => Effort::Time(duration("individual", *seconds)?),
+            Self::Trees(text) if text == "off" => Effort::Off,
             Self::Trees(text) => {
                 let count = text.strip_suffix("trees").and_then(|count| count.parse().ok());
                 Effort::Trees(count.filter(|count| *count > 0).ok_or_else(|| {
                     FitError::new_err(format!(
-                        "individual is {text:?}, expected True, False, seconds, or a number of trees such as \"400trees\""
+                        "individual is {text:?}, expected True, False or \"off\", seconds, or a number of trees such as \"400trees\""
                     ))
                 })?)
             }
@@ -264,6 +267,8 @@ fn settings(
     generator: GeneratorChoice,
     problem: &FitProblem,
 ) -> PyResult<GoalSettings> {
+    let Seed(seed) = Seed::read(&options.seed)?;
+    let tree_seed = options.tree_seed.as_ref().map(Seed::read).transpose()?;
     let timeout = options.timeout.map(|seconds| duration("timeout", seconds)).transpose()?;
     let is_bounded = timeout.is_some() || options.evaluations.is_some() || options.generations.is_some();
     let timeout = timeout.or((!is_bounded).then_some(USUAL_TIME));
@@ -290,8 +295,8 @@ fn settings(
             target_iou: None,
             kept: None,
         },
-        seed: options.seed,
-        tree_seed: options.tree_seed.map_or(TreeSeed::Any, TreeSeed::Fixed),
+        seed,
+        tree_seed: tree_seed.map_or(TreeSeed::Any, |Seed(seed)| TreeSeed::Fixed(seed)),
         freedom: Freedom { free: options.free.clone(), fix: options.fix.clone() },
         ..FitSettings::default()
     };

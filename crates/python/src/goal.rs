@@ -1,12 +1,13 @@
 //! Goals, as users give them.
 
-use crate::arrays::{check_size, to_ink};
+use crate::arrays::{check_size, of_ink, to_ink};
 use crate::error::{GoalError, of_goal};
 use image::{DynamicImage, GrayImage, ImageFormat, RgbImage, RgbaImage};
 use numpy::{PyArrayDyn, PyArrayMethods as _, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods as _};
 use pleach::{Bitmap, Encoded, Goal, GoalOptions};
 use pyo3::exceptions::{PyFileNotFoundError, PyTypeError};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use std::io::Cursor;
 use std::path::PathBuf;
 
@@ -22,7 +23,7 @@ impl Source {
     /// A path, the bytes of a file, or an array: of bool, or of `uint8` with one, three or four channels.
     pub(crate) fn read(goal: &Bound<'_, PyAny>) -> PyResult<Self> {
         if let Ok(bytes) = goal.extract::<Vec<u8>>()
-            && goal.is_instance_of::<pyo3::types::PyBytes>()
+            && goal.is_instance_of::<PyBytes>()
         {
             return Ok(Self::Picture(Encoded::new("goal", bytes)));
         }
@@ -39,6 +40,14 @@ impl Source {
             return Err(PyFileNotFoundError::new_err(format!("there is no file {}", path.display())));
         }
         Ok(Self::Picture(Encoded::load(path).map_err(of_goal)?))
+    }
+
+    /// The same as an object that [`Source::read`] takes.
+    pub(crate) fn given<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(match self {
+            Self::Picture(encoded) => PyBytes::new(py, encoded.bytes()).into_any(),
+            Self::Ink(ink) => of_ink(py, ink)?.into_any(),
+        })
     }
 
     /// The goal.

@@ -14,6 +14,7 @@ mod params;
 mod pool;
 mod problem;
 mod score;
+mod seed;
 mod species;
 mod told;
 mod tree;
@@ -40,9 +41,10 @@ mod native {
     #[pymodule_export]
     use crate::tree::Tree;
 
-    /// A species is a mapping to whoever asks.
+    /// The version, and: a species is a mapping to whoever asks.
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         let mapping = module.py().import("collections.abc")?.getattr("Mapping")?;
         mapping.call_method1("register", (module.py().get_type::<Species>(),))?;
         Ok(())

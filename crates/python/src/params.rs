@@ -16,6 +16,14 @@ pub(crate) fn find(space: &ParamSpace, name: &str) -> PyResult<usize> {
     })
 }
 
+/// The number of the parameter called `name`, and of its numbers the one that is, such as `length[1]`, if it is one.
+pub(crate) fn find_slot(space: &ParamSpace, name: &str) -> PyResult<(usize, Option<Slot>)> {
+    match space.slots().find(|&slot| space.slot_name(slot) == name) {
+        Some(slot) => Ok((space.info(slot).param, Some(slot))),
+        None => find(space, name).map(|number| (number, None)),
+    }
+}
+
 /// What `value` is in `slot`: the name of a choice, a whole number, or a number.
 pub(crate) fn of_slot<'py>(
     py: Python<'py>,
@@ -92,14 +100,15 @@ fn read(space: &ParamSpace, slot: Slot, value: &Bound<'_, PyAny>) -> PyResult<f6
     Ok(number)
 }
 
-/// What is declared of a parameter.
+/// What is declared of a parameter, or of `one` of its numbers.
 pub(crate) fn declared<'py>(
     py: Python<'py>,
     space: &ParamSpace,
     number: usize,
+    one: Option<Slot>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (param, about) = (&space.params()[number], PyDict::new(py));
-    let slots: Vec<Slot> = space.slots_of(number).collect();
+    let slots: Vec<Slot> = one.map_or_else(|| space.slots_of(number).collect(), |slot| vec![slot]);
     about.set_item("name", param.name.as_ref())?;
     about.set_item("doc", param.doc.as_ref())?;
     about.set_item("source", param.source.as_ref())?;
@@ -113,7 +122,14 @@ pub(crate) fn declared<'py>(
     about.set_item("range", param.kind.range())?;
     about
         .set_item("search_ranges", slots.iter().map(|&slot| space.search_range(slot)).collect::<Vec<_>>())?;
-    about.set_item("default", get(py, space, &space.defaults(), number)?)?;
+    let defaults = space.defaults();
+    about.set_item(
+        "default",
+        match one {
+            Some(slot) => of_slot(py, space, slot, defaults[slot.index()])?,
+            None => get(py, space, &defaults, number)?,
+        },
+    )?;
     Ok(about)
 }
 

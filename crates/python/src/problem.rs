@@ -6,6 +6,7 @@ use crate::frame::KnownFrame;
 use crate::goal::Source;
 use crate::params::kind;
 use crate::pool;
+use crate::seed::Seed;
 use crate::species::Species;
 use crate::view::{Direction, view};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods as _};
@@ -21,6 +22,8 @@ use rayon::prelude::*;
 #[pyclass(frozen, module = "pleach._native")]
 pub(crate) struct NativeProblem {
     problem: FitProblem,
+    /// What the goal was read from, for pickles.
+    source: Source,
     goal: pleach::Bitmap,
     evaluator: Evaluator,
     space: SearchSpace,
@@ -45,17 +48,19 @@ impl NativeProblem {
         objective: &str,
         free: Vec<String>,
         fix: Vec<String>,
-        seed: u64,
+        seed: Seed,
         match_height: bool,
         wide: bool,
     ) -> PyResult<Self> {
         let known = frame.map(KnownFrame::checked).transpose()?;
         let options = known.map_or_else(GoalOptions::default, KnownFrame::options);
         let options = GoalOptions { max_side: Some(size), crop: Crop::ToTree, ..options };
-        let goal = Source::read(goal)?.goal(&options)?;
+        let source = Source::read(goal)?;
+        let goal = source.goal(&options)?;
         let height = known.map_or(height, |known| {
             known.meters_per_pixel() * goal.height_in_pixels() / goal.detection.reduction
         });
+        let Seed(seed) = seed;
         let foliage = if leaves { Foliage::All } else { Foliage::None };
         let start = species.inner.kind();
         let goal_view = GoalView::new(goal.bitmap.clone(), view(from_)?, goal.frame(height));
@@ -71,7 +76,13 @@ impl NativeProblem {
         if !wide {
             space = space.plausible(problem.start.params.values());
         }
-        Ok(Self { problem, goal: goal.bitmap, evaluator, space, seed })
+        Ok(Self { problem, source, goal: goal.bitmap, evaluator, space, seed })
+    }
+
+    /// What the goal was read from: the bytes of a picture, or an array of bool. A file may change or stay behind.
+    #[getter]
+    fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.source.given(py)
     }
 
     #[getter]
@@ -117,10 +128,10 @@ impl NativeProblem {
         &self,
         py: Python<'py>,
         values: PyReadonlyArray2<'py, f64>,
-        seeds: Option<PyReadonlyArray1<'py, u64>>,
+        seeds: Option<Vec<Seed>>,
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let genomes = self.genomes(&values, seeds.as_ref())?;
+        let genomes = self.genomes(&values, seeds.as_deref())?;
         let pool = pool::of(threads)?;
         let mut scores: Vec<Score> = Vec::with_capacity(genomes.len());
         for some in genomes.chunks(BATCH * pool.current_num_threads()) {
@@ -144,9 +155,9 @@ impl NativeProblem {
     }
 
     /// The species with these numbers, of the size that it was compared at.
-    fn species(&self, values: PyReadonlyArray1<'_, f64>, seed: u64) -> PyResult<Species> {
+    fn species(&self, values: PyReadonlyArray1<'_, f64>, seed: Seed) -> PyResult<Species> {
         let row = values.as_array().to_vec();
-        let mut genome = self.genome(&row, seed, 0)?;
+        let mut genome = self.genome(&row, seed.0, 0)?;
         let score = self.evaluator.evaluate(&genome, &mut self.evaluator.workspace());
         if score.resized != 1.0 {
             self.problem.start.generator.resize(&mut genome.values, score.resized);
@@ -156,14 +167,9 @@ impl NativeProblem {
 }
 
 impl NativeProblem {
-    fn genomes(
-        &self,
-        values: &PyReadonlyArray2<'_, f64>,
-        seeds: Option<&PyReadonlyArray1<'_, u64>>,
-    ) -> PyResult<Vec<Genome>> {
+    fn genomes(&self, values: &PyReadonlyArray2<'_, f64>, seeds: Option<&[Seed]>) -> PyResult<Vec<Genome>> {
         let rows = values.as_array();
-        let seeds = seeds.map(|seeds| seeds.as_array().to_vec());
-        if let Some(seeds) = seeds.as_ref().filter(|seeds| seeds.len() != rows.nrows()) {
+        if let Some(seeds) = seeds.filter(|seeds| seeds.len() != rows.nrows()) {
             return Err(FitError::new_err(format!(
                 "{} seeds for {} rows of values",
                 seeds.len(),
@@ -171,7 +177,7 @@ impl NativeProblem {
             )));
         }
         let of_row = |number: usize| {
-            let seed = seeds.as_ref().map_or(self.seed, |seeds| seeds[number]);
+            let seed = seeds.map_or(self.seed, |seeds| seeds[number].0);
             self.genome(&rows.row(number).to_vec(), seed, number)
         };
         (0..values.shape()[0]).map(of_row).collect()

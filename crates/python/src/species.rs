@@ -3,6 +3,7 @@
 use crate::arrays;
 use crate::error::{of_growth, of_species};
 use crate::params;
+use crate::seed::Seed;
 use crate::tree::Tree;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pleach::{Foliage, Growth, ParamSpace};
@@ -176,7 +177,7 @@ impl Species {
         &self,
         name: Option<&str>,
         description: Option<String>,
-        tree_seed: Option<u64>,
+        tree_seed: Option<Seed>,
     ) -> PyResult<Self> {
         let mut species = (*self.inner).clone();
         if let Some(name) = name {
@@ -184,11 +185,11 @@ impl Species {
             name.clone_into(&mut species.name);
         }
         species.description = description.unwrap_or(species.description);
-        species.tree_seed = tree_seed.or(species.tree_seed);
+        species.tree_seed = tree_seed.map(|Seed(seed)| seed).or(species.tree_seed);
         Ok(species.into())
     }
 
-    /// What is declared of a parameter: a dict of `doc`, `source` (paper and section), `unit`, `kind`, `range` (what
+    /// What is declared of a parameter, or of a single number such as `length[1]`: a dict of `doc`, `source` (paper and section), `unit`, `kind`, `range` (what
     /// is allowed), `search_ranges` (what searches try, for each number), `default`, `group`, `slots`, and `choices`
     /// where there are some.
     ///
@@ -196,7 +197,8 @@ impl Species {
     /// >>> pleach.species("acer").declared("ratio")["kind"]
     /// 'real'
     fn declared<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
-        params::declared(py, self.space(), params::find(self.space(), name)?)
+        let (number, one) = params::find_slot(self.space(), name)?;
+        params::declared(py, self.space(), number, one)
     }
 
     /// Grows a tree: that of `seed`, by default of `tree_seed` or 1; with leaves unless the species file says `bare`
@@ -209,8 +211,8 @@ impl Species {
     /// >>> tree.knots.shape[1], len(tree.leaf_positions) > 1000
     /// (3, True)
     #[pyo3(signature = (seed = None, *, leaves = None))]
-    pub(crate) fn grow(&self, py: Python<'_>, seed: Option<u64>, leaves: Option<bool>) -> PyResult<Tree> {
-        let seed = seed.or(self.inner.tree_seed).unwrap_or(1);
+    pub(crate) fn grow(&self, py: Python<'_>, seed: Option<Seed>, leaves: Option<bool>) -> PyResult<Tree> {
+        let seed = seed.map(|Seed(seed)| seed).or(self.inner.tree_seed).unwrap_or(1);
         let leaves = leaves.unwrap_or(self.inner.foliage == Foliage::All);
         let foliage = if leaves { Foliage::All } else { Foliage::None };
         let grown = py.detach(|| self.inner.grow_with(&Growth { foliage, ..Growth::seed(seed) }));

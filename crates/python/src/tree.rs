@@ -2,6 +2,7 @@
 
 use crate::arrays::{self, column, of_ink, triples};
 use crate::error::{PleachError, of_growth};
+use crate::seed::Seed;
 use crate::species::Species;
 use crate::view::{self, Direction};
 use crate::{json, pool};
@@ -228,7 +229,7 @@ impl Tree {
     /// For pickles: the tree of a species.
     #[staticmethod]
     fn _again(py: Python<'_>, species: &Species, seed: u64, leaves: bool) -> PyResult<Self> {
-        species.grow(py, Some(seed), Some(leaves))
+        species.grow(py, Some(Seed(seed)), Some(leaves))
     }
 }
 

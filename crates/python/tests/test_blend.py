@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import pickle
 
 import pytest
 
@@ -35,3 +37,10 @@ def test_a_map_has_a_tree_everywhere() -> None:
         plane.at(math.nan, 0)
     with pytest.raises(pleach.SpeciesError):
         pleach.Map(["acer"])
+
+
+def test_maps_can_be_pickled_and_copied() -> None:
+    plane = pleach.Map(["acer", "palm", "quaking_aspen"])
+    for again in (pickle.loads(pickle.dumps(plane)), copy.copy(plane), copy.deepcopy(plane)):
+        assert again.names == plane.names and (again.points == plane.points).all()
+        assert again.at(0.1, 0.2).species == plane.at(0.1, 0.2).species

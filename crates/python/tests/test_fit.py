@@ -52,6 +52,20 @@ def test_a_fit_tells_all_there_is(found: pleach.Fit) -> None:
     assert pickle.loads(pickle.dumps(found)).species == found.species
 
 
+def test_this_very_tree_can_be_left_out() -> None:
+    for off in ("off", False):
+        found = pleach.fit(GOAL, **{**SMALL, "individual": off})
+        assert found.individuals == [] and found.best is found.species
+    with pytest.raises(pleach.FitError, match='False or "off"'):
+        pleach.fit(GOAL, **{**SMALL, "individual": "on"})
+
+
+def test_seeds_of_fits_are_whole_numbers() -> None:
+    for option in ("seed", "tree_seed"):
+        with pytest.raises(pleach.PleachError, match="a seed is -1, expected a whole number"):
+            pleach.fit(GOAL, **{**SMALL, option: -1})
+
+
 def test_this_very_tree_lies_on_the_goal() -> None:
     # At a size at which lying on it and lying on the whole picture are the same.
     found = pleach.fit(GOAL, start="acer", size=128, evaluations=40, individual="200trees")

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -44,6 +47,10 @@ def test_seeds_are_the_trees(problem: pleach.Problem) -> None:
     values = np.repeat(problem.start[None], 3, axis=0)
     cost = problem.evaluate(values, seeds=[1, 2, 3])
     assert len(set(cost)) == 3 and cost[2] < cost[0], "the goal is tree 3"
+    # One seed is that of all.
+    assert np.array_equal(problem.evaluate(values, seeds=2), np.repeat(cost[1], 3))
+    assert np.array_equal(problem.evaluate(values, seeds=np.array([1, 2, 3], dtype=np.int32)), cost)
+    assert np.isfinite(problem.evaluate(values[:2], seeds=[1, 2**64 - 1])).all()
     # That tree's picture is the goal.
     grown = problem.species(problem.start, seed=3).grow()
     assert pleach.score(grown.silhouette(64), problem.goal).iou > 0.95
@@ -69,6 +76,14 @@ def test_what_is_wrong_is_told(problem: pleach.Problem) -> None:
         problem.evaluate(values, seeds=[1, 2])
     with pytest.raises(pleach.PleachError, match="threads"):
         problem.evaluate(values, threads=0)
+    for seeds, shown in [([1, -1, 2], "-1"), ([1, 2.5, 3], "2.5"), (["a", "b", "c"], "'a'"), (2**64, "18446744073709551616")]:
+        with pytest.raises(pleach.PleachError, match=f"a seed is {shown}, expected a whole number from 0 to"):
+            problem.evaluate(values, seeds=seeds)
+    with pytest.raises(pleach.FitError, match="expected one seed"):
+        problem.evaluate(values, seeds=[[1, 2, 3]])
+    for wrong_seed in (lambda: problem.species(values[0], seed=-1), lambda: pleach.Problem(problem.goal, "acer", seed=-1)):
+        with pytest.raises(pleach.PleachError, match="a seed is -1"):
+            wrong_seed()
     goal = problem.goal
     wrong_options: list[dict[str, Any]] = [{"objective": "beauty"}, {"free": ["lenght"]}]
     for options in wrong_options:
@@ -80,3 +95,20 @@ def test_some_numbers_alone() -> None:
     goal = pleach.species("acer").grow(3).silhouette(48)
     some = pleach.Problem(goal, "acer", size=48, free=["length", "down_angle"], fix=["length[0]"])
     assert "length[1]" in some.names and "length[0]" not in some.names and "ratio" not in some.names
+
+
+def test_problems_can_be_pickled_and_copied(problem: pleach.Problem, tmp_path: Path) -> None:
+    values = rows(problem, 4)
+    for again in (pickle.loads(pickle.dumps(problem)), copy.copy(problem), copy.deepcopy(problem)):
+        assert again.names == problem.names and np.array_equal(again.goal, problem.goal)
+        assert np.array_equal(again.upper, problem.upper) and np.array_equal(again.start, problem.start)
+        assert np.array_equal(again.evaluate(values), problem.evaluate(values))
+    # Of a file the pickle holds the picture, and of options what was said.
+    file = tmp_path / "goal.png"
+    file.write_bytes(pleach.species("palm").grow(2)._repr_png_())
+    some = pleach.Problem(file, "palm", size=48, free=["length"], height=7.5, view=30, objective="iou", seed=4, match_height=False)
+    kept = pickle.dumps(some)
+    file.unlink()
+    again = pickle.loads(kept)
+    assert again.names == some.names and np.array_equal(again.goal, some.goal)
+    assert np.array_equal(again.evaluate(rows(some, 3)), some.evaluate(rows(some, 3)))

@@ -6,6 +6,7 @@ import collections.abc
 import pickle
 import pathlib
 
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -78,3 +79,21 @@ def test_what_is_declared_is_told() -> None:
     assert about["slots"] == [f"length[{i}]" for i in range(4)] and len(about["search_ranges"]) == 4
     assert about["doc"] and about["source"] and about["range"][0] < about["range"][1]
     assert "conical" in pleach.species("acer").declared("shape")["choices"]
+    one = pleach.species("acer").declared("length[1]")
+    assert one["name"] == "length" and one["slots"] == ["length[1]"]
+    assert one["search_ranges"] == about["search_ranges"][1:2] and one["default"] == about["default"][1]
+    with pytest.raises(pleach.SpeciesError, match="length"):
+        pleach.species("acer").declared("lenght[1]")
+
+
+def test_seeds_are_whole_numbers() -> None:
+    acer = pleach.species("acer")
+    for wrong in (-1, 1.5, 2**64, "one", True):
+        with pytest.raises(pleach.PleachError, match="a seed is .*, expected a whole number"):
+            acer.grow(wrong)  # type: ignore[arg-type]
+        with pytest.raises(pleach.PleachError, match="a seed is"):
+            acer.named(tree_seed=wrong)  # type: ignore[arg-type]
+
+
+def test_the_version_is_told() -> None:
+    assert pleach.__version__ == version("pleach")

@@ -147,3 +147,16 @@ fn pasted_signs_are_read() {
     let pdf = Grammar::parse("pdf", "axiom: F\u{2212}F\nF \u{2192} F(2\u{2212}1)").unwrap();
     assert_eq!(pdf, Grammar::parse("typed", "Axiom: F-F\nF --> F(2-1)").unwrap());
 }
+
+#[test]
+fn a_byte_order_mark_is_no_part_of_a_grammar() {
+    let text = "axiom: A\nsteps: 2\nA -> F A\n";
+    let marked = format!("\u{feff}{text}");
+    let (plain, read) = (LSystem::read("plain", text).unwrap(), LSystem::read("marked", &marked).unwrap());
+    assert_eq!(read.text(), plain.text());
+    assert!(Grammar::parse("marked", &marked).is_ok());
+    // Columns are those that an editor shows, and a mark anywhere else is a mistake.
+    let report = LSystem::read("marked", "\u{feff}axiom: A ?\n").unwrap_err().to_string();
+    assert!(report.contains("marked:1:10"), "{report}");
+    assert!(LSystem::read("test", "axiom: A\n\u{feff}steps: 2\n").is_err());
+}

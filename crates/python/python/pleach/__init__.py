@@ -23,6 +23,7 @@ from ._native import (
     Species,
     SpeciesError,
     Tree,
+    __version__,
     generators,
 )
 from ._problem import Problem, Scores
@@ -43,6 +44,7 @@ __all__ = [
     "Species",
     "SpeciesError",
     "Tree",
+    "__version__",
     "blend",
     "fit",
     "generators",

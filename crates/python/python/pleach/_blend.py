@@ -67,6 +67,9 @@ class Map:
         self.explained: list[float] = self._map.explained()
         """The share of the variance that each component has."""
 
+    def __reduce__(self) -> tuple[type[Map], tuple[list[_native.Species]]]:
+        return Map, (self.species,)
+
     def at(self, x: float, y: float, *, name: str = "blend") -> Place:
         """The tree at a point. Raises ``SpeciesError`` for coordinates that are not finite."""
         species, shares, outside = self._map.at(x, y, name)

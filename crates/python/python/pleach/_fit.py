@@ -159,7 +159,7 @@ def fit(
     The fit begins at ``start``: ``"auto"``, the species that the goal looks like; ``"random"``; or a species. ``leaves``
     says whether the tree has some; None looks for them. It ends after ``timeout`` seconds, or so many ``evaluations`` or
     ``generations``; after a minute if nothing is said. ``individual`` is how long this very tree is searched: True, a
-    share of the budget; seconds; a number of trees such as ``"400trees"``; or False. ``tree_seed`` None searches the seed
+    share of the budget; seconds; a number of trees such as ``"400trees"``; or False, which ``"off"`` is too. ``tree_seed`` None searches the seed
     too.
 
     ``progress`` is True, for a bar (with tqdm), or a function of a dict: ``stage`` and what it says of it. Fits

@@ -12,6 +12,8 @@ class GoalError(PleachError): ...
 class GrowError(PleachError): ...
 class FitError(PleachError): ...
 
+__version__: str
+
 @final
 class Species(Mapping[str, Any]):
     @staticmethod
@@ -104,6 +106,8 @@ class NativeMap:
 
 @final
 class NativeProblem:
+    @property
+    def source(self) -> Any: ...
     def __new__(
         cls,
         goal: Any,
@@ -135,7 +139,7 @@ class NativeProblem:
     @property
     def goal(self) -> npt.NDArray[np.bool_]: ...
     def scores(
-        self, values: npt.NDArray[np.float64], seeds: Optional[npt.NDArray[np.uint64]], threads: Optional[int]
+        self, values: npt.NDArray[np.float64], seeds: Optional[list[Any]], threads: Optional[int]
     ) -> dict[str, npt.NDArray[np.float64]]: ...
     def species(self, values: npt.NDArray[np.float64], seed: int) -> Species: ...
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +26,24 @@ class Scores:
     """The share of equal pixels."""
     likeness: npt.NDArray[np.float64]
     """How much they look like trees of one kind, 0 to 1; NaN where the objective does not look at it."""
+
+
+def _again(kind: type[Problem], goal: Any, species: _native.Species, options: tuple[Any, ...]) -> Problem:
+    """A problem from its pickle."""
+    problem = kind.__new__(kind)
+    problem._begin(goal, species, options)
+    return problem
+
+
+def _seeds(seeds: npt.ArrayLike, count: int) -> list[Any]:
+    """A seed for each of ``count`` rows; the native part says what is wrong with one."""
+    given = np.asarray(seeds)
+    if given.ndim == 0:
+        return [given.item()] * count
+    if given.ndim != 1:
+        raise _native.FitError(f"seeds are of shape {given.shape}, expected one seed, or shape ({count},)")
+    # Of whole numbers above 2**63 and others numpy makes floats.
+    return list(seeds) if isinstance(seeds, (list, tuple)) else list(given.tolist())
 
 
 class Problem:
@@ -64,9 +82,12 @@ class Problem:
         match_height: bool = True,
         wide: bool = False,
     ) -> None:
-        self._native = _native.NativeProblem(
-            given(goal), one_species(species), height, size, view, frame, leaves, objective, list(free), list(fix), seed, match_height, wide
-        )
+        options = (height, size, view, frame, leaves, objective, list(free), list(fix), seed, match_height, wide)
+        self._begin(given(goal), one_species(species), options)
+
+    def _begin(self, goal: Any, species: _native.Species, options: tuple[Any, ...]) -> None:
+        self._begun = (species, options)
+        self._native = _native.NativeProblem(goal, species, *options)
         self.names: list[str] = self._native.names
         """The free numbers, such as ``length[1]``."""
         self.kinds: list[str] = self._native.kinds
@@ -86,6 +107,10 @@ class Problem:
         self.goal: npt.NDArray[np.bool_] = self._native.goal
         """The goal as it is compared with, bool of shape (height, width)."""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # With the picture itself: a file may not be there where this is read.
+        return _again, (type(self), self._native.source, *self._begun)
+
     def __len__(self) -> int:
         return len(self.names)
 
@@ -99,7 +124,7 @@ class Problem:
         """Grows and compares a tree for each row of ``values``, shape (n, numbers), on all threads.
 
         Values beyond the bounds count as the nearest within, whole numbers are rounded. ``seeds``, shape (n,), are
-        those of the trees; ``seed`` by default. The result does not depend on the number of threads. Raises
+        those of the trees, or one for all of them; ``seed`` by default. The result does not depend on the number of threads. Raises
         ``FitError`` for a wrong shape, and for NaN and infinity by name and row.
         """
         rows = np.asarray(values)
@@ -107,7 +132,7 @@ class Problem:
             raise _native.FitError(
                 f"values are {rows.dtype} of shape {rows.shape}, expected float64 of shape (n, {len(self)})"
             )
-        chosen = None if seeds is None else np.asarray(seeds, dtype=np.uint64)
+        chosen = None if seeds is None else _seeds(seeds, len(rows))
         return Scores(**self._native.scores(np.asarray(rows, dtype=np.float64), chosen, threads))
 
     def evaluate(
