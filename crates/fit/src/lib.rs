@@ -97,7 +97,7 @@ pub use observer::{Observer, Progress};
 pub use optimizer::{AnyMethod, Optimizer, UnknownOptimizer};
 pub use problem::{Accuracy, FitProblem, GoalView, ProblemError, placements};
 pub use profile::{Identifiability, PROFILE_STEPS, Profile, profile, reset_unidentified};
-pub use register::{Steps, register};
+pub use register::{HEAVY, Steps, register};
 pub use run::{evaluator, fit, settled};
 pub use search::{Search, SearchState};
 pub use setting::{SETTINGS, Setting, SettingKind};

@@ -39,6 +39,8 @@ impl Steps {
     const FAR: Self = Self { first: 4.0, last: 0.25 };
     /// Near steps, on drawings of the tree itself.
     const NEAR: Self = Self { first: 0.25, last: 1.0 / 128.0 };
+    /// Near steps of a tree with more than [`HEAVY`] leaves: a crown that is dense has few edges for its ink.
+    const NEAR_HEAVY: Self = Self { first: 0.25, last: 1.0 / 32.0 };
     /// The same once more from where they have led: three numbers that hang together are moved one by one.
     const AGAIN: Self = Self { first: 1.0 / 16.0, last: 1.0 / 128.0 };
 }
@@ -63,6 +65,8 @@ const LEAST_GAIN: f64 = 1e-9;
 /// What overlap has to gain for each number that is moved as far as it may be, in proportion: a tree that is unlike the
 /// goal says little about the frame, one that is like it gains some hundred times as much.
 const PRICE: f64 = 0.01;
+/// Leaves from which on a tree takes so long to draw that it is registered less closely.
+pub const HEAVY: usize = 100_000;
 /// Pixels of the fine drawing for each of the goal's.
 const FINENESS: u32 = 4;
 
@@ -306,8 +310,11 @@ pub(crate) fn with_registered_frames(
                 moved = one.far(moved);
             }
             if closeness == Closeness::Result {
-                moved = one.near(moved, Steps::NEAR);
-                moved = one.near(moved, Steps::AGAIN);
+                moved = if tree.leaves.len() > HEAVY {
+                    one.near(moved, Steps::NEAR_HEAVY)
+                } else {
+                    one.near(one.near(moved, Steps::NEAR), Steps::AGAIN)
+                };
             }
             goal.registered = one.placement(moved);
         }

@@ -1,6 +1,6 @@
 //! Where a tree stands in a goal at the goal's own size.
 
-use pleach_fit::{Accuracy, GoalView, Placement, Steps, register};
+use pleach_fit::{Accuracy, GoalView, HEAVY, Placement, Steps, register};
 use pleach_silhouette::goal::Goal;
 use pleach_tree::{Foliage, Tree};
 
@@ -22,7 +22,8 @@ pub fn place_at_full_size(
     if fitted.accuracy == Accuracy::Exact || ratio < FINER {
         return fitted.registered;
     }
-    let steps = Steps { first: ratio / 16.0, last: 1.0 / 64.0 };
+    let last = if tree.leaves.len() > HEAVY { 1.0 / 16.0 } else { 1.0 / 64.0 };
+    let steps = Steps { first: ratio / 16.0, last };
     let frame = full.frame(height);
     register(tree, foliage, &full.bitmap, &fitted.view, &frame, &fitted.registered, steps)
 }

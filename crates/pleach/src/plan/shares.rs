@@ -29,6 +29,10 @@ const JUDGED: f64 = 300.0;
 /// What callers that paint no pictures do with a tree that is found: draw and score it once more.
 pub const DRAWING: Aftermath = Aftermath { fixed: Duration::from_millis(100), trees: 3.0, spread: 0.0 };
 
+/// What it takes to register the result, as trees on all threads: some eighty drawings, and to draw a tree takes about
+/// half as long as to grow it as well.
+const REGISTERED: f64 = 40.0;
+
 impl Shares {
     /// Of a fit that is to take `whole`.
     #[must_use]
@@ -50,7 +54,7 @@ impl Shares {
     #[must_use]
     pub fn bound(&self, mut settings: GoalSettings, writing: Aftermath, further: Aftermath) -> GoalSettings {
         let used = settings.search.budget.timeout.unwrap_or(self.search).saturating_sub(self.search);
-        let aftermath = Aftermath { spread: writing.spread + JUDGED, ..writing };
+        let aftermath = Aftermath { spread: writing.spread + REGISTERED + JUDGED, ..writing };
         settings.search.budget.kept = Some(Kept { most: self.kept, aftermath });
         settings.judging = settings.judging.map(|judging| Judging { time: Some(self.judging), ..judging });
         settings.ending = Some(Ending { after: self.whole + used, writing, further });

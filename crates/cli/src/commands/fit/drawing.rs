@@ -15,7 +15,9 @@ use std::time::Duration;
 
 /// What it takes to draw, score, paint and write the tree of a result.
 pub(super) fn writing(goals: &Goals) -> Aftermath {
-    Aftermath { fixed: PAINTED + scored(goals), trees: PAINTED_TREES, spread: 0.0 }
+    let ratio = goals.full.height_in_pixels() / goals.working.height_in_pixels();
+    let spread = if ratio > 1.0 { REGISTERED * ratio } else { 0.0 };
+    Aftermath { fixed: PAINTED + scored(goals), trees: PAINTED_TREES, spread }
 }
 
 /// What it takes to draw and score a further individual.
@@ -32,6 +34,9 @@ fn scored(goals: &Goals) -> Duration {
 /// paint one: between what a palm, a black oak and a willow take. `experiments/on-time` says what comes of it.
 const PAINTED: Duration = Duration::from_millis(200);
 const PAINTED_TREES: f64 = 13.0;
+/// Drawings at the goal's own size that register its frame, as trees of a search on all threads: for each pixel that
+/// one of the search's is high.
+const REGISTERED: f64 = 20.0;
 /// It is grown and drawn twice, and a free tree beside it.
 const FURTHER_TREES: f64 = 6.0;
 /// The score card of a million pixels, which takes 0.34 s, and their silhouettes.

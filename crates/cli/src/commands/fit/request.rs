@@ -272,6 +272,7 @@ mod tests {
         ("volume_from", "goal"),
         ("free", "crown"),
         ("fix", "leaves"),
+        ("frame", "0.05,30,60"),
         ("optimizer", "cma"),
         ("evolve_rules", ""),
         ("settings", "children=8"),
