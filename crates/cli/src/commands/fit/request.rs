@@ -255,7 +255,7 @@ mod tests {
     }
 
     /// The options of `pleach fit`, and what each of them may be given that is not its default.
-    const GIVEN: [(&str, &str); 29] = [
+    const GIVEN: [(&str, &str); 30] = [
         ("height", "12"),
         ("size", "64"),
         ("mask", "auto"),
