@@ -23,7 +23,7 @@ pub fn place_at_full_size(
         return fitted.registered;
     }
     let last = if tree.leaves.len() > HEAVY { 1.0 / 16.0 } else { 1.0 / 64.0 };
-    let steps = Steps { first: ratio / 16.0, last };
+    let steps = Steps { first: ratio / 4.0, last };
     let frame = full.frame(height);
     register(tree, foliage, &full.bitmap, &fitted.view, &frame, &fitted.registered, steps)
 }

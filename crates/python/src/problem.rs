@@ -11,8 +11,8 @@ use crate::species::Species;
 use crate::view::{Direction, view};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods as _};
 use pleach::{
-    Crop, EvalWorkspace, Evaluator, FitProblem, Foliage, Freedom, Gene, Genome, GoalOptions, GoalView,
-    Limits, Score, SearchSpace, TreeSeed,
+    EvalWorkspace, Evaluator, FitProblem, Foliage, Freedom, Gene, Genome, GoalOptions, GoalView, Limits,
+    Score, SearchSpace, TreeSeed,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -54,7 +54,7 @@ impl NativeProblem {
     ) -> PyResult<Self> {
         let known = frame.map(KnownFrame::checked).transpose()?;
         let options = known.map_or_else(GoalOptions::default, KnownFrame::options);
-        let options = GoalOptions { max_side: Some(size), crop: Crop::ToTree, ..options };
+        let options = GoalOptions { max_side: Some(size), ..options };
         let source = Source::read(goal)?;
         let goal = source.goal(&options)?;
         let height = known.map_or(height, |known| {

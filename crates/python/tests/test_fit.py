@@ -20,12 +20,14 @@ import pleach
 
 ROOT = pathlib.Path(__file__).parents[3]
 GOAL = ROOT / "targets" / "acer.png"
+# Not of the species that fits here start from: at its own numbers nothing would be better.
+OTHER = ROOT / "targets" / "hill_cherry.png"
 SMALL: dict[str, Any] = {"start": "acer", "size": 48, "evaluations": 40, "individual": "24trees"}
 
 
 @pytest.fixture(scope="module")
 def found() -> pleach.Fit:
-    return pleach.fit(GOAL, **SMALL)
+    return pleach.fit(OTHER, **SMALL)
 
 
 def program() -> str:
@@ -38,7 +40,7 @@ def program() -> str:
 
 
 def test_a_fit_tells_all_there_is(found: pleach.Fit) -> None:
-    assert found.species.name == "acer" and found.evaluations >= 40 and not found.interrupted
+    assert found.species.name == OTHER.stem and found.evaluations >= 40 and not found.interrupted
     assert found.individual is not None and found.individual.own_draws > 0 and found.species.own_draws == 0
     assert found.best is found.individual
     assert set(word for _, word in found.identifiability.values()) <= {"determined", "loosely", "not-seen", "not-tried"}

@@ -76,7 +76,13 @@ def test_what_is_wrong_is_told(problem: pleach.Problem) -> None:
         problem.evaluate(values, seeds=[1, 2])
     with pytest.raises(pleach.PleachError, match="threads"):
         problem.evaluate(values, threads=0)
-    for seeds, shown in [([1, -1, 2], "-1"), ([1, 2.5, 3], "2.5"), (["a", "b", "c"], "'a'"), (2**64, "18446744073709551616")]:
+    wrong_seeds: list[tuple[Any, str]] = [
+        ([1, -1, 2], "-1"),
+        ([1, 2.5, 3], "2.5"),
+        (["a", "b", "c"], "'a'"),
+        (2**64, "18446744073709551616"),
+    ]
+    for seeds, shown in wrong_seeds:
         with pytest.raises(pleach.PleachError, match=f"a seed is {shown}, expected a whole number from 0 to"):
             problem.evaluate(values, seeds=seeds)
     with pytest.raises(pleach.FitError, match="expected one seed"):
