@@ -230,7 +230,7 @@ impl Asked {
     }
 
     /// Where the tree of `species` stands in each picture at its own size.
-    fn places(&self, species: &Species, fitted: &Fitted) -> PyResult<Vec<Placement>> {
+    fn places(&self, py: Python<'_>, species: &Species, fitted: &Fitted) -> PyResult<Vec<Placement>> {
         let foliage = fitted.problem.foliage;
         let seed = species.inner.tree_seed.unwrap_or(1);
         let growth = Growth { foliage, limits: fitted.settings.limits, ..Growth::seed(seed) };
@@ -238,7 +238,8 @@ impl Asked {
         let one = |(Picture { full, working, .. }, view): (&Picture, &GoalView)| {
             pleach::place_at_full_size(&tree, foliage, (full, working), view, self.height)
         };
-        Ok(self.pictures.iter().zip(&fitted.problem.goals).map(one).collect())
+        // On threads that end here: a child that forks later has none that it would wait for.
+        pool::on(py, self.threads, || self.pictures.iter().zip(&fitted.problem.goals).map(one).collect())
     }
 
     /// The goal as it was given.
@@ -386,7 +387,7 @@ fn found<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     let kind = asked.named(fitted.species().map_err(of_fit)?);
-    let places = asked.places(&kind, fitted)?;
+    let places = asked.places(py, &kind, fitted)?;
     let matches = asked.matched(&kind, fitted, &places)?;
     dict.set_item("verdict", fitted.verdict(&matches[0].0).map(|verdict| verdict.to_string()))?;
     dict.set_item("goal", of_ink(py, &asked.goal().bitmap)?)?;

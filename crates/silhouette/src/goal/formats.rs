@@ -51,7 +51,7 @@ mod tests {
             (b"BM\x36\x01\0\0\0\0\0\0\x36", Some("BMP")),
             (b"BMW and other cars", None),
             (b"\n <svg xmlns=", Some("SVG")),
-            (b"\xef\xbb\xbf<?xml versio", Some("SVG")),
+            (b"\xef\xbb\xbf<?xml ", Some("SVG")),
             (b"plain text", None),
             (b"", None),
         ] {
