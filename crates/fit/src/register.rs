@@ -10,9 +10,13 @@
 //! one order, so that threads change nothing. Far steps look at one fine drawing through other frames, which takes a
 //! fraction of a millisecond whatever the tree; near steps draw the tree anew.
 //!
+//! How far the frame may be moved depends on what the tree says. Trees of another kind, or of another seed, would
+//! lay their branches on the goal's at the price of the trunk and the ground; so they move it by the error of a
+//! reading at most, and only a tree that then covers the goal as no other does moves it further.
+//!
 //! It is no part of an individual: a frame belongs to the picture. Three further numbers for every individual would
-//! cost a search a share of its trials, and registering twice, before the search and on its result, costs some
-//! sixty drawings.
+//! cost a search a share of its trials. Registering twice, before the search and on its result, costs some eighty
+//! drawings.
 
 use crate::evaluator::{Evaluator, blend};
 use crate::genome::Genome;
@@ -50,12 +54,20 @@ impl Steps {
 const MAX_SHIFT: f64 = 0.06;
 /// The same of the ground, of which the lowest ink says more.
 const MAX_DROP: f64 = 0.02;
-/// The same of the height: tips that leave no ink are one part in a hundred of a slender tree.
-const MAX_GROWTH: f64 = 0.04;
+/// The same of the height: tips that leave no ink are one part in a hundred of a slender tree, and one in twenty of an
+/// oak in 128 pixels.
+const MAX_GROWTH: f64 = 0.06;
+/// The error of a reading, in pixels: of the foot, of the ground, and of the height at least, beside 1.2 % of it.
+const READ_SHIFT: f64 = 2.0;
+const READ_DROP: f64 = 1.0;
+const READ_GROWTH: (f64, f64) = (2.0, 0.012);
+/// Intersection over union from which on a tree is taken for the goal's own: two trees of a species have 0.6 at most,
+/// and what fits find of crowns without gaps has 0.9 and stands where it should.
+const SURE: f64 = 0.8;
 /// Pixels between the columns that are tried for the foot first, and heights that are tried with each, as parts of
 /// what was read.
 const SCAN: f64 = 2.0;
-const SCANNED_GROWTHS: [f64; 3] = [0.0, 0.008, 0.016];
+const SCANNED_GROWTHS: [f64; 4] = [0.0, 0.01, 0.025, 0.045];
 /// How many of the places that are tried first are searched around.
 const BEGINNINGS: usize = 3;
 /// Moves at one step before it is halved in any case.
@@ -81,6 +93,16 @@ struct Registered<'a> {
     foliage: Foliage,
     /// How much larger the tree has to be.
     magnified: f64,
+    reach: Reach,
+}
+
+/// How far a frame may be moved.
+#[derive(Clone, Copy)]
+struct Reach {
+    /// From here ...
+    from: Moved,
+    /// ... by so much either way.
+    by: Moved,
 }
 
 /// Pixels to the right, down, and that the tree is higher.
@@ -117,11 +139,21 @@ impl Registered<'_> {
         ]
     }
 
-    /// How far the numbers are moved, each as a part of how far it may be.
-    fn moved_parts(&self, [right, down, higher]: Moved) -> [f64; 3] {
+    /// As far as a tree may move the frame that is the goal's own.
+    fn wide(&self) -> Reach {
         let side = f64::from(self.frame.width.max(self.frame.height));
-        [right / (MAX_SHIFT * side), down / (MAX_DROP * side), higher / (MAX_GROWTH * self.height)]
-            .map(f64::abs)
+        Reach { from: [0.0; 3], by: [MAX_SHIFT * side, MAX_DROP * side, MAX_GROWTH * self.height] }
+    }
+
+    /// As far as any other may.
+    fn narrow(&self) -> Reach {
+        let (pixels, part) = READ_GROWTH;
+        Reach { from: [0.0; 3], by: [READ_SHIFT, READ_DROP, pixels.max(part * self.height)] }
+    }
+
+    /// How far the numbers are moved, each as a part of how far it may be.
+    fn moved_parts(&self, moved: Moved) -> [f64; 3] {
+        std::array::from_fn(|i| ((moved[i] - self.reach.from[i]) / self.reach.by[i]).abs())
     }
 
     fn is_allowed(&self, moved: Moved) -> bool {
@@ -167,17 +199,37 @@ impl Registered<'_> {
         (best, worth)
     }
 
-    /// Far steps, on one fine drawing of the tree.
-    fn far(&self, from: Moved) -> Moved {
+    /// Where the tree lies best, and the intersection over union that it has there.
+    fn found(&self, closeness: Closeness) -> (Moved, f64) {
+        let moved = if self.view.projection == Projection::Orthographic { self.far() } else { [0.0; 3] };
+        let moved = match closeness {
+            Closeness::Search => moved,
+            Closeness::Result if self.tree.leaves.len() > HEAVY => self.near(moved, Steps::NEAR_HEAVY).0,
+            Closeness::Result => {
+                // Ground and height make up for each other: also with the top where it is and the ground as read.
+                let [right, down, higher] = moved;
+                let beginnings = [moved, [right, 0.0, higher - down]];
+                let [one, other] = beginnings.map(|from| self.near(from, Steps::NEAR));
+                self.near(if other.1 > one.1 { other.0 } else { one.0 }, Steps::AGAIN).0
+            }
+        };
+        let Drawing { mut rasterizer, mut bitmap, mut scratch } = Drawing::new();
+        rasterizer.draw(self.tree, &self.view, &self.frame_at(moved), self.foliage.into(), &mut bitmap);
+        (moved, self.goal.overlaps(&bitmap, &mut scratch).iou())
+    }
+
+    /// Far steps from where the frame was read, on one fine drawing of the tree.
+    fn far(&self) -> Moved {
+        let from = [0.0; 3];
         let mut rasterizer = Rasterizer::with_detail(Detail::Draft);
         let side = (FINENESS * self.frame.width.max(self.frame.height)).min(MAX_PLATE);
         let plate = Plate::draw(self.tree, &self.view, self.foliage, side, &mut rasterizer);
         let worths = Worths::new(|frame, drawing| plate.through(frame, 1.0, &mut drawing.bitmap));
         // An overlap of branches has many peaks, most of them along the ground.
-        let reach = (MAX_SHIFT * f64::from(self.frame.width.max(self.frame.height)) / SCAN).floor() as i32;
-        let columns = (-reach..=reach).map(|i| from[0] + SCAN * f64::from(i));
-        let places: Vec<Moved> = columns
-            .flat_map(|right| SCANNED_GROWTHS.map(|growth| [right, from[1], from[2] + growth * self.height]))
+        let reach = (self.reach.by[0] / SCAN).floor() as i32;
+        let places: Vec<Moved> = (-reach..=reach)
+            .map(|i| SCAN * f64::from(i))
+            .flat_map(|right| SCANNED_GROWTHS.map(|growth| [right, 0.0, growth * self.height]))
             .filter(|&moved| self.is_allowed(moved))
             .collect();
         let mut ranked: Vec<(Moved, f64)> = places.iter().copied().zip(worths.of(self, &places)).collect();
@@ -194,11 +246,11 @@ impl Registered<'_> {
     }
 
     /// Near steps, on drawings of the tree.
-    fn near(&self, from: Moved, steps: Steps) -> Moved {
+    fn near(&self, from: Moved, steps: Steps) -> (Moved, f64) {
         let worths = Worths::new(|frame, Drawing { rasterizer, bitmap, .. }| {
             rasterizer.draw(self.tree, &self.view, frame, self.foliage.into(), bitmap);
         });
-        self.search(from, steps, &worths).0
+        self.search(from, steps, &worths)
     }
 }
 
@@ -228,6 +280,9 @@ impl<'a> Worths<'a> {
     }
 }
 
+/// First steps within which the frame of a result is registered again at the goal's own size.
+const AROUND: f64 = 4.0;
+
 /// Longest side of the fine drawing.
 const MAX_PLATE: u32 = 4096;
 
@@ -246,7 +301,7 @@ impl Drawing {
 
 /// Where `tree` lies best on `goal`, which shows it in `view` and about in `frame`, starting from `from`.
 ///
-/// Near steps only: `from` should be right to some four first steps. The same bits for any number of threads.
+/// Near steps only, within four first steps of `from`. The same bits for any number of threads.
 #[must_use]
 pub fn register(
     tree: &Tree,
@@ -257,8 +312,10 @@ pub fn register(
     from: &Placement,
     steps: Steps,
 ) -> Placement {
-    let registered = registered(tree, foliage, goal, view, frame, 1.0);
-    let found = registered.near(registered.moved(from), steps);
+    let mut registered = registered(tree, foliage, goal, view, frame, 1.0);
+    let moved = registered.moved(from);
+    registered.reach = Reach { from: moved, by: [AROUND * steps.first; 3] };
+    let (found, _) = registered.near(moved, steps);
     Placement { azimuth: from.azimuth, ..registered.placement(found) }
 }
 
@@ -273,7 +330,8 @@ fn registered<'a>(
     let top = goal.ink_box().map_or(0, |(_, top, _, _)| top);
     let height = (frame.ground_row - f64::from(top)).max(1.0);
     let (goal, frame, view) = (PreparedGoal::new(goal), *frame, *view);
-    Registered { goal, frame, height, tree, view, foliage, magnified }
+    let reach = Reach { from: [0.0; 3], by: [0.0; 3] };
+    Registered { goal, frame, height, tree, view, foliage, magnified, reach }
 }
 
 /// How close a registration goes.
@@ -304,17 +362,12 @@ pub(crate) fn with_registered_frames(
             if !goal.is_to_be_registered() {
                 continue;
             }
-            let one = registered(tree, foliage, &goal.goal, view, &goal.frame, magnified);
-            let mut moved = one.moved(&goal.registered);
-            if goal.registered == Placement::KNOWN && view.projection == Projection::Orthographic {
-                moved = one.far(moved);
-            }
-            if closeness == Closeness::Result {
-                moved = if tree.leaves.len() > HEAVY {
-                    one.near(moved, Steps::NEAR_HEAVY)
-                } else {
-                    one.near(one.near(moved, Steps::NEAR), Steps::AGAIN)
-                };
+            let mut one = registered(tree, foliage, &goal.goal, view, &goal.frame, magnified);
+            one.reach = one.wide();
+            let (mut moved, iou) = one.found(closeness);
+            if iou < SURE {
+                one.reach = one.narrow();
+                (moved, _) = one.found(closeness);
             }
             goal.registered = one.placement(moved);
         }

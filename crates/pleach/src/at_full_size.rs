@@ -4,9 +4,6 @@ use pleach_fit::{Accuracy, GoalView, HEAVY, Placement, Steps, register};
 use pleach_silhouette::goal::Goal;
 use pleach_tree::{Foliage, Tree};
 
-/// From how many pixels of the goal for one of the search on a frame is registered at the goal's own size.
-const FINER: f64 = 1.1;
-
 /// Where `tree`, the result of a fit, stands in `full`, of which the fit has compared `working`, registered as
 /// `fitted`: at a larger size a small part of a pixel is a larger one. Multiplies and moves the frame
 /// `full.frame(height)`.
@@ -19,7 +16,7 @@ pub fn place_at_full_size(
     height: f64,
 ) -> Placement {
     let ratio = full.height_in_pixels() / working.height_in_pixels();
-    if fitted.accuracy == Accuracy::Exact || ratio < FINER {
+    if fitted.accuracy == Accuracy::Exact || ratio <= 1.0 {
         return fitted.registered;
     }
     let last = if tree.leaves.len() > HEAVY { 1.0 / 16.0 } else { 1.0 / 64.0 };
