@@ -20,6 +20,17 @@ async function species(hash = "#species?s=acer") {
   return opened;
 }
 
+/** Drops a file with this text on the page. */
+const drop = (page, text, name) =>
+  page.evaluate(
+    ([text, name]) => {
+      const files = new DataTransfer();
+      files.items.add(new File([text], name));
+      window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
+    },
+    [text, name],
+  );
+
 async function set(page, slot, value) {
   await field(page, slot).fill(String(value));
   await field(page, slot).press("Enter");
@@ -86,11 +97,7 @@ test("a reload and a dropped file keep everything", async () => {
   await field(page, "g_scale").waitFor();
   assert.equal(await field(page, "g_scale").inputValue(), "15.5");
   await page.goto(`${studio.address}#gallery`);
-  await page.evaluate((text) => {
-    const files = new DataTransfer();
-    files.items.add(new File([text], "mine.toml"));
-    window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
-  }, toml);
+  await drop(page, toml, "mine.toml");
   await field(page, "g_scale").waitFor();
   assert.equal(await field(page, "g_scale").inputValue(), "15.5");
   await context.close();
@@ -98,13 +105,19 @@ test("a reload and a dropped file keep everything", async () => {
 
 test("a broken species file is refused in words, and the species stays", async () => {
   const { page, context } = await species();
-  await page.evaluate(() => {
-    const files = new DataTransfer();
-    files.items.add(new File(["generator = 'weber-penn'\nlenght = 3\n"], "bad.toml"));
-    window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
-  });
+  await drop(page, "generator = 'weber-penn'\nlenght = 3\n", "bad.toml");
   await page.getByText("did you mean `length`?").waitFor();
   assert.equal(await page.locator(".panelhead h2").textContent(), "acer");
+  await context.close();
+});
+
+test("a species file that is bare grows no leaves", async () => {
+  const { page, context } = await species();
+  const toml = await saved(page, "TOML, the species file", "Download");
+  const leaves = page.locator('[data-testid="counts"] div', { hasText: "Leaf triangles" }).locator("dd");
+  assert.notEqual(await leaves.textContent(), "0");
+  await drop(page, `bare = true\n${toml}`, "winter.toml");
+  await leaves.getByText("0", { exact: true }).waitFor();
   await context.close();
 });
 

@@ -4,7 +4,8 @@
 
 use glam::{DVec3, dvec3};
 use pleach_mesh::{Block, Material, Mesh, MeshSettings, Mesher, Source as _};
-use pleach_tree::{Knot, Parts, Stem, StemKind, Tree};
+use pleach_tree::conformance::list_within;
+use pleach_tree::{Foliage, Growth, Knot, Limits, Parts, Species, Stem, StemKind, Tree};
 
 /// A stem of one thickness through `points`, straight between them.
 fn polyline(points: &[DVec3], radius: f64) -> Tree {
@@ -108,6 +109,27 @@ fn every_knot_is_in_coarser_meshes() {
             assert!(worst <= 0.0, "{name} at {tolerance}: {worst} m");
         }
     }
+}
+
+/// Trees that a search meets: any numbers within its ranges, which bend stems more than known species do.
+#[test]
+fn every_knot_of_random_trees_is_in_its_mesh() {
+    let species = pleach_generators::preset("quaking_aspen").unwrap();
+    let space = species.generator.space();
+    let limits = Limits { stems: 5_000, knots: 40_000, ..Limits::default() };
+    let growth = Growth { foliage: Foliage::None, limits, ..Growth::seed(1) };
+    // Every fifth list is of the search's ranges; some are larger than the limits.
+    let trees = (0..600).step_by(5).filter_map(|case| {
+        let params = space.check(list_within(space, case)).unwrap();
+        Some((case, Species { params, ..species.clone() }.grow_with(&growth).ok()?))
+    });
+    let mut count = 0;
+    for (case, tree) in trees.take(25) {
+        let worst = worst(&tree, settings());
+        assert!(worst <= 0.0, "list {case}: {worst} m");
+        count += 1;
+    }
+    assert_eq!(count, 25, "{count} trees grew");
 }
 
 /// Twigs that a strong pull bends within their own width.

@@ -132,10 +132,14 @@ impl Species {
         self.inner.to_toml(&[])
     }
 
-    /// Grows the tree of a seed.
-    pub fn grow(&self, tree_seed: f64, leaves: bool) -> Result<Tree, JsError> {
+    /// Grows the tree of a seed; unless `leaves` says otherwise, with leaves if the species has them.
+    pub fn grow(&self, tree_seed: f64, leaves: Option<bool>) -> Result<Tree, JsError> {
         let seed = seed(tree_seed)?;
-        let foliage = if leaves { Foliage::All } else { Foliage::None };
+        let foliage = match leaves {
+            None => self.inner.foliage,
+            Some(true) => Foliage::All,
+            Some(false) => Foliage::None,
+        };
         let tree = self.inner.grow_with(&Growth { foliage, ..Growth::seed(seed) }).map_err(thrown)?;
         Ok(Tree { species: Arc::clone(&self.inner), seed, inner: tree })
     }

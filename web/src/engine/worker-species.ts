@@ -39,10 +39,8 @@ function species(spec: Spec): Species {
   return variants.get(specKey(spec), () => openSource(spec.source).with_values(Float64Array.from(values)));
 }
 
-const LEAFY = true;
-
 function grow(spec: Spec, seed: number): Tree {
-  return trees.get(`${seed}\n${specKey(spec)}`, () => species(spec).grow(seed, LEAFY));
+  return trees.get(`${seed}\n${specKey(spec)}`, () => species(spec).grow(seed));
 }
 
 const stats = (tree: Tree) => JSON.parse(tree.stats()) as TreeStats;
