@@ -5,8 +5,8 @@
 
 use pleach::plan::{Origin, library, plan, usual_start};
 use pleach::{
-    Bitmap, BlendMap, Budget, Control, FitProblem, FitSettings, GeneratorChoice, Goal, GoalOptions, GoalView,
-    MapSettings, Point, View, fit_goal_with,
+    Bitmap, BlendMap, Budget, Control, Crop, FitProblem, FitSettings, GeneratorChoice, Goal, GoalOptions,
+    GoalView, MapSettings, Point, View, fit_goal_with,
 };
 use pleach_tree::Fnv;
 use std::fmt::Write as _;
@@ -42,11 +42,11 @@ fn bits(root: &Path) -> String {
 
 /// The species file that a fit of 300 trees finds.
 fn fitted(root: &Path) -> String {
-    let options = GoalOptions { max_side: Some(256), ..GoalOptions::default() };
+    let options = GoalOptions { max_side: Some(256), crop: Crop::ToTree, ..GoalOptions::default() };
     let goal = Goal::load(root.join("targets/palm.png"), &options).unwrap();
     let generator = GeneratorChoice::default();
     let start = usual_start(generator).unwrap();
-    let view = GoalView::new(goal.bitmap.clone(), View::FRONT, goal.frame(14.0));
+    let view = GoalView::from_picture(goal.bitmap.clone(), View::FRONT, goal.frame(14.0));
     let problem = FitProblem::new(start, view);
     let search = FitSettings { budget: Budget::evaluations(300), ..FitSettings::default() };
     let guess = Origin::Guess { detect_leaves: true };
