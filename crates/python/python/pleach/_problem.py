@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Optional, Union
+from typing import Any, Optional, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -43,7 +43,8 @@ def _seeds(seeds: npt.ArrayLike, count: int) -> list[Any]:
     if given.ndim != 1:
         raise _native.FitError(f"seeds are of shape {given.shape}, expected one seed, or shape ({count},)")
     # Of whole numbers above 2**63 and others numpy makes floats.
-    return list(seeds) if isinstance(seeds, (list, tuple)) else list(given.tolist())
+    is_listed = isinstance(seeds, (list, tuple))
+    return list(cast("list[Any]", seeds if is_listed else given.tolist()))
 
 
 class Problem:
