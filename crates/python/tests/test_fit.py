@@ -69,8 +69,8 @@ def test_seeds_of_fits_are_whole_numbers() -> None:
 
 
 def test_this_very_tree_lies_on_the_goal() -> None:
-    # At a size at which lying on it and lying on the whole picture are the same.
-    found = pleach.fit(GOAL, start="acer", size=128, evaluations=40, individual="200trees")
+    # From another tree than the goal, which lies on it as it is.
+    found = pleach.fit(GOAL, start="acer", tree_seed=2, size=128, evaluations=40, individual="200trees")
     assert found.individuals[0].card.iou > found.card.iou + 0.02
 
 
