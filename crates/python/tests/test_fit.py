@@ -105,7 +105,7 @@ def test_further_views_are_fitted_as_the_program_fits_them(tmp_path: pathlib.Pat
 
 def test_threads_change_nothing(found: pleach.Fit) -> None:
     for threads in (1, 3):
-        other = pleach.fit(GOAL, threads=threads, **SMALL)
+        other = pleach.fit(OTHER, threads=threads, **SMALL)
         assert (other.species, other.individual, other.cost) == (found.species, found.individual, found.cost)
 
 
@@ -204,7 +204,7 @@ def test_a_child_that_forks_after_a_fit_can_fit_too(found: pleach.Fit) -> None:
 
 
 def one_cost(seed: int) -> float:
-    return pleach.fit(GOAL, seed=seed, **SMALL).cost
+    return pleach.fit(OTHER, seed=seed, **SMALL).cost
 
 
 @pytest.mark.parametrize(
