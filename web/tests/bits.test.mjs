@@ -25,7 +25,7 @@ function bits(pleach, names, goal) {
     const [what, ...of] = name.split(" ");
     if (what === "map") return `${name},${text(map.at(Number(of[0]), Number(of[1]), "blend").to_toml())}`;
     if (what === "fit") {
-      const options = { height: 14, evaluations: 300 };
+      const options = { height: 14, evaluations: 300, individual: "off" };
       const fit = new pleach.Fit(pleach.Goal.read("palm.png", goal, "auto"), JSON.stringify(options));
       fit.guess(() => {});
       // Two evaluators, as two workers have them, and pieces of any size.

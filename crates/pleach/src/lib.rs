@@ -32,24 +32,22 @@
 //!
 //! # Fit a picture
 //!
-//! The goal is a picture and the height of its tree in metres; here it is one of our own trees. The
-//! first guess says which of the candidates it looks like, and the search goes on from there.
+//! [`fit_picture`] is the whole fit of a picture: a file, the bytes of one, or a [`Bitmap`]. [`FitOptions`] say what
+//! is asked for, and the [`FitReport`] what was found.
 //!
 //! ```
-//! use pleach::{Budget, Candidate, Control, FitProblem, FitSettings, Goal, GoalSettings, GoalView, View};
+//! use pleach::{Control, FitOptions, View, fit_picture};
 //! use std::sync::atomic::AtomicBool;
 //! use std::time::Instant;
 //!
-//! let candidates = [pleach::species("acer")?, pleach::species("palm")?];
-//! let goal = Goal::from_bitmap(pleach::silhouette(&candidates[0].grow(7)?, View::FRONT, 64))?;
-//! let view = GoalView::new(goal.bitmap.clone(), View::FRONT, goal.frame(12.0));
-//! let problem = FitProblem::new(candidates[1].clone(), view);
-//! let search = FitSettings { budget: Budget::evaluations(10), ..FitSettings::default() };
-//! let settings = GoalSettings { search, ..GoalSettings::new(candidates.map(Candidate::from).into()) };
+//! // One of our own trees; "oak.png" is a picture as well.
+//! let goal = pleach::silhouette(&pleach::species("acer")?.grow(7)?, View::FRONT, 64);
+//! let options = FitOptions { height: 12.0, size: 64, evaluations: Some(10), ..FitOptions::default() };
 //! let (start, stop) = (Instant::now(), AtomicBool::new(false));
-//! let fitted = pleach::fit_goal(&problem, &settings, Control::new(&|| start.elapsed(), &stop))?;
-//! print!("{}", fitted.species()?.to_toml(&[]));
-//! # assert_eq!(fitted.problem.start.name, "acer");
+//! let report = fit_picture(goal, &options, Control::new(&|| start.elapsed(), &stop))?;
+//! println!("IoU {:.3} of a tree such as {}", report.scores.iou, report.looks_like[0].species);
+//! print!("{}", report.best().species.to_toml(&[]));
+//! # assert_eq!(report.looks_like[0].species, "acer");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -128,8 +126,20 @@ pub use pleach_fit::{
     EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem, FitSettings, Fitted, FoundIndividual,
     Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing, Identifiability,
     IndividualProgress, IndividualSettings, Judged, Judging, Kept, Objective, Observer, ObserverError,
-    Optimizer, Outcome, Placement, Profile, Progress, Row, RulesSettings, Score, Scored, SearchSpace, Start,
-    Stepwise, StopReason, TreeSeed, Unknown, Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
+    Optimizer, Outcome, Placement, Profile, Progress, Row, RulesSettings, Score, Scored, SearchSpace,
+    Setting, Start, Stepwise, StopReason, TreeSeed, Unknown, Verdict, evaluator, fit, fit_goal,
+    fit_goal_with, individuals,
+};
+
+#[cfg(feature = "fit")]
+mod picture;
+#[cfg(feature = "fit")]
+pub use picture::{
+    Direction, Effort, FitDrawing, FitOptions, FitReport, FitSource, FitStart, FittedTree, FurtherPicture,
+    FurtherView, GoalPair, IdentifiabilityCounts, IndividualReport, KnownFrame, Leaves, LooksLike, MaskFrom,
+    OptionError, ParameterReport, PictureError, PictureSource, PrepareError, Prepared, ReportError,
+    RulesReport, SearchReport, SettingError, SideTree, SidesReport, Spent, StartFrom, TIME_KEYS, Tone,
+    ViewReport, VolumeFrom, best_of_each_family, fit_picture, optimizer_with, parse_duration, settings_of,
 };
 
 #[cfg(feature = "fit")]

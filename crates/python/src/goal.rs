@@ -4,7 +4,7 @@ use crate::arrays::{check_size, of_ink, to_ink};
 use crate::error::{GoalError, of_goal};
 use image::{DynamicImage, GrayImage, ImageFormat, RgbImage, RgbaImage};
 use numpy::{PyArrayDyn, PyArrayMethods as _, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods as _};
-use pleach::{Bitmap, Encoded, Goal, GoalOptions};
+use pleach::{Bitmap, Encoded, Goal, GoalOptions, PictureSource};
 use pyo3::exceptions::{PyFileNotFoundError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -58,14 +58,14 @@ impl Source {
         }
         .map_err(of_goal)
     }
+}
 
-    /// What a species that is fitted to it is called.
-    pub(crate) fn name(&self) -> String {
-        let stem = match self {
-            Self::Picture(encoded) => encoded.name().file_stem(),
-            Self::Ink(_) => None,
-        };
-        pleach::species::safe_name(&stem.unwrap_or_else(|| "goal".as_ref()).to_string_lossy())
+impl From<Source> for PictureSource {
+    fn from(source: Source) -> Self {
+        match source {
+            Source::Picture(encoded) => encoded.into(),
+            Source::Ink(ink) => ink.into(),
+        }
     }
 }
 

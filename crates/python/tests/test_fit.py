@@ -58,13 +58,13 @@ def test_this_very_tree_can_be_left_out() -> None:
     for off in ("off", False):
         found = pleach.fit(GOAL, **{**SMALL, "individual": off})
         assert found.individuals == [] and found.best is found.species
-    with pytest.raises(pleach.FitError, match='False or "off"'):
+    with pytest.raises(pleach.FitError, match="400trees`, or `off`"):
         pleach.fit(GOAL, **{**SMALL, "individual": "on"})
 
 
 def test_seeds_of_fits_are_whole_numbers() -> None:
     for option in ("seed", "tree_seed"):
-        with pytest.raises(pleach.PleachError, match="a seed is -1, expected a whole number"):
+        with pytest.raises(pleach.PleachError, match="seed` is -1: .*expected a whole number"):
             pleach.fit(GOAL, **{**SMALL, option: -1})
 
 
@@ -210,14 +210,14 @@ def one_cost(seed: int) -> float:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"height": 0}, "height is 0"),
-        ({"height": float("nan")}, "height is NaN"),
-        ({"size": 4}, "size is 4"),
-        ({"timeout": 0}, "timeout is 0"),
-        ({"timeout": float("nan")}, "timeout is NaN"),
+        ({"height": 0}, "height` is 0"),
+        ({"height": float("nan")}, "height` is nan"),
+        ({"size": 4}, "size` is 4"),
+        ({"timeout": 0}, "timeout` is 0"),
+        ({"timeout": float("nan")}, "timeout` is nan"),
         ({"timeout": 5, "individual": 9.0}, "less than the 5 s"),
-        ({"individual": "9"}, "400trees"),
-        ({"individuals": 0}, "individuals is 0"),
+        ({"individual": "nine"}, "400trees"),
+        ({"individuals": 0}, "individuals` is 0"),
         ({"optimizer": "luck"}, "luck"),
         ({"objective": "beauty"}, "beauty"),
         ({"generator": "magic"}, "magic"),
@@ -230,6 +230,21 @@ def one_cost(seed: int) -> float:
 def test_options_that_cannot_be_are_told(options: dict[str, Any], message: str) -> None:
     with pytest.raises(pleach.PleachError, match=message):
         pleach.fit(GOAL, **{"start": "acer", "evaluations": 5, **options})
+
+
+def test_everything_that_the_program_is_told_can_be_said(tmp_path: pathlib.Path) -> None:
+    found = pleach.fit(
+        GOAL,
+        holdout_views=[(OTHER, 90)],
+        optimizer={"cma": {"population": 8}},
+        robust=2,
+        tree="dark",
+        **{**SMALL, "individual": False},
+    )
+    report = found.report
+    assert report["optimizer"] == "cma" and report["optimizer_settings"]["population"] == 8 and report["robust"] == 2
+    assert [view["file"] for view in report["holdout_views"]] == [str(OTHER)]
+    assert report["options"]["tree"] == "dark" and report["options"]["evaluations"] == 40
 
 
 def test_a_goal_of_ours_scores_one_at_its_own_numbers() -> None:

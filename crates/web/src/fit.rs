@@ -5,63 +5,29 @@ use crate::goal::Goal;
 use crate::tree::ink;
 use crate::{message, report};
 use js_sys::{Array, Function, Uint8Array};
-use pleach::plan::{DRAWING, Origin, Shares, plan, usual_start};
 use pleach::{
-    Bitmap, Budget, Control, Drawings, FitProblem, FitSettings, Foliage, Frame, GeneratorChoice, GoalView,
-    Growth, GuessLibrary, Observer, Rasterizer, Scored, Species, Stepwise, StopReason, Tree, TreeSeed, View,
+    Control, Drawings, FitDrawing, FitOptions, FitReport, FitSource, Foliage, GuessLibrary,
+    IndividualProgress, LooksLike, Observer, Prepared, Stepwise, StopReason,
 };
-use serde::Deserialize;
 use serde_json::json;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsError, JsValue};
 
-/// What the page asks for.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Options {
-    /// Metres.
-    height: f64,
-    #[serde(default)]
-    generator: Option<String>,
-    seconds: Option<f64>,
-    evaluations: Option<u64>,
-    #[serde(default = "one")]
-    seed: u64,
-    #[serde(default = "one")]
-    tree_seed: u64,
-    /// Whether the tree has leaves; found out if it is not said.
-    leaves: Option<bool>,
-    /// `guess`, `random`, or the text of a species file.
-    #[serde(default)]
-    start: Option<String>,
-}
-
-const fn one() -> u64 {
-    1
-}
-
 /// How far a fit has come.
 enum Stage {
-    Planned {
-        settings: Box<pleach::GoalSettings>,
-        library: Box<GuessLibrary>,
-    },
+    Prepared(Box<GuessLibrary>),
     Searching(Box<Stepwise>),
-    /// A step has failed, or the fit has ended.
-    Over,
+    Done(Box<FitReport>),
+    /// A step has failed.
+    Failed,
 }
 
 /// A fit of one goal. Its individuals are scored by `Evaluator`s in other workers.
 #[wasm_bindgen]
 pub struct Fit {
-    name: String,
-    /// At its own size, with the margins that searches see.
-    compared: pleach::Goal,
-    working: pleach::Goal,
-    height: f64,
-    problem: FitProblem,
+    prepared: Prepared,
     stage: Stage,
     /// Individuals of the last batch, piece by piece.
     pieces: Vec<usize>,
@@ -71,55 +37,23 @@ pub struct Fit {
 
 #[wasm_bindgen]
 impl Fit {
-    /// A fit of `goal`, with options in JSON.
+    /// A fit of `goal`, with the options of `pleach::FitOptions` as JSON; `start` is the text of the species file that
+    /// `from` names, if it names one of the page.
     #[wasm_bindgen(constructor)]
-    pub fn new(goal: &Goal, options: &str) -> Result<Self, JsError> {
-        let options: Options = serde_json::from_str(options).map_err(thrown)?;
-        let Options { height, seconds, evaluations, .. } = options;
-        if !(height.is_finite() && height > 0.0) {
-            return Err(thrown(format!("the height is {height} m, expected more than 0")));
-        }
-        let generator: Option<GeneratorChoice> =
-            options.generator.as_deref().map(str::parse).transpose().map_err(thrown)?;
-        let start = options.start.as_deref().unwrap_or("guess");
-        let (origin, generator, start) = match start {
-            "guess" | "random" => {
-                let generator = generator.unwrap_or_default();
-                let detect_leaves = options.leaves.is_none();
-                let origin = if start == "guess" { Origin::Guess { detect_leaves } } else { Origin::Random };
-                let usual = usual_start(generator).ok_or_else(|| thrown("a generator has species"))?;
-                (origin, generator, usual)
-            }
-            text => {
-                let species = pleach::read_species(text.as_bytes(), "the start").map_err(thrown)?.kind();
-                (Origin::Start, GeneratorChoice::Family(species.generator.family()), species)
-            }
+    pub fn new(goal: &Goal, options: &str, start: Option<String>) -> Result<Self, JsError> {
+        let mut options = FitOptions::from_json(options).map_err(thrown)?;
+        let (ground_row, axis_column) = goal.places();
+        options.ground_row = options.ground_row.or(ground_row);
+        options.axis_column = options.axis_column.or(axis_column);
+        let start = start.map(|text| pleach::read_species(text.as_bytes(), "the start")).transpose();
+        let source = FitSource {
+            start: start.map_err(thrown)?,
+            name: Some(goal.species_name()),
+            ..goal.ink().clone().into()
         };
-        let whole = seconds.map(Duration::try_from_secs_f64).transpose().map_err(thrown)?;
-        let shares = whole.map(|whole| Shares::new(whole, None));
-        let search = FitSettings {
-            budget: Budget { timeout: shares.map(|shares| shares.search), evaluations, ..Budget::default() },
-            seed: options.seed,
-            tree_seed: TreeSeed::Fixed(options.tree_seed),
-            ..FitSettings::default()
-        };
-        let mut settings = plan(origin, generator, &start, search).map_err(thrown)?;
-        if let Some(shares) = shares {
-            settings = shares.bound(settings, DRAWING, DRAWING);
-        }
-        let working = goal.working()?;
-        let view = GoalView::from_picture(working.bitmap.clone(), View::FRONT, working.frame(height));
-        let foliage = if options.leaves == Some(false) { Foliage::None } else { Foliage::All };
         Ok(Self {
-            name: goal.species_name(),
-            compared: goal.compared()?,
-            working,
-            height,
-            problem: FitProblem { start, goals: vec![view], foliage },
-            stage: Stage::Planned {
-                settings: Box::new(settings),
-                library: Box::new(GuessLibrary::new().for_one_goal()),
-            },
+            prepared: options.prepare(&source).map_err(thrown)?,
+            stage: Stage::Prepared(Box::new(GuessLibrary::new().for_one_goal())),
             pieces: Vec::new(),
             elapsed: Duration::ZERO,
         })
@@ -127,7 +61,7 @@ impl Fit {
 
     /// Drawings of the known species, which make the first guess fast and change nothing of it.
     pub fn use_drawings(&mut self, bytes: Vec<u8>) -> Result<(), JsError> {
-        if let Stage::Planned { library, .. } = &mut self.stage {
+        if let Stage::Prepared(library) = &mut self.stage {
             // They stay until the worker is thrown away.
             let drawings = Drawings::from_bytes(bytes.leak()).map_err(thrown)?;
             **library = GuessLibrary::with_drawings(drawings).for_one_goal();
@@ -137,17 +71,17 @@ impl Fit {
 
     /// Makes the first guess; `progress` is called with the trees that are done, and all. What it looks like: JSON.
     pub fn guess(&mut self, progress: &Function) -> Result<String, JsError> {
-        let Stage::Planned { settings, library } = std::mem::replace(&mut self.stage, Stage::Over) else {
+        let Stage::Prepared(library) = std::mem::replace(&mut self.stage, Stage::Failed) else {
             return Err(thrown("the first guess has been made"));
         };
         let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
         let mut told = Told(progress);
         let control = Control { observers: vec![&mut told], ..Control::new(&clock, &stop) };
-        let fit = Stepwise::begin(&self.problem, &settings, *library, control).map_err(thrown)?;
+        let Prepared { problem, settings, .. } = &self.prepared;
+        let fit = Stepwise::begin(problem, settings, *library, control).map_err(thrown)?;
         let begun = fit.begun();
-        let names: Vec<_> = begun.guess.iter().flat_map(|guess| &guess.names).collect();
         let looks_like = json!({
-            "looks_like": names,
+            "looks_like": LooksLike::of(begun.guess.as_ref()),
             "leaves": begun.problem.foliage != Foliage::None,
             "species": begun.problem.start.name,
         });
@@ -217,22 +151,23 @@ impl Fit {
         let Some(best) = search.best().filter(|best| best.score.cost.is_finite()) else {
             return Ok(Vec::new());
         };
-        let problem = &search.begun().problem;
-        let tree = grown(&found(problem, best)?, problem.foliage)?;
-        let frame = problem.goals[0].registered.frame(&self.compared.frame(self.height));
-        Ok(ink(&drawn(&tree, &self.compared.original_frame(&frame), problem.foliage)))
+        let drawing = self.drawing(search);
+        let tree = drawing.grow(&drawing.species(&best.genome).map_err(thrown)?).map_err(thrown)?;
+        let (silhouette, original) = drawing.silhouettes(&tree);
+        Ok(ink(original.as_ref().unwrap_or(&silhouette)))
     }
 
     /// The species file of the best tree so far.
     pub fn best_toml(&self) -> Result<String, JsError> {
         let search = self.search()?;
         let best = search.best().ok_or_else(|| thrown("no tree has been tried yet"))?;
-        Ok(self.named(found(&search.begun().problem, best)?).to_toml(&[]))
+        Ok(self.drawing(search).species(&best.genome).map_err(thrown)?.to_toml(&[]))
     }
 
-    /// Ends the search, judges the result, and reports: JSON. `progress` is called with the word `judging`.
+    /// Ends the search, judges the result, searches the goal's own tree, and reports: JSON. `progress` is called with
+    /// the word `judging`, then with `individual` and the share of its time that is used.
     pub fn finish(&mut self, progress: &Function) -> Result<String, JsError> {
-        let Stage::Searching(search) = std::mem::replace(&mut self.stage, Stage::Over) else {
+        let Stage::Searching(search) = std::mem::replace(&mut self.stage, Stage::Failed) else {
             return Err(thrown(NOT_SEARCHING));
         };
         let started = js_sys::Date::now();
@@ -242,13 +177,18 @@ impl Fit {
         let mut told = Told(progress);
         let control = Control { observers: vec![&mut told], ..Control::new(&clock, &stop) };
         let fitted = search.finish(control).map_err(thrown)?;
-        let species = self.named(fitted.species().map_err(thrown)?);
-        let (foliage, goals) = (fitted.problem.foliage, (&self.compared, &self.working));
-        let tree = grown(&species, foliage)?;
-        let view = &fitted.problem.goals[0];
-        let place = pleach::place_at_full_size(&tree, foliage, goals, view, self.height);
-        let picture = drawn(&tree, &place.frame(&self.compared.frame(self.height)), foliage);
-        report::of(&species, &picture, &self.compared.bitmap, &fitted)
+        let found = self.prepared.report(fitted).map_err(thrown)?;
+        let said = report::of(&found)?;
+        self.stage = Stage::Done(Box::new(found));
+        Ok(said)
+    }
+
+    /// A tree that was found over the goal: one byte a pixel, 1 for tree. 0 is the tree of the kind, others are the
+    /// goal's own, the best first.
+    pub fn found_silhouette(&self, which: usize) -> Result<Vec<u8>, JsError> {
+        let Stage::Done(report) = &self.stage else { return Err(thrown("the fit has not ended")) };
+        let tree = std::iter::once(&report.kind).chain(&report.trees).nth(which);
+        Ok(ink(tree.ok_or_else(|| thrown("there are not so many trees"))?.over_file()))
     }
 }
 
@@ -263,24 +203,10 @@ impl Fit {
         }
     }
 
-    fn named(&self, species: Species) -> Species {
-        Species { name: self.name.clone(), description: String::new(), ..species }
+    fn drawing(&self, search: &Stepwise) -> FitDrawing<'_> {
+        let begun = search.begun();
+        self.prepared.drawing(&begun.problem, begun.settings.limits)
     }
-}
-
-fn grown(species: &Species, foliage: Foliage) -> Result<Tree, JsError> {
-    let growth = Growth { foliage, ..Growth::seed(species.tree_seed.unwrap_or(1)) };
-    species.grow_with(&growth).map_err(thrown)
-}
-
-fn drawn(tree: &Tree, frame: &Frame, foliage: Foliage) -> Bitmap {
-    let mut picture = Bitmap::default();
-    Rasterizer::new().draw(tree, &View::FRONT, frame, foliage.into(), &mut picture);
-    picture
-}
-
-fn found(problem: &FitProblem, best: &Scored) -> Result<Species, JsError> {
-    problem.species(&best.genome).map_err(thrown)
 }
 
 fn seconds(elapsed: f64) -> Result<Duration, JsError> {
@@ -298,5 +224,10 @@ impl Observer for Told<'_> {
 
     fn judging(&mut self) {
         let _ = self.0.call1(&JsValue::NULL, &JsValue::from_str("judging"));
+    }
+
+    fn individual(&mut self, progress: &IndividualProgress) {
+        let (stage, used) = (JsValue::from_str("individual"), JsValue::from_f64(progress.used));
+        let _ = self.0.call2(&JsValue::NULL, &stage, &used);
     }
 }

@@ -2,15 +2,11 @@
 
 use crate::error::thrown;
 use crate::tree::ink;
-use pleach::{
-    Bitmap, Crop, Encoded, Goal as Read, GoalOptions, GoalWarning, Mask, MaskOptions, Photo, ScoreCard,
-};
+use pleach::{Bitmap, Encoded, Goal as Read, GoalOptions, GoalWarning, Mask, MaskOptions, Photo, ScoreCard};
 use serde_json::json;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Pixels of the longer side of the picture that a search compares with: as the program does by default.
-const WORKING_SIDE: u32 = 256;
 /// Pixels of the longer side of the backdrop that is shown.
 const SHOWN_SIDE: u32 = 2048;
 
@@ -37,32 +33,27 @@ struct Places {
 }
 
 impl Places {
-    fn options(self, max_side: Option<u32>) -> GoalOptions {
+    fn options(self) -> GoalOptions {
         let Self { ground_row, axis_column } = self;
-        GoalOptions { ground_row, axis_column, max_side, ..GoalOptions::default() }
+        GoalOptions { ground_row, axis_column, ..GoalOptions::default() }
     }
 }
 
 impl Goal {
-    /// As searches compare with it.
-    pub(crate) fn working(&self) -> Result<Read, JsError> {
-        self.compared_at(Some(WORKING_SIDE))
+    /// The ink that a fit is made to.
+    pub(crate) const fn ink(&self) -> &Bitmap {
+        &self.painted
     }
 
-    /// The tree at its own size with the margins that searches see, as scores are of it.
-    pub(crate) fn compared(&self) -> Result<Read, JsError> {
-        self.compared_at(None)
-    }
-
-    fn compared_at(&self, max_side: Option<u32>) -> Result<Read, JsError> {
-        let options = GoalOptions { crop: Crop::ToTree, ..self.places.options(max_side) };
-        Read::from_ink(self.painted.clone(), &options).map_err(thrown)
+    /// The ground's row and the trunk's column, where the user has said them.
+    pub(crate) const fn places(&self) -> (Option<f64>, Option<f64>) {
+        (self.places.ground_row, self.places.axis_column)
     }
 
     /// A name for the species that is found.
     pub(crate) fn species_name(&self) -> String {
         let stem = std::path::Path::new(&self.name).file_stem().unwrap_or_default();
-        pleach::species::safe_name(&stem.to_string_lossy())
+        stem.to_string_lossy().into_owned()
     }
 }
 
@@ -167,7 +158,7 @@ impl Goal {
         let places = Places { ground_row: row, axis_column: axis };
         Ok(Self {
             name: self.name.clone(),
-            full: Read::from_ink(self.painted.clone(), &places.options(None)).map_err(thrown)?,
+            full: Read::from_ink(self.painted.clone(), &places.options()).map_err(thrown)?,
             painted: self.painted.clone(),
             places,
             confidence: self.confidence,

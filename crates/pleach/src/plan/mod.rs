@@ -2,12 +2,10 @@
 //! shared out. `pleach fit` and the Python package are made of this, so that the same goal and the same options
 //! give the same bits in both.
 
-mod effort;
 mod known;
 mod origin;
 mod shares;
 
-pub use effort::{Effort, TooLong};
 pub use known::{draw, library};
 pub use origin::{Origin, has_individuals, plan, usual_start};
 pub use shares::{DRAWING, Shares};

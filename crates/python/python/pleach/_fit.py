@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import math
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -43,32 +45,63 @@ class Fit:
     """Trees that lie on the goal, the best first; empty where the generator has none."""
     verdict: Optional[str]
     """Whether the kind is right, in words."""
-    fresh_likeness: Optional[tuple[float, float]]
-    """Likeness of other seeds to the goal, mean and standard deviation: what the parameters are worth."""
-    looks_like: list[tuple[str, float]]
-    """The species that the goal looks like, with confidence, the likeliest first."""
-    identifiability: dict[str, tuple[float, str]]
-    """For each free number its value and whether the goal determines it: ``determined``, ``loosely``, ``not-seen`` or
-    ``not-tried`` (for want of time)."""
     history: dict[str, npt.NDArray[np.float64]] = field(repr=False)
     """A row for each generation: ``evaluations``, ``best_cost``, ``iou``, ``likeness`` ..."""
-    cost: float
-    """What the search made small, of the kind."""
-    evaluations: int
-    """Trees grown by the search."""
-    generations: int
-    seconds: float
-    """What the first guess and the search took."""
-    leaves: bool
-    """Whether trees have leaves: asked for, or seen in the goal."""
     warnings: list[str]
     """What about the goal is not as a fit expects."""
-    interrupted: bool
-    """Whether ctrl-C ended it before its budget did."""
+    report: dict[str, Any] = field(repr=False)
+    """Everything that is known of the fit, as the program writes it to ``summary.json``: the options included."""
     goal: npt.NDArray[np.bool_] = field(repr=False)
     """The goal, bool of shape (height, width)."""
     silhouette: npt.NDArray[np.bool_] = field(repr=False)
     """The kind's own tree over it."""
+
+    @property
+    def fresh_likeness(self) -> Optional[tuple[float, float]]:
+        """Likeness of other seeds to the goal, mean and standard deviation: what the parameters are worth."""
+        fresh = self.report["fresh_seeds"]
+        return (fresh["likeness"]["mean"], fresh["likeness"]["sd"]) if fresh else None
+
+    @property
+    def looks_like(self) -> list[tuple[str, float]]:
+        """The species that the goal looks like, with confidence, the likeliest first."""
+        return [(one["species"], one["confidence"]) for one in self.report["looks_like"]]
+
+    @property
+    def identifiability(self) -> dict[str, tuple[float, str]]:
+        """For each free number its value and whether the goal determines it: ``determined``, ``loosely``, ``not-seen`` or
+        ``not-tried`` (for want of time)."""
+        return {one["slot"]: (one["value"], one["seen"]) for one in self.report["parameters"]}
+
+    @property
+    def cost(self) -> float:
+        """What the search minimised, of the kind."""
+        return self.report["cost"]
+
+    @property
+    def evaluations(self) -> int:
+        """Trees grown by the search."""
+        return self.report["evaluations"]
+
+    @property
+    def generations(self) -> int:
+        """Generations of the search."""
+        return self.report["generations"]
+
+    @property
+    def seconds(self) -> float:
+        """What the first guess and the search took."""
+        return self.report["seconds"]
+
+    @property
+    def leaves(self) -> bool:
+        """Whether trees have leaves: asked for, or seen in the goal."""
+        return self.report["leaves"]
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether ctrl-C ended it before its budget did."""
+        return not self.report["finished"]
 
     @property
     def individual(self) -> Optional[_native.Species]:
@@ -122,6 +155,40 @@ class _Bar:
         self._bar.close()
 
 
+#: Azimuth in degrees, or azimuth and elevation.
+Direction = Union[float, tuple[float, float]]
+
+
+def _direction(given: Union[str, Direction]) -> str:
+    """A direction as text."""
+    if isinstance(given, str):
+        return given
+    azimuth, elevation = given if isinstance(given, tuple) else (given, 0.0)
+    return f"{azimuth},{elevation}"
+
+
+def _effort(given: Union[bool, float, str]) -> str:
+    """How long a tree is searched, as text."""
+    if isinstance(given, bool):
+        return "share" if given else "off"
+    return given if isinstance(given, str) else f"{given}s"
+
+
+def _as_json(options: dict[str, Any]) -> str:
+    """The options as JSON, which has no infinite numbers."""
+    for name, value in options.items():
+        if isinstance(value, float) and not math.isfinite(value):
+            raise _native.FitError(f"`{name}` is {value}, expected a number")
+    return json.dumps(options, default=_number)
+
+
+def _number(value: Any) -> Any:
+    """A number of numpy's as one of Python's."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise _native.FitError(f"{value!r} is not a number, a text or a list")
+
+
 def fit(
     goal: Goal,
     *,
@@ -129,19 +196,29 @@ def fit(
     generator: Optional[str] = None,
     height: float = 10.0,
     size: int = 256,
+    mask: Optional[str] = None,
+    tree: str = "auto",
+    ground_row: Optional[float] = None,
+    axis_column: Optional[float] = None,
     frame: Optional[tuple[float, float, float]] = None,
-    view: Union[float, tuple[float, float], None] = None,
-    views: Sequence[tuple[Goal, Union[float, tuple[float, float]]]] = (),
+    view: Optional[Direction] = None,
+    views: Sequence[tuple[Goal, Union[str, Direction]]] = (),
+    free_frame: bool = False,
+    holdout_views: Sequence[tuple[Goal, Direction]] = (),
     leaves: Optional[bool] = None,
-    optimizer: str = "evolution",
-    objective: str = "balance",
+    volume_from: Optional[str] = None,
+    optimizer: Union[str, dict[str, dict[str, Any]]] = "evolution",
+    evolve_rules: bool = False,
+    objective: Optional[str] = None,
     free: Sequence[str] = (),
     fix: Sequence[str] = (),
     seed: int = 1,
     tree_seed: Optional[int] = 1,
+    robust: int = 1,
     timeout: Optional[float] = None,
     evaluations: Optional[int] = None,
     generations: Optional[int] = None,
+    target_iou: Optional[float] = None,
     individual: Union[bool, float, str] = True,
     individuals: int = 1,
     name: Optional[str] = None,
@@ -152,15 +229,23 @@ def fit(
 
     The picture is a path, an array (bool of shape (height, width), True where the tree is; or uint8), a PIL image or
     an open file. ``height`` is the tree's, in metres; ``size`` the longer side that the search compares at, in
-    pixels; ``frame``, where it is known, metres per pixel, the column of the trunk's foot and the row of the ground in
-    pixels of the picture: it is taken as exact, and the height follows from it; ``view`` the azimuth, or azimuth and elevation, in degrees. ``views`` are further pictures of the same tree,
-    each with where it was taken from: ``[("side.png", 90)]``.
+    pixels. ``mask`` is ``"auto"`` for a photograph, or a file that says what is tree; ``tree`` the tone that is the
+    tree: ``"auto"``, ``"dark"`` or ``"light"``. ``ground_row`` and ``axis_column`` are where the tree stands, in pixels
+    of the picture; ``frame``, where it is known, is metres per pixel, the column of the trunk's foot and the row of the
+    ground: it is taken as exact, and the height follows from it. ``view`` is the azimuth, or azimuth and elevation, in
+    degrees. ``views`` are further pictures of the same tree, each with where it was taken from:
+    ``[("side.png", 90)]``; ``"~90"`` is about there, ``"auto"`` anywhere. ``free_frame`` searches their scale and place.
+    ``holdout_views`` are scored and not fitted.
 
-    The fit begins at ``start``: ``"auto"``, the species that the goal looks like; ``"random"``; or a species. ``leaves``
-    says whether the tree has some; None looks for them. It ends after ``timeout`` seconds, or so many ``evaluations`` or
-    ``generations``; after a minute if nothing is said. ``individual`` is how long this very tree is searched: True, a
-    share of the budget; seconds; a number of trees such as ``"400trees"``; or False, which ``"off"`` is too. ``tree_seed`` None searches the seed
-    too.
+    The fit begins at ``start``: ``"auto"``, the species that the goal looks like; ``"random"``; or a species.
+    ``volume_from`` starts from a tree of paths in the outline of the ``"goal"`` or of a file. ``leaves`` says whether the
+    tree has some; None looks for them. ``optimizer`` is a name, or a name and settings such as
+    ``{"cma": {"population": 20}}``; ``evolve_rules`` searches the rules of a grammar too. ``tree_seed`` None searches the
+    seed too; ``robust`` is the number of seeds that parameters are scored by.
+
+    It ends after ``timeout`` seconds, ``evaluations`` or ``generations``, or once ``target_iou`` is reached; after a
+    minute if nothing is said. ``individual`` is how long the goal's own tree is searched: True, a share of the budget;
+    seconds; a number of trees such as ``"400trees"``; or False, which ``"off"`` is too.
 
     ``progress`` is True, for a bar (with tqdm), or a function of a dict: ``stage`` and what it says of it. Fits
     bounded by evaluations are the same bits on any number of ``threads``. Ctrl-C ends the fit with what it has:
@@ -174,29 +259,53 @@ def fit(
     >>> found.species.name, found.card.likeness > 0.5
     ('goal', True)
     """
+    pictures: dict[str, Any] = {}
+
+    def named(kind: str, given_views: Sequence[tuple[Goal, Union[str, Direction]]]) -> list[str]:
+        """Views as texts that name their pictures: files by their paths."""
+        texts = []
+        for number, (picture, direction) in enumerate(given_views):
+            picture = given(picture)
+            label = picture if isinstance(picture, str) else f"{kind}-{number + 1}"
+            pictures[label] = picture
+            texts.append(f"{_direction(direction)}={label}")
+        return texts
+
     options = {
-        "from_": start,
-        "generator": generator,
         "height": height,
         "size": size,
-        "frame": frame,
-        "view": view,
-        "views": [(given(picture), direction) for picture, direction in views],
-        "leaves": leaves,
-        "optimizer": optimizer,
-        "objective": objective,
+        "mask": mask,
+        "tree": tree,
+        "ground_row": ground_row,
+        "axis_column": axis_column,
+        "frame": None if frame is None else list(frame),
+        "view": None if view is None else _direction(view),
+        "views": named("view", views),
+        "free_frame": free_frame,
+        "holdout_views": named("holdout", holdout_views),
+        "leaves": {None: "auto", True: "on", False: "off"}[leaves],
+        # A species may have any name.
+        "from": start if isinstance(start, str) else f"species {start.name}",
+        "generator": generator,
+        "volume_from": volume_from,
         "free": list(free),
         "fix": list(fix),
+        "optimizer": optimizer,
+        "evolve_rules": evolve_rules,
+        "objective": objective,
         "seed": seed,
-        "tree_seed": tree_seed,
+        "tree_seed": "any" if tree_seed is None else tree_seed,
+        "robust": robust,
+        "individual": _effort(individual),
+        "individuals": individuals,
         "timeout": timeout,
         "evaluations": evaluations,
         "generations": generations,
-        "individual": individual,
-        "individuals": individuals,
+        "target_iou": target_iou,
         "name": name,
-        "threads": threads,
     }
+    species = None if isinstance(start, str) else start
+    text = _as_json(options)
     bar: Optional[_Bar] = None
     tell: Optional[Progress] = None
     if progress is True:
@@ -207,12 +316,12 @@ def fit(
     elif progress is not False:
         tell = progress
     try:
-        found = _native.fit(given(goal), options, tell)
+        found = _native.fit(given(goal), text, pictures, species, threads, tell)
     finally:
         if bar is not None:
             bar.close()
-    species, card, silhouette, cards = found.pop("kind")
-    found.update(species=species, card=card_of(card), silhouette=silhouette, view_cards=[card_of(one) for one in cards])
+    kind, card, silhouette, cards = found.pop("kind")
+    found.update(species=kind, card=card_of(card), silhouette=silhouette, view_cards=[card_of(one) for one in cards])
     found["individuals"] = [
         Individual(species, card_of(card), silhouette, [card_of(one) for one in cards])
         for species, card, silhouette, cards in found["individuals"]

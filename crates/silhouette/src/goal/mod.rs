@@ -78,6 +78,9 @@ pub struct Detection {
     pub reduction: f64,
     /// Where the working picture begins: column and row of the original, below 0 where it begins outside.
     pub origin: (f64, f64),
+    /// Longer side of the tree in pixels of the original, where the picture was [cropped](Crop::ToTree) to it: this is
+    /// what [`GoalOptions::max_side`] bounds, and not the picture's longer side.
+    pub tree_side: Option<f64>,
     /// How the tree was told from the paper.
     pub split: Split,
     /// Whether a mask file said what is tree.
@@ -245,19 +248,18 @@ impl Goal {
         let foot = (ground_row.ceil() as u32).min(bounds.3 + 1);
         let (axis_column, axis) = user_value("the axis column", options.axis_column, width)?
             .unwrap_or_else(|| anchor::axis(&ink, bounds, foot, snapping));
-        let most = options.max_side.map(|side| side.max(MIN_SIDE));
-        let (ink, reduction) = if region.is_whole(&ink) {
-            (ink, most.map(|side| f64::from(side) / f64::from(width.max(height))))
+        let (ink, tree_side) = if region.is_whole(&ink) {
+            (ink, None)
         } else {
             let (left, top, right, _) = bounds;
             let tree = f64::from(right + 1 - left).max(ground_row.ceil() - f64::from(top));
-            (region.cut(&ink), most.map(|side| Region::tree_side(side) / tree))
+            (region.cut(&ink), Some(tree))
         };
-        let reduction = reduction.unwrap_or(1.0).min(1.0);
+        let reduction = options.max_side.map_or(1.0, |side| reduction(side, original_size, tree_side));
         let bitmap = if reduction < 1.0 { shrink::shrink(&ink, reduction) } else { ink };
         let origin = (region.left as f64, region.top as f64);
         if bitmap.ink() == 0 {
-            return Err(GoalError::NoInk { name: name() + ", at its working size," });
+            return Err(GoalError::NoInk { name: name() + AT_WORKING_SIZE });
         }
         let masked = options.mask.is_some();
         Ok(Self {
@@ -265,8 +267,34 @@ impl Goal {
             ground_row: (ground_row - origin.1) * reduction,
             axis_column: (axis_column - origin.0) * reduction,
             top_row: (top_row - origin.1) * reduction,
-            detection: Detection { original_size, reduction, origin, split, masked, ground, axis },
+            detection: Detection { original_size, reduction, origin, tree_side, split, masked, ground, axis },
             warnings,
+        })
+    }
+
+    /// The same goal as if it had been read with this [`GoalOptions::max_side`]; a goal that is no larger is returned
+    /// as it is.
+    ///
+    /// # Errors
+    /// [`GoalError::NoInk`] if nothing of the tree is left at that size.
+    pub fn reduced(&self, max_side: u32) -> Result<Self, GoalError> {
+        let Detection { original_size, tree_side, reduction: before, .. } = self.detection;
+        let reduction = reduction(max_side, original_size, tree_side);
+        if reduction >= before {
+            return Ok(self.clone());
+        }
+        let factor = reduction / before;
+        let bitmap = shrink::shrink(&self.bitmap, factor);
+        if bitmap.ink() == 0 {
+            return Err(GoalError::NoInk { name: format!("the picture{AT_WORKING_SIZE}") });
+        }
+        Ok(Self {
+            bitmap,
+            ground_row: self.ground_row * factor,
+            axis_column: self.axis_column * factor,
+            top_row: self.top_row * factor,
+            detection: Detection { reduction, ..self.detection },
+            warnings: self.warnings.clone(),
         })
     }
 
@@ -323,6 +351,19 @@ impl Goal {
         origin == (0.0, 0.0)
             && (self.bitmap.width(), self.bitmap.height()) == (size(original_size.0), size(original_size.1))
     }
+}
+
+/// What errors say of a picture that is empty once it is reduced.
+const AT_WORKING_SIZE: &str = ", at its working size,";
+
+/// Pixels of a working picture of at most `max_side` to one of the original: see [`GoalOptions::max_side`]; at most 1.
+fn reduction(max_side: u32, (width, height): (u32, u32), tree_side: Option<f64>) -> f64 {
+    let side = max_side.max(MIN_SIDE);
+    let reduction = match tree_side {
+        None => f64::from(side) / f64::from(width.max(height)),
+        Some(tree) => Region::tree_side(side) / tree,
+    };
+    reduction.min(1.0)
 }
 
 /// A place set by hand, if it is one in the picture.

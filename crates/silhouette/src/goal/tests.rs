@@ -174,3 +174,17 @@ fn a_header_that_claims_too_much_is_refused_before_decoding() {
     let error = load(&room.bytes("deep.png", &bytes)).unwrap_err();
     assert!(matches!(error, GoalError::TooManyBytes { bytes: 536_870_912, .. }), "{error}");
 }
+
+#[test]
+fn a_goal_is_reduced_as_if_it_had_been_read_so() {
+    let ink = Bitmap::from_fn(300, 200, |x, y| tree(x / 2, y / 2));
+    for crop in [Crop::Keep, Crop::ToTree] {
+        let options = GoalOptions { crop, ground_row: Some(181.5), ..GoalOptions::default() };
+        let full = Goal::from_ink(ink.clone(), &options).unwrap();
+        for side in [500, 100, 33] {
+            let read = Goal::from_ink(ink.clone(), &GoalOptions { max_side: Some(side), ..options.clone() })
+                .unwrap();
+            assert_eq!(full.reduced(side).unwrap(), read, "{crop:?} {side}");
+        }
+    }
+}

@@ -1,6 +1,8 @@
 //! Fits that were made with other options, or by another version, than most.
 
 use super::matched::{Collected, State};
+use crate::commands::fit::flags::flag;
+use crate::commands::fit::request::shown;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -8,17 +10,16 @@ use std::collections::BTreeMap;
 pub(super) type Differences = Vec<String>;
 
 /// Options that a list gives each goal, and those that follow from them.
-const OF_A_GOAL: [&str; 7] = ["height", "view", "mask", "tree", "ground-row", "axis-column", "leaves"];
+const OF_A_GOAL: [&str; 7] = ["height", "view", "mask", "tree", "ground_row", "axis_column", "leaves"];
 
 /// What all fits of a batch have in common: the version and the options with their values.
 type Common = BTreeMap<String, String>;
 
 fn common(summary: &Value) -> Common {
-    let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
     let options = summary["options"].as_object().into_iter().flatten();
     let options = options.filter(|(name, _)| !OF_A_GOAL.contains(&name.as_str()));
-    let mut common: Common = options.map(|(name, value)| (format!("--{name}"), text(value))).collect();
-    let _ = common.insert("the version".to_owned(), text(&summary["version"]));
+    let mut common: Common = options.map(|(key, value)| (flag(key), shown(key, value))).collect();
+    let _ = common.insert("the version".to_owned(), shown("version", &summary["version"]));
     common
 }
 

@@ -1,50 +1,25 @@
 //! Many goals, one after the other: a run folder each, and one summary of all.
 
-use super::args::GoalArgs;
-use super::goal::MaskSource;
+use super::args::{Fit, GoalArgs};
+use super::names::{RUNS, run_name};
+use super::rows::write_table;
 use super::run_folder::{Busy, Finished, Mode, RunFolder};
-use super::summary::write_table;
 use super::task::{Ended, Task};
-use super::{Fit, RUNS, list, run_name, signals, table};
+use super::values::Shard;
+use super::{list, report, signals, table};
 use crate::interrupted::Interrupted;
 use crate::{files, input, output, text};
 use anyhow::{Context, bail, ensure};
+use pleach::MaskFrom;
 use pleach::plan::library;
-use pleach_fit::{FitSettings, GuessLibrary};
+use pleach_fit::GuessLibrary;
+use pleach_tree::Species;
 use serde_json::Value;
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
-
-/// A part of the goals: the `index`-th of `count`, from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Shard {
-    index: usize,
-    count: usize,
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        text.split_once('/')
-            .and_then(|(index, count)| Some(Self { index: index.parse().ok()?, count: count.parse().ok()? }))
-            .filter(|shard| (1..=shard.count).contains(&shard.index))
-            .ok_or_else(|| "expected I/N with I from 1 to N, such as 2/8".to_owned())
-    }
-}
-
-impl Shard {
-    const WHOLE: Self = Self { index: 1, count: 1 };
-
-    /// Goals I, I + N, I + 2N …: neighbours are often alike in effort, so shards share them evenly.
-    fn part<T>(self, of: Vec<T>) -> Vec<T> {
-        of.into_iter().skip(self.index - 1).step_by(self.count).collect()
-    }
-}
 
 /// How long a batch waits for the goals that other processes fit before it looks again.
 const PAUSE: Duration = Duration::from_millis(500);
@@ -67,10 +42,10 @@ enum State {
     Finished(Value),
 }
 
-/// Fits all goals of the shard.
-pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
+/// Fits all goals of the shard, from the species `start` if it is at hand.
+pub(super) fn run(fit: &Fit, start: Option<&Species>) -> anyhow::Result<()> {
     ensure!(
-        !matches!(fit.goal_options.mask, Some(MaskSource::File(_))),
+        !matches!(fit.goal_options.mask, Some(MaskFrom::File(_))),
         "a --mask file belongs to one goal; --mask auto makes one for each"
     );
     let is_stdin = |goal: &PathBuf| input::is_standard(goal);
@@ -82,9 +57,9 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
         Some(Shard { index, count }) => out.join(format!("summary-{index}-of-{count}.csv")),
     };
     let mode = fit.mode();
-    let mut jobs = shard.part(jobs(goals(fit)?, &out)?);
+    let mut jobs = shard.part(jobs(fit, goals(fit)?, &out, start)?);
     for job in &mut jobs {
-        job.state = before(fit, settings, &job.task, mode)?;
+        job.state = before(&job.task, mode)?;
         job.again = mode != Mode::Resume && job.task.folder.finished().is_some();
     }
     files::make_folder(&out)?;
@@ -105,7 +80,7 @@ pub(super) fn run(fit: &Fit, settings: &FitSettings) -> anyhow::Result<()> {
         let name = format!("[{}/{all}] {}", i + 1, text::path(&jobs[i].task.goal));
         let ended = match &jobs[i].state {
             State::Finished(summary) => Ok(One::Before(summary.clone())),
-            _ => one(fit, settings, &jobs[i], mode, &mut library, &stop),
+            _ => one(fit, &jobs[i], mode, &mut library, &stop),
         };
         let (line, state) = match ended {
             Err(error) if error.is::<Busy>() => {
@@ -164,7 +139,12 @@ fn goals(fit: &Fit) -> anyhow::Result<Vec<(PathBuf, GoalArgs)>> {
 }
 
 /// A job per goal; an error if two would share a folder.
-fn jobs(goals: Vec<(PathBuf, GoalArgs)>, out: &Path) -> anyhow::Result<Vec<Job>> {
+fn jobs(
+    fit: &Fit,
+    goals: Vec<(PathBuf, GoalArgs)>,
+    out: &Path,
+    start: Option<&Species>,
+) -> anyhow::Result<Vec<Job>> {
     let mut seen = BTreeMap::new();
     let mut jobs = Vec::new();
     for (goal, args) in goals {
@@ -179,23 +159,24 @@ fn jobs(goals: Vec<(PathBuf, GoalArgs)>, out: &Path) -> anyhow::Result<Vec<Job>>
                 folder.display()
             );
         }
-        let task = Task { goal, args, folder: RunFolder::at(folder) };
+        let options = fit.options(&args)?;
+        let task = Task { goal, options, start: start.cloned(), folder: RunFolder::at(folder) };
         jobs.push(Job { task, state: State::Waiting, again: false, is_elsewhere: false });
     }
     Ok(jobs)
 }
 
 /// What there is to do for a goal; an error if its folder holds something that must not be lost.
-fn before(fit: &Fit, settings: &FitSettings, task: &Task, mode: Mode) -> anyhow::Result<State> {
+fn before(task: &Task, mode: Mode) -> anyhow::Result<State> {
     if mode == Mode::Resume
-        && let Some(summary) = task.done_before(fit, settings)?
+        && let Some(summary) = task.done_before()?
     {
         return Ok(State::Finished(summary));
     }
     let is_new = mode == Mode::Resume && !task.folder.is_unfinished();
     if !is_new && (task.folder.finished().is_some() || task.folder.is_unfinished()) {
         // Only then is the goal read: of thousands that wait, each is read when it is fitted.
-        task.folder.check(mode, &task.request(fit, &input::picture(&task.goal)?, settings)?)?;
+        task.folder.check(mode, &task.request(&input::picture(&task.goal)?)?)?;
     }
     Ok(State::Waiting)
 }
@@ -212,7 +193,6 @@ enum One {
 /// Fits one goal, unless another process has done so since the batch began.
 fn one(
     fit: &Fit,
-    settings: &FitSettings,
     job: &Job,
     mode: Mode,
     library: &mut GuessLibrary,
@@ -228,7 +208,7 @@ fn one(
         Mode::New if !again => Mode::Share,
         mode => mode,
     };
-    match task.run(fit, settings, mode, library, stop) {
+    match task.run(fit, mode, library, stop) {
         Ok(Ended::Finished(summary)) => Ok(One::Fitted(serde_json::to_value(summary)?)),
         // Asked to stop: no fault of the goal.
         Ok(Ended::Interrupted(_)) => Ok(One::Interrupted),
@@ -245,7 +225,7 @@ fn brief(summary: &Value) -> String {
         number("likeness"),
         number("iou"),
         looks.map_or_else(String::new, |species| format!(", looks like {species}")),
-        super::report::trees(summary["evaluations"].as_u64().unwrap_or_default()),
+        report::trees(summary["evaluations"].as_u64().unwrap_or_default()),
         number("seconds"),
     )
 }
@@ -268,39 +248,24 @@ mod tests {
     use super::*;
     use clap::Parser as _;
 
-    /// The options of a goal on their own.
     #[derive(clap::Parser)]
-    struct Arguments {
+    struct Line {
         #[command(flatten)]
-        goal: GoalArgs,
-    }
-
-    #[test]
-    fn shards_share_the_goals_without_loss_or_overlap() {
-        let mut all = Vec::new();
-        for index in 1..=3 {
-            let shard: Shard = format!("{index}/3").parse().unwrap();
-            all.extend(shard.part((0..8).collect::<Vec<_>>()));
-        }
-        assert_eq!(all, [0, 3, 6, 1, 4, 7, 2, 5]);
-        assert_eq!(Shard { index: 5, count: 9 }.part(vec![1, 2]), [0; 0]);
-        for wrong in ["", "1", "0/3", "4/3", "1/0", "a/b", "1/2/3", "-1/2", "1/99999999999999999999999"] {
-            assert!(wrong.parse::<Shard>().is_err(), "{wrong}");
-        }
+        fit: Fit,
     }
 
     #[test]
     fn two_goals_do_not_share_a_folder() {
-        let args = Arguments::parse_from(["fit"]).goal;
-        let with_args =
-            |goals: &[&str]| goals.iter().map(|goal| (goal.into(), args.clone())).collect::<Vec<_>>();
-        let goals = ["a/oak.png", "b/ash.png", "c/oak.jpg"];
-        let Err(error) = jobs(with_args(&goals), Path::new("out")) else {
-            panic!("c/oak.jpg is not refused")
+        let fit = Line::parse_from(["fit", "goal.png"]).fit;
+        let jobs = |goals: &[&str]| {
+            let goals = goals.iter().map(|goal| (goal.into(), fit.goal_options.clone())).collect();
+            jobs(&fit, goals, Path::new("out"), None)
         };
+        let goals = ["a/oak.png", "b/ash.png", "c/oak.jpg"];
+        let Err(error) = jobs(&goals) else { panic!("c/oak.jpg is not refused") };
         let error = error.to_string();
         assert!(error.contains("a/oak.png") && error.contains("c/oak.jpg") && error.contains("oak"));
-        assert_eq!(jobs(with_args(&goals[..2]), Path::new("out")).map(|jobs| jobs.len()).unwrap(), 2);
-        assert!(jobs(with_args(&[".."]), Path::new("out")).is_err());
+        assert_eq!(jobs(&goals[..2]).map(|jobs| jobs.len()).unwrap(), 2);
+        assert!(jobs(&[".."]).is_err());
     }
 }

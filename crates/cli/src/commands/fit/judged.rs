@@ -16,13 +16,6 @@ pub(super) fn comments(judged: &Judged, space: &ParamSpace) -> Vec<String> {
     sentences.into_iter().filter_map(of).collect()
 }
 
-/// How many numbers are determined, loosely determined, not seen, and not tried for want of time.
-pub(super) fn counts(judged: &Judged) -> [usize; 4] {
-    use Identifiability::{Determined, Loosely, NotSeen, NotTried};
-    [Determined, Loosely, NotSeen, NotTried]
-        .map(|seen| judged.profiles.iter().filter(|profile| profile.seen == seen).count())
-}
-
 /// Rows of `parameters.csv`, the header first.
 pub(super) fn table(judged: &Judged, best: &Genome, space: &ParamSpace) -> Vec<Vec<String>> {
     let [small, large] = PROFILE_STEPS.map(|step| format!("{:.0}%", 100.0 * step));

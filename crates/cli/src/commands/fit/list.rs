@@ -1,11 +1,11 @@
 //! Goals with options of their own, from a CSV file.
 
 use super::args::GoalArgs;
-use super::goal::MaskSource;
-use super::{options, start, views};
+use super::values::{self, Leaves, Tone, ViewArg};
 use crate::text;
 use anyhow::{Context, bail, ensure};
 use clap::ValueEnum as _;
+use pleach::MaskFrom;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -19,15 +19,12 @@ struct Column {
 const FILE: &str = "file";
 
 const COLUMNS: [Column; 7] = [
-    Column {
-        name: "height",
-        set: |args, cell, _| options::positive(cell).map(|height| args.height = height),
-    },
+    Column { name: "height", set: |args, cell, _| values::height(cell).map(|height| args.height = height) },
     Column {
         name: "view",
         set: |args, cell, _| {
-            let view: views::Direction = cell.parse()?;
-            if view.file().is_some() {
+            let view: ViewArg = cell.parse()?;
+            if matches!(view, ViewArg::Further(_)) {
                 return Err("further pictures of one tree are not for lists".to_owned());
             }
             args.view = vec![view];
@@ -38,15 +35,14 @@ const COLUMNS: [Column; 7] = [
         name: "mask",
         set: |args, cell, folder| {
             let cell = if cell == "auto" { cell.to_owned() } else { folder.join(cell).display().to_string() };
-            args.mask = cell.parse::<MaskSource>().ok();
+            args.mask = cell.parse::<MaskFrom>().ok();
             Ok(())
         },
     },
     Column {
         name: "tree",
         set: |args, cell, _| {
-            args.tree =
-                options::Tone::from_str(cell, true).map_err(|_| "expected auto, dark or light".to_owned())?;
+            args.tree = Tone::from_str(cell, true).map_err(|_| "expected auto, dark or light".to_owned())?;
             Ok(())
         },
     },
@@ -58,8 +54,7 @@ const COLUMNS: [Column; 7] = [
     Column {
         name: "leaves",
         set: |args, cell, _| {
-            args.leaves =
-                start::Leaves::from_str(cell, true).map_err(|_| "expected auto, on or off".to_owned())?;
+            args.leaves = Leaves::from_str(cell, true).map_err(|_| "expected auto, on or off".to_owned())?;
             args.no_leaves = false;
             Ok(())
         },

@@ -1,9 +1,10 @@
 //! Files to watch while a fit runs.
 
-use super::drawing::Drawing;
+use super::drawing::{write_overlay, write_render, write_silhouette, write_species};
+use super::rows::write_history;
 use super::run_folder::Claim;
-use super::summary::{write_history, write_species};
 use crate::output;
+use pleach::FitDrawing;
 use pleach_fit::{Progress, Row, Scored};
 use std::time::{Duration, Instant};
 
@@ -30,19 +31,20 @@ impl Live {
         Self { rows: Vec::new(), shown: f64::INFINITY, due, warned: false }
     }
 
-    fn write(&self, best: &Scored, drawing: &Drawing<'_>, claim: &Claim) -> anyhow::Result<()> {
+    fn write(&self, best: &Scored, drawing: &FitDrawing<'_>, claim: &Claim) -> anyhow::Result<()> {
         let file = |name| claim.file(name);
         claim.ensure_there()?;
-        let drawn = drawing.draw(best)?;
-        write_species(&file("best.toml"), &drawn.species, &["Of a fit that is not finished.".to_owned()])?;
-        let goal = &drawing.goals.full.bitmap;
-        drawn.write_silhouettes(goal, &file("best.png"), &file("overlay.png"))?;
-        drawn.write_render(&file("render.png"), RENDER_SIZE)?;
+        let species = drawing.species(&best.genome)?;
+        let (silhouette, original) = drawing.silhouettes(&drawing.grow(&species)?);
+        write_species(&file("best.toml"), &species, &["Of a fit that is not finished.".to_owned()])?;
+        write_silhouette(&file("best.png"), original.as_ref().unwrap_or(&silhouette))?;
+        write_overlay(&file("overlay.png"), &silhouette, &drawing.prepared.goal.full.bitmap)?;
+        write_render(&file("render.png"), drawing, &species, RENDER_SIZE)?;
         write_history(&file("history.csv"), &self.rows)
     }
 
     /// Writes the files if something is new and it is time.
-    pub(super) fn progress(&mut self, progress: &Progress<'_>, drawing: &Drawing<'_>, claim: &Claim) {
+    pub(super) fn progress(&mut self, progress: &Progress<'_>, drawing: &FitDrawing<'_>, claim: &Claim) {
         let Some(best) = progress.best.filter(|best| best.score.cost < self.shown) else { return };
         let started = Instant::now();
         if started < self.due {

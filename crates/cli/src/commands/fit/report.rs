@@ -1,16 +1,18 @@
 //! What a fit says at its end.
 
-use super::several;
-use super::summary::{Counts, Summary};
+use super::names::RUNS;
+use super::run_folder::names::SHEET;
+use super::{individual, several, views};
+use pleach::{FitReport, IdentifiabilityCounts};
 use pleach_fit::{Judging, Kindred, References};
 use std::path::Path;
 
 /// The score card that ends a fit, the verdict, and what to do next. `goal` is the picture and `folder`
 /// the run folder, as they were given.
-pub(super) fn report(summary: &Summary, goal: &Path, folder: &Path) -> String {
+pub(super) fn report(summary: &FitReport, goal: &Path, folder: &Path) -> String {
     let mut judged = String::new();
-    judged.extend(summary.views.iter().map(|view| view.line("view")));
-    judged.extend(summary.holdout_views.iter().map(|view| view.line("held out")));
+    judged.extend(summary.views.iter().map(|view| views::line("view", view)));
+    judged.extend(summary.holdout_views.iter().map(|view| views::line("held out", view)));
     if let Some(fresh) = &summary.fresh_seeds {
         judged += &format!(
             "{} other seeds{}: likeness {:.3} ± {:.3}, IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels (an empty \
@@ -29,7 +31,7 @@ pub(super) fn report(summary: &Summary, goal: &Path, folder: &Path) -> String {
     if let Some(references) = &summary.references {
         judged += &beside(references);
     }
-    if let Some(Counts { determined, loosely, not_seen, not_tried }) = summary.determined {
+    if let Some(IdentifiabilityCounts { determined, loosely, not_seen, not_tried }) = summary.determined {
         let late = if not_tried > 0 {
             format!(", {not_tried} were not tried for want of time")
         } else {
@@ -40,14 +42,14 @@ pub(super) fn report(summary: &Summary, goal: &Path, folder: &Path) -> String {
         );
     }
     let mut individual =
-        summary.individual.as_ref().map_or_else(String::new, |one| one.beside(&summary.scores));
+        summary.individual.as_ref().map_or_else(String::new, |one| individual::beside(one, &summary.scores));
     let mut tree = String::new();
     if summary.individual.is_some() {
         tree += &format!("tree     {}\n", folder.join("individual.toml").display());
     }
-    if let Some(several) = &summary.individuals {
-        individual += &several.line();
-        tree += &format!("trees    {}\n", folder.join(several::SHEET).display());
+    if let Some(sides) = &summary.individuals {
+        individual += &several::line(sides);
+        tree += &format!("trees    {}\n", folder.join(SHEET).display());
     }
     let rules = summary.rules.as_ref();
     let rules = rules.map_or_else(String::new, |rules| {
@@ -83,11 +85,11 @@ fn beside(references: &References) -> String {
 }
 
 /// The verdict and the next command, each on its line; nothing where there is nothing to compare with.
-fn verdict(summary: &Summary, goal: &Path, folder: &Path) -> String {
+fn verdict(summary: &FitReport, goal: &Path, folder: &Path) -> String {
     let Some(verdict) = &summary.verdict else { return String::new() };
     let mut fit = format!("pleach fit {}", quoted(goal));
     // Where it would be written anyway, nothing needs to be said.
-    let usual = Path::new(super::RUNS).join(goal.file_stem().unwrap_or_default());
+    let usual = Path::new(RUNS).join(goal.file_stem().unwrap_or_default());
     if folder != usual {
         fit += &format!(" --out {}", quoted(folder));
     }
@@ -122,8 +124,8 @@ fn quoted(path: &Path) -> String {
 
 /// At what size the score card compares, and what the search saw at its own if that is another: the
 /// numbers of a sparse crown differ by as much as a tenth, though the tree is the same.
-fn sizes(summary: &Summary) -> String {
-    let Summary { compared_width: width, compared_height: height, search, .. } = summary;
+fn sizes(summary: &FitReport) -> String {
+    let FitReport { compared_width: width, compared_height: height, search, .. } = summary;
     if (*width, *height) == (search.goal_width, search.goal_height) {
         return format!("compared at {width} × {height} pixels, as in the search\n");
     }
@@ -139,7 +141,7 @@ fn sizes(summary: &Summary) -> String {
 }
 
 /// How many trees the search has tried, how fast, and why it ended.
-fn work(summary: &Summary) -> String {
+fn work(summary: &FitReport) -> String {
     let seconds = summary.search_seconds;
     format!(
         "{} in {seconds:.1} s ({}) by `{}`; {}\n",
@@ -151,7 +153,7 @@ fn work(summary: &Summary) -> String {
 }
 
 /// Where the time has gone.
-fn times(summary: &Summary) -> String {
+fn times(summary: &FitReport) -> String {
     let guess = (summary.from == "auto" && summary.rules.is_none())
         .then(|| format!("first guess {:.1} s", summary.first_guess_seconds));
     let search = Some(format!("search {:.1} s", summary.search_seconds));

@@ -1,22 +1,17 @@
 //! What a fit was asked for: pictures and options, so that a later run can tell whether it asks for the
 //! same.
 
-use super::args::{BudgetArgs, GoalArgs, IndividualArgs, SearchArgs};
-use super::goal::MaskSource;
-use super::outlined::VolumeFrom;
-use super::{Fit, views};
+use super::flags::{defaults, flag};
 use anyhow::Context;
-use pleach_fit::{FitSettings, TreeSeed};
-use pleach_silhouette::goal::Encoded;
+use pleach::{Encoded, FitOptions};
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use sha2::{Digest as _, Sha256};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::path::Path;
 
-/// The files and options that decide what comes of a fit.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+/// The files that decide what comes of a fit, and its options.
+#[derive(Clone, Debug, Serialize)]
 pub(super) struct Request {
     /// The goal's path, as it was given.
     pub(super) goal: String,
@@ -24,38 +19,24 @@ pub(super) struct Request {
     pub(super) goal_sha256: String,
     /// The same of every other file that is read: masks, further pictures, the species of the start.
     pub(super) inputs_sha256: BTreeMap<String, String>,
-    /// Options and their values as text; those that were not given with their defaults.
-    pub(super) options: BTreeMap<&'static str, String>,
+    /// All options, which the report of the fit writes.
+    #[serde(skip)]
+    pub(super) options: Map<String, Value>,
 }
 
 impl Request {
-    /// The request of `fit` for one goal, whose file is `source`, with the options `goal_args`.
-    pub(super) fn new(
-        fit: &Fit,
-        goal: &Path,
-        source: &Encoded,
-        goal_args: &GoalArgs,
-        settings: &FitSettings,
-    ) -> anyhow::Result<Self> {
-        let mut others: Vec<PathBuf> = goal_args.view.iter().filter_map(views::Direction::file).collect();
-        others.extend(goal_args.holdout_view.iter().map(views::KnownPicture::file));
-        if let Some(MaskSource::File(mask)) = &goal_args.mask {
-            others.push(mask.clone());
-        }
-        let from = PathBuf::from(fit.search.from.to_string());
-        if from.is_file() {
-            others.push(from);
-        }
-        if let Some(VolumeFrom::File(file)) = &fit.search.volume_from {
-            others.push(file.clone());
-        }
-        let name = |path: &Path| path.display().to_string();
-        let inputs = others.iter().map(|path| Ok((name(path), file_sha256(path)?)));
+    /// The request of a fit of `goal`, whose file is `source`.
+    pub(super) fn new(goal: &Path, source: &Encoded, options: &FitOptions) -> anyhow::Result<Self> {
+        let inputs =
+            options.files().into_iter().map(|file| Ok((file.to_owned(), file_sha256(file.as_ref())?)));
+        let Value::Object(written) = serde_json::to_value(options)? else {
+            anyhow::bail!("options are an object");
+        };
         Ok(Self {
-            goal: name(goal),
+            goal: goal.display().to_string(),
             goal_sha256: digits(Sha256::digest(source.bytes())),
             inputs_sha256: inputs.collect::<anyhow::Result<_>>()?,
-            options: options(fit, goal_args, settings)?,
+            options: written,
         })
     }
 
@@ -70,19 +51,62 @@ impl Request {
                 None => "it does not say what its goal was".to_owned(),
             });
         }
-        let then = &summary["options"];
-        let differing = self.options.iter().filter_map(|(name, value)| {
-            let then = then[*name].as_str();
+        let (then, usual) = (&summary["options"], defaults());
+        for (key, value) in &self.options {
             // Options that came later were not given before.
-            let is_same = then.unwrap_or(NOTHING) == value;
-            (!is_same).then(|| (name, then.unwrap_or("something that it does not say"), value))
-        });
-        list.extend(differing.map(|(name, then, value)| format!("--{name} was {then} and is {value}")));
+            let before = if then.is_object() { then.get(key).or(usual.get(key)) } else { None };
+            match before {
+                Some(before) if is_same(before, value) => {}
+                Some(before) => list.push(format!(
+                    "{} was {} and is {}",
+                    flag(key),
+                    shown(key, before),
+                    shown(key, value)
+                )),
+                None => list.push(format!(
+                    "{} is {}, and it does not say what it was",
+                    flag(key),
+                    shown(key, value)
+                )),
+            }
+        }
         let changed = self.inputs_sha256.iter().filter(|(path, hash)| {
             summary["inputs_sha256"][path.as_str()].as_str().is_some_and(|then| then != hash.as_str())
         });
         list.extend(changed.map(|(path, _)| format!("{path} has changed since")));
         list
+    }
+}
+
+/// Whether two values of an option are the same; a number that was read back from a file may differ in its last bit.
+fn is_same(one: &Value, other: &Value) -> bool {
+    match (one.as_f64(), other.as_f64()) {
+        (Some(one), Some(other)) => (one - other).abs() <= 1e-14 * one.abs().max(other.abs()),
+        _ => match (one, other) {
+            (Value::Array(some), Value::Array(others)) => {
+                some.len() == others.len() && some.iter().zip(others).all(|(one, other)| is_same(one, other))
+            }
+            _ => one == other,
+        },
+    }
+}
+
+/// The value of an option as it is typed.
+pub(in crate::commands) fn shown(key: &str, value: &Value) -> String {
+    let list = |values: &[Value], between: &str| {
+        values.iter().map(|value| shown("", value)).collect::<Vec<_>>().join(between)
+    };
+    match value {
+        Value::Null => "nothing".to_owned(),
+        Value::Array(values) if values.is_empty() => "nothing".to_owned(),
+        Value::Array(values) if values[0].is_number() => list(values, ","),
+        Value::Array(values) => list(values, " "),
+        Value::String(text) => text.clone(),
+        Value::Number(number) if key == "timeout" => {
+            format!("{}s", number.as_f64().unwrap_or(f64::NAN))
+        }
+        Value::Number(number) if number.is_f64() => number.as_f64().unwrap_or(f64::NAN).to_string(),
+        other => other.to_string(),
     }
 }
 
@@ -99,159 +123,71 @@ fn digits(hash: impl AsRef<[u8]>) -> String {
     hash.as_ref().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The value of an option that was not given and has no default.
-const NOTHING: &str = "nothing";
-
-/// Every option that decides what comes of a fit. Each field of the options is named here, so that a new one cannot
-/// be forgotten; those that are left out have their value in `settings`, or in the option that stands beside them.
-fn options(
-    fit: &Fit,
-    goal: &GoalArgs,
-    settings: &FitSettings,
-) -> anyhow::Result<BTreeMap<&'static str, String>> {
-    // Of these fields of its own, none decides what comes of a fit.
-    let Fit {
-        goals: _,
-        list: _,
-        out: _,
-        resume: _,
-        go_on: _,
-        shard: _,
-        checkpoint_every: _,
-        overwrite: _,
-        verbose: _,
-        json: _,
-        // A goal of a list has its own.
-        goal_options: _,
-        search,
-        individual: IndividualArgs { individual, individuals },
-        // With what a fit that goes on has used before: in `settings`.
-        budget: BudgetArgs { timeout: _, evaluations: _, generations: _, target_iou: _ },
-    } = fit;
-    let GoalArgs {
-        height,
-        size,
-        mask,
-        tree,
-        ground_row,
-        axis_column,
-        frame,
-        view,
-        free_frame,
-        holdout_view,
-        leaves: _,
-        no_leaves: _,
-    } = goal;
-    let SearchArgs {
-        from,
-        generator: _,
-        volume_from,
-        free,
-        fix,
-        optimizer: _,
-        evolve_rules: _,
-        settings: _,
-        objective: _,
-        seed: _,
-        tree_seed: _,
-        robust: _,
-    } = search;
-    let budget = &settings.budget;
-    // As it was given: with what is not for the search.
-    let kept = match (fit.timeout(), fit.shares()?) {
-        (Some(whole), Some(shares)) => whole.saturating_sub(shares.search),
-        _ => Duration::ZERO,
-    };
-    let timeout = budget.timeout.map(|time| time + kept);
-    let optional = |value: Option<String>| value.unwrap_or_else(|| NOTHING.to_owned());
-    let list = |patterns: &[String]| optional((!patterns.is_empty()).then(|| patterns.join(" ")));
-    let views = |views: Vec<String>| list(&views);
-    Ok(BTreeMap::from([
-        ("height", height.to_string()),
-        ("size", size.to_string()),
-        ("mask", optional(mask.as_ref().map(ToString::to_string))),
-        ("tree", format!("{tree:?}").to_lowercase()),
-        ("ground-row", optional(ground_row.map(|row| row.to_string()))),
-        ("axis-column", optional(axis_column.map(|column| column.to_string()))),
-        ("frame", optional(frame.map(|frame| frame.to_string()))),
-        ("view", views(view.iter().map(ToString::to_string).collect())),
-        ("free-frame", free_frame.to_string()),
-        ("holdout-view", views(holdout_view.iter().map(ToString::to_string).collect())),
-        ("leaves", format!("{:?}", goal.leaves()).to_lowercase()),
-        ("from", from.to_string()),
-        ("generator", search.generator()?.to_string()),
-        ("volume-from", optional(volume_from.as_ref().map(ToString::to_string))),
-        ("free", list(free)),
-        ("fix", list(fix)),
-        ("optimizer", settings.method_name().to_owned()),
-        ("set", method_settings(settings)?.to_string()),
-        ("objective", settings.objective.to_string()),
-        ("seed", settings.seed.to_string()),
-        (
-            "tree-seed",
-            match settings.tree_seed {
-                TreeSeed::Fixed(seed) => seed.to_string(),
-                TreeSeed::Any => "any".to_owned(),
-            },
-        ),
-        ("robust", settings.robust.to_string()),
-        ("individuals", individuals.to_string()),
-        ("individual", individual.unwrap_or_default().to_string()),
-        ("timeout", optional(timeout.map(|time| format!("{}s", time.as_secs_f64())))),
-        ("evaluations", optional(budget.evaluations.map(|count| count.to_string()))),
-        ("generations", optional(budget.generations.map(|count| count.to_string()))),
-        ("target-iou", optional(budget.target_iou.map(|iou| iou.to_string()))),
-    ]))
-}
-
-/// The settings of what searches.
-pub(super) fn method_settings(settings: &FitSettings) -> anyhow::Result<Value> {
-    Ok(match &settings.rules {
-        Some(rules) => serde_json::to_value(rules)?,
-        None => serde_json::to_value(&settings.optimizer)?[settings.optimizer.name()].take(),
-    })
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::args::Fit;
     use super::*;
 
-    fn request(seed: &str) -> Request {
+    fn request(seed: u64) -> Request {
+        let options = Map::from_iter([("seed".to_owned(), seed.into()), ("size".to_owned(), 64.into())]);
         Request {
             goal: "oak.png".to_owned(),
             goal_sha256: "ab".to_owned(),
             inputs_sha256: BTreeMap::from([("side.png".to_owned(), "01".to_owned())]),
-            options: BTreeMap::from([("seed", seed.to_owned()), ("size", "64".to_owned())]),
+            options,
         }
+    }
+
+    /// As the summary of a fit has it.
+    fn summary(of: &Request) -> Value {
+        let mut summary = serde_json::to_value(of).unwrap();
+        summary["options"] = Value::Object(of.options.clone());
+        summary
     }
 
     #[test]
     fn what_differs_is_named_with_both_values() {
-        let summary = serde_json::to_value(request("1")).unwrap();
-        assert!(request("1").differences(&summary).is_empty());
-        assert_eq!(request("2").differences(&summary), ["--seed was 1 and is 2"]);
-        let moved = Request { goal: "a/oak.png".to_owned(), ..request("1") };
+        let summary = summary(&request(1));
+        assert!(request(1).differences(&summary).is_empty());
+        assert_eq!(request(2).differences(&summary), ["--seed was 1 and is 2"]);
+        let moved = Request { goal: "a/oak.png".to_owned(), ..request(1) };
         assert!(moved.differences(&summary).is_empty(), "the same picture at another place");
         let other = Request { goal_sha256: "cd".to_owned(), ..moved };
         assert_eq!(other.differences(&summary), ["its goal was oak.png and is a/oak.png"]);
-        let changed = Request { goal_sha256: "cd".to_owned(), ..request("1") };
+        let changed = Request { goal_sha256: "cd".to_owned(), ..request(1) };
         assert_eq!(changed.differences(&summary), ["oak.png has changed since"]);
         let side = BTreeMap::from([("side.png".to_owned(), "02".to_owned())]);
-        let side = Request { inputs_sha256: side, ..request("1") };
+        let side = Request { inputs_sha256: side, ..request(1) };
         assert_eq!(side.differences(&summary), ["side.png has changed since"]);
         let silent = serde_json::json!({ "finished": true });
-        assert_eq!(
-            request("1").differences(&silent).len(),
-            3,
-            "a summary that says nothing is of another fit"
-        );
-        let held_out = BTreeMap::from([("holdout-view", NOTHING.to_owned())]);
-        let silent = Request { options: BTreeMap::new(), ..request("1") };
-        let before = serde_json::to_value(&silent).unwrap();
-        assert!(
-            Request { options: held_out, ..silent }.differences(&before).is_empty(),
-            "nothing is as before"
-        );
+        assert_eq!(request(1).differences(&silent).len(), 3, "a summary that says nothing is of another fit");
+        // An option that came later, by default and not.
+        let older = summary_without(&request(1), "size");
+        assert_eq!(request(1).differences(&older), ["--size was 256 and is 64"]);
+        let usual = Request { options: Map::from_iter([("size".to_owned(), 256.into())]), ..request(1) };
+        assert!(usual.differences(&older).is_empty());
+    }
+
+    fn summary_without(of: &Request, key: &str) -> Value {
+        let mut summary = summary(of);
+        let _ = summary["options"].as_object_mut().unwrap().remove(key);
+        summary
+    }
+
+    #[test]
+    fn values_are_shown_as_they_are_typed() {
+        let json = |text: &str| serde_json::from_str::<Value>(text).unwrap();
+        for (key, value, expected) in [
+            ("height", "10.0", "10"),
+            ("timeout", "20.0", "20s"),
+            ("frame", "[0.05, 30.0, 60.5]", "0.05,30,60.5"),
+            ("free", r#"["crown", "leaves"]"#, "crown leaves"),
+            ("fix", "[]", "nothing"),
+            ("mask", "null", "nothing"),
+            ("optimizer", r#"{"cma": {"population": 8}}"#, r#"{"cma":{"population":8}}"#),
+        ] {
+            assert_eq!(shown(key, &json(value)), expected);
+        }
     }
 
     /// The options of `pleach fit`, and what each of them may be given that is not its default.
@@ -309,14 +245,13 @@ mod tests {
         fit: Fit,
     }
 
-    fn options_of(line: &[&str]) -> BTreeMap<&'static str, String> {
+    fn options_of(line: &[&str]) -> Map<String, Value> {
         use clap::Parser as _;
         let line = ["fit", "goal.png"].iter().chain(line);
         let fit = Line::try_parse_from(line).unwrap_or_else(|error| panic!("{error}")).fit;
-        let crate::commands::fit::Settings::Fit(settings) = fit.settings().unwrap() else {
-            panic!("help was not asked for")
-        };
-        options(&fit, &fit.goal_options, &settings).unwrap()
+        let options = fit.as_typed(&fit.goal_options).unwrap();
+        let Value::Object(options) = serde_json::to_value(options).unwrap() else { panic!("an object") };
+        options
     }
 
     #[test]

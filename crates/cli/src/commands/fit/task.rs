@@ -1,21 +1,16 @@
 //! The fit of one goal, from the picture to the run folder.
 
-use super::args::GoalArgs;
-use super::drawing::{self, Drawing};
-use super::goal::Goals;
-use super::outlined::Outlined;
+use super::args::Fit;
 use super::request::Request;
 use super::run_folder::{Mode, RunFolder};
-use super::summary::{self, Results, Summary};
+use super::summary::{self, Summary};
 use super::watch::Watch;
-use super::{Fit, views};
+use super::{drawing, flags, goal};
 use crate::input;
 use anyhow::ensure;
-use pleach_fit::{
-    Accuracy, CheckpointSettings, Control, FitError, FitProblem, FitSettings, GoalSettings, GoalView,
-    GuessLibrary, fit_goal_with,
-};
-use pleach_silhouette::goal::{Encoded, Goal};
+use pleach::{Encoded, FitOptions, FitSource, Spent};
+use pleach_fit::{CheckpointSettings, Control, FitError, GuessLibrary};
+use pleach_tree::Species;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -26,7 +21,9 @@ use std::time::{Duration, Instant};
 #[derive(Clone, Debug)]
 pub(super) struct Task {
     pub(super) goal: PathBuf,
-    pub(super) args: GoalArgs,
+    pub(super) options: FitOptions,
+    /// The species that `--from` says, where it came from standard input.
+    pub(super) start: Option<Species>,
     pub(super) folder: RunFolder,
 }
 
@@ -39,25 +36,21 @@ pub(super) enum Ended {
 
 impl Task {
     /// What is asked for of this goal, whose file is `source`.
-    pub(super) fn request(
-        &self,
-        fit: &Fit,
-        source: &Encoded,
-        settings: &FitSettings,
-    ) -> anyhow::Result<Request> {
-        Request::new(fit, &self.goal, source, &self.args, settings)
+    pub(super) fn request(&self, source: &Encoded) -> anyhow::Result<Request> {
+        // As a fit has it that goes on from nothing.
+        Request::new(&self.goal, source, &self.options.after(&Spent::default()))
     }
 
     /// The summary of the fit that `--resume` leaves as it is: one that is finished and was asked for the same.
     ///
     /// # Errors
     /// A finished one that was asked for something else.
-    pub(super) fn done_before(&self, fit: &Fit, settings: &FitSettings) -> anyhow::Result<Option<Value>> {
+    pub(super) fn done_before(&self) -> anyhow::Result<Option<Value>> {
         if self.folder.is_unfinished() {
             return Ok(None);
         }
         let Some(summary) = self.folder.finished() else { return Ok(None) };
-        let differences = self.request(fit, &input::picture(&self.goal)?, settings)?.differences(&summary);
+        let differences = self.request(&input::picture(&self.goal)?)?.differences(&summary);
         ensure!(
             differences.is_empty(),
             "{} was fitted with other options: {}; --resume skips it with the same ones, --overwrite instead of \
@@ -72,7 +65,6 @@ impl Task {
     pub(super) fn run(
         &self,
         fit: &Fit,
-        asked_for: &FitSettings,
         mode: Mode,
         library: &mut GuessLibrary,
         stop: &Arc<AtomicBool>,
@@ -80,33 +72,20 @@ impl Task {
         // To read a large photograph takes time too.
         let started = Instant::now();
         // Whatever can be refused is refused before the folder is touched.
-        let goals = Goals::load(&self.goal, &self.args, fit.verbose)?;
-        let args = &GoalArgs { height: goals.height, ..self.args.clone() };
-        let mut problem = problem(fit, args, &goals.working)?;
-        let outlined = match &fit.search.volume_from {
-            Some(volume) => Some(Outlined::new(volume, &problem.goals, args.height)?),
-            None => None,
+        let picture = input::picture(&self.goal)?;
+        let spent = match mode {
+            Mode::Continue => spent(self.folder.finished().as_ref()),
+            _ => Spent::default(),
         };
-        let mut search = asked_for.clone();
-        if mode == Mode::Continue {
-            extend(&mut search, self.folder.finished().as_ref());
-        }
-        let (from, generator) = (&fit.search.from, &fit.search.generator()?);
-        let settings = match outlined {
-            Some(outlined) => {
-                problem.start = outlined.species.clone();
-                outlined.plan(&search)?
-            }
-            None => from.plan(*generator, self.args.leaves(), &problem.start, &search)?,
-        };
-        let settings = GoalSettings { individual: fit.individual_settings()?, ..settings };
-        let settings = match fit.shares()? {
-            Some(shares) => {
-                shares.bound(settings, drawing::writing(&goals), drawing::writing_further(&goals))
-            }
-            None => settings,
-        };
-        let request = self.request(fit, &goals.source, &search)?;
+        let request = Request::new(&self.goal, &picture, &self.options.after(&spent))?;
+        // Standard input is called so in errors, and `stdin` in what is made of it.
+        let name = input::stem(&self.goal).map(|stem| stem.to_string_lossy().into_owned());
+        let source = FitSource { start: self.start.clone(), name, ..picture.into() };
+        let prepared = self.options.prepare_after(&source, &spent).map_err(flags::named)?;
+        drop(source);
+        goal::say(&self.goal, &prepared.goal, fit.verbose);
+        let (writing, further) = (drawing::writing(&prepared.goal), drawing::writing_further(&prepared.goal));
+        let prepared = prepared.with_aftermath(writing, further);
         let mut claim = self.folder.clone().claim(mode, &request)?;
 
         let clock = || started.elapsed();
@@ -115,58 +94,19 @@ impl Task {
             interval: fit.checkpoint_every,
             resume: claim.resumes(),
         };
-        let (view, further) = views::sort(&self.args.view)?;
-        let rules = settings.search.rules.as_ref();
-        let leaves_detected = fit.search.volume_from.is_none() && from.detects(self.args.leaves(), rules);
-        let drawing = |problem: &FitProblem, limits| Drawing {
-            goals: &goals,
-            args,
-            view,
-            problem: problem.clone(),
-            limits,
-            placed: None,
-        };
-        let mut watch = Watch::new(&mut claim, &drawing, (!fit.is_batch()).then_some(leaves_detected));
+        let mut watch = Watch::new(&mut claim, &prepared, !fit.is_batch());
         let control = Control {
             observers: vec![&mut watch],
             checkpoint: Some(checkpoint),
             ..Control::new(&clock, stop)
         };
-        let fitted = fit_goal_with(&problem, &settings, library, control);
+        let fitted = prepared.fit(library, control);
         drop(watch);
         let fitted = match fitted {
             Err(FitError::Interrupted) => return Ok(Ended::Interrupted(None)),
             fitted => fitted?,
         };
-
-        let mut drawing = drawing(&fitted.problem, fitted.settings.limits);
-        drawing.register(&fitted.best)?;
-        let drawn = drawing.draw(&fitted.best)?;
-        let (height, foliage) = (args.height, fitted.problem.foliage);
-        let placements = pleach_fit::placements(&fitted.problem.goals, &fitted.best.genome.nuisances);
-        // The first is the goal's own.
-        let views = further
-            .iter()
-            .zip(placements.iter().skip(1))
-            .map(|(picture, placement)| picture.score(&drawn.tree, foliage, height, placement))
-            .collect::<anyhow::Result<_>>()?;
-        let holdouts = self.args.holdout_view.iter();
-        let holdout_views = holdouts
-            .map(|picture| picture.score(&drawn.tree, foliage, height))
-            .collect::<anyhow::Result<_>>()?;
-        let summary = summary::write(
-            &claim,
-            Results {
-                fitted: &fitted,
-                drawn,
-                drawing: &drawing,
-                views,
-                holdout_views,
-                from: from.to_string(),
-                leaves_detected,
-                request,
-            },
-        )?;
+        let summary = summary::write(&claim, &prepared, prepared.report(fitted)?, request)?;
         if summary.interrupted() {
             return Ok(Ended::Interrupted(Some(Box::new(summary))));
         }
@@ -176,37 +116,14 @@ impl Task {
     }
 }
 
-fn problem(fit: &Fit, args: &GoalArgs, goal: &Goal) -> anyhow::Result<FitProblem> {
-    let start = fit.search.start()?;
-    let GoalArgs { height, size, free_frame, .. } = *args;
-    let (view, further) = views::sort(&args.view)?;
-    let accuracy = if args.frame.is_some() { Accuracy::Exact } else { Accuracy::Pixel };
-    let mut goals =
-        vec![GoalView { accuracy, ..GoalView::new(goal.bitmap.clone(), view, goal.frame(height)) }];
-    for picture in further {
-        goals.push(picture.goal_view(height, size, free_frame)?);
-    }
-    // A picture that cannot be read is told before the search and not after it.
-    for picture in &args.holdout_view {
-        picture.check(height, size)?;
-    }
-    Ok(FitProblem { start, goals, foliage: args.leaves().expected() })
-}
-
-/// Adds what a finished fit has used to a budget that is meant to come on top of it.
-fn extend(settings: &mut FitSettings, finished: Option<&Value>) {
-    let Some(summary) = finished else { return };
-    let budget = &mut settings.budget;
-    let used = |key: &str| summary[key].as_u64().unwrap_or(0);
-    if let Some(timeout) = &mut budget.timeout {
-        *timeout +=
-            Duration::try_from_secs_f64(summary["seconds"].as_f64().unwrap_or(0.0)).unwrap_or_default();
-    }
-    if let Some(evaluations) = &mut budget.evaluations {
-        *evaluations += used("evaluations");
-    }
-    if let Some(generations) = &mut budget.generations {
-        *generations += used("generations");
+/// What a finished fit has used of its budgets.
+fn spent(finished: Option<&Value>) -> Spent {
+    let count = |key: &str| finished.and_then(|summary| summary[key].as_u64()).unwrap_or(0);
+    let seconds = finished.and_then(|summary| summary["seconds"].as_f64()).unwrap_or(0.0);
+    Spent {
+        time: Duration::try_from_secs_f64(seconds).unwrap_or_default(),
+        evaluations: count("evaluations"),
+        generations: count("generations"),
     }
 }
 

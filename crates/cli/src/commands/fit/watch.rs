@@ -1,66 +1,58 @@
 //! What is seen of a fit while it runs: bars in the terminal, files in the run folder.
 
-use super::drawing::Drawing;
+use super::guess;
 use super::live::Live;
 use super::progress::Bar;
 use super::run_folder::Claim;
-use super::start;
 use crate::{files, memory, output};
 use indicatif::{ProgressBar, ProgressStyle};
-use pleach_fit::{
-    Begun, CheckpointError, FitProblem, IndividualProgress, Observer, ObserverError, Progress, Row,
-};
-use pleach_tree::Limits;
+use pleach::{FitDrawing, Prepared};
+use pleach_fit::{Begun, CheckpointError, IndividualProgress, Observer, ObserverError, Progress, Row};
 use std::time::Duration;
 
 /// Watches one fit, and makes room for it in its folder once its search begins.
-pub(super) struct Watch<'a, 'g> {
+pub(super) struct Watch<'a> {
     claim: &'a mut Claim,
-    /// Draws individuals of a problem, once it is known.
-    draws: &'a dyn Fn(&FitProblem, Limits) -> Drawing<'g>,
-    /// If it is said what the goal looks like: whether leaves were looked for.
-    says: Option<bool>,
+    prepared: &'a Prepared,
+    /// Whether it is said what the goal looks like.
+    says: bool,
     guessing: Option<ProgressBar>,
-    search: Option<Search<'g>>,
+    search: Option<Search<'a>>,
     judging: Option<ProgressBar>,
     individual: Option<ProgressBar>,
 }
 
 /// What is shown of the search.
-struct Search<'g> {
+struct Search<'a> {
     bar: Bar,
     live: Live,
-    drawing: Drawing<'g>,
+    drawing: FitDrawing<'a>,
 }
 
-impl<'a, 'g> Watch<'a, 'g> {
-    pub(super) fn new(
-        claim: &'a mut Claim,
-        draws: &'a dyn Fn(&FitProblem, Limits) -> Drawing<'g>,
-        says: Option<bool>,
-    ) -> Self {
-        Self { claim, draws, says, guessing: None, search: None, judging: None, individual: None }
+impl<'a> Watch<'a> {
+    pub(super) fn new(claim: &'a mut Claim, prepared: &'a Prepared, says: bool) -> Self {
+        Self { claim, prepared, says, guessing: None, search: None, judging: None, individual: None }
     }
 
     fn begin(&mut self, begun: &Begun) -> anyhow::Result<()> {
         end(&mut self.guessing);
-        if let (Some(guess), Some(detected)) = (&begun.guess, self.says) {
-            output::note(start::said(guess, detected));
-            start::raced(guess).into_iter().for_each(output::note);
+        if let (Some(guess), true) = (&begun.guess, self.says) {
+            output::note(guess::said(guess, self.prepared.detects_leaves));
+            guess::raced(guess).into_iter().for_each(output::note);
         }
         // The drawings that the goal was compared with.
         memory::give_back_the_rest();
         self.claim.begin()?;
-        let drawing = (self.draws)(&begun.problem, begun.settings.limits);
-        if let Some(mask) = &drawing.goals.mask {
-            files::write_whole(&self.claim.file("mask.png"), |file| Ok(mask.write_png(file)?))?;
+        let drawing = self.prepared.drawing(&begun.problem, begun.settings.limits);
+        if let Some(mask) = &self.prepared.goal.mask {
+            files::write_whole(&self.claim.file("mask.png"), |file| Ok(mask.bitmap.write_png(file)?))?;
         }
         self.search = Some(Search { bar: Bar::new(&begun.settings), live: Live::new(), drawing });
         Ok(())
     }
 }
 
-impl Observer for Watch<'_, '_> {
+impl Observer for Watch<'_> {
     fn guessing(&mut self, done: usize, all: usize) {
         let bar = self.guessing.get_or_insert_with(|| {
             let bar = if output::is_watched() { ProgressBar::new(1) } else { ProgressBar::hidden() };
@@ -130,7 +122,7 @@ fn end(bar: &mut Option<ProgressBar>) {
     }
 }
 
-impl Drop for Watch<'_, '_> {
+impl Drop for Watch<'_> {
     fn drop(&mut self) {
         end(&mut self.guessing);
         end(&mut self.judging);

@@ -4,51 +4,21 @@
 //! where there is one. The result of an earlier fit is so untouched until the new one is complete.
 
 mod lock;
+pub(super) mod names;
 mod swap;
 
 use super::request::Request;
-use super::several;
 use crate::regular::{self, Found};
 use crate::{files, output};
 use anyhow::{Context, bail, ensure};
 pub(super) use lock::Busy;
 use lock::Lock;
+use names::{CHECKPOINT, FILES, STATE, SUMMARY, is_ours};
 use pleach_fit::is_checkpoint;
 use serde_json::Value;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use swap::STAGE;
-
-/// The report of a fit, which says whether it is finished.
-pub(super) const SUMMARY: &str = "summary.json";
-/// The state of an unfinished search.
-const CHECKPOINT: &str = "checkpoint";
-/// The same of a finished one, for `--continue`.
-const STATE: &str = "search-state";
-/// What a fit writes into its folder; overlays of further views beside it.
-const FILES: [&str; 14] = [
-    "best.toml",
-    "best.png",
-    "overlay.png",
-    "render.png",
-    "individual.toml",
-    "individual.png",
-    "individual-render.png",
-    several::SHEET,
-    "mask.png",
-    "history.csv",
-    "parameters.csv",
-    SUMMARY,
-    CHECKPOINT,
-    STATE,
-];
-
-/// Whether a file of this name in a run folder is written by fits.
-fn is_ours(name: &str) -> bool {
-    FILES.contains(&name)
-        || several::is_file(name)
-        || (name.starts_with("overlay-") && name.ends_with(".png"))
-}
 
 /// What to do about what is in the folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

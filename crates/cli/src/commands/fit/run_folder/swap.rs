@@ -5,7 +5,7 @@
 //! removed, the marker gets another name, the new files are moved. After a kill at any moment the next
 //! command that looks at the folder ends what was begun.
 
-use super::{SUMMARY, is_ours};
+use super::names::{SUMMARY, is_ours};
 use crate::files;
 use crate::regular::Found;
 use anyhow::Context;

@@ -1,0 +1,167 @@
+//! A fit that is ready to run.
+
+use super::error::PrepareError;
+use super::goal_pair::GoalPair;
+use super::options::{FitOptions, Spent};
+use super::source::FitSource;
+use super::start::FitStart;
+use super::volume::Outlined;
+use super::words::{MaskFrom, Tone};
+use crate::plan::{DRAWING, Shares};
+use pleach_fit::{
+    Accuracy, Aftermath, Control, FitError, FitProblem, Fitted, GoalSettings, GoalView, GuessLibrary,
+    Unknown, fit_goal_with,
+};
+use pleach_silhouette::{GoalOptions, Polarity, View};
+use pleach_tree::species::safe_name;
+use std::path::PathBuf;
+
+/// A further picture of the goal's tree.
+#[derive(Clone, Debug)]
+pub struct FurtherPicture {
+    /// Its name in the options.
+    pub name: String,
+    /// The direction that it is said to be from.
+    pub view: View,
+    /// The picture.
+    pub goal: GoalPair,
+}
+
+/// A fit that is ready to run: its pictures are read, and what is asked for is resolved.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    /// What was asked for.
+    pub options: FitOptions,
+    /// What the species that is found is called: a safe name of a file.
+    pub name: String,
+    /// The goal's picture.
+    pub goal: GoalPair,
+    /// The direction of the goal's view.
+    pub view: View,
+    /// Further pictures, which are fitted too.
+    pub views: Vec<FurtherPicture>,
+    /// Further pictures, which are scored and not fitted.
+    pub holdout_views: Vec<FurtherPicture>,
+    /// Height of the tree in metres: what was given, or what follows from a known frame.
+    pub height: f64,
+    /// Whether a first guess looks for leaves.
+    pub detects_leaves: bool,
+    /// What is fitted.
+    pub problem: FitProblem,
+    /// How.
+    pub settings: GoalSettings,
+    shares: Option<Shares>,
+}
+
+impl FitOptions {
+    /// Reads the pictures of `source`, and resolves the options against them.
+    ///
+    /// # Errors
+    /// A [`PrepareError`]: whatever can be refused is refused here, before the fit.
+    pub fn prepare(&self, source: &FitSource) -> Result<Prepared, PrepareError> {
+        self.prepare_after(source, &Spent::default())
+    }
+
+    /// The same of a fit that goes on from where another ended that has `spent` so much.
+    ///
+    /// # Errors
+    /// As [`FitOptions::prepare`].
+    pub fn prepare_after(&self, source: &FitSource, spent: &Spent) -> Result<Prepared, PrepareError> {
+        let FitStart { species, foliage, detects_leaves, mut settings, shares, .. } = self.start(source)?;
+        let goal = self.goal(source)?;
+        let height = match self.frame {
+            Some(frame) => frame.meters_per_pixel * goal.full.height_in_pixels(),
+            None => self.height,
+        };
+        let view = self.view.unwrap_or_default().view();
+        let accuracy = if self.frame.is_some() { Accuracy::Exact } else { Accuracy::Pixel };
+        let own = GoalView::new(goal.working.bitmap.clone(), view, goal.working.frame(height));
+        let mut goals = vec![GoalView { accuracy, ..own }];
+        let further = |one: &super::direction::FurtherView| -> Result<FurtherPicture, PrepareError> {
+            let goal = GoalPair::read(&source.picture(&one.picture), GoalOptions::default(), self.size)?;
+            Ok(FurtherPicture { name: one.picture.clone(), view: one.direction.view(), goal })
+        };
+        let views: Vec<FurtherPicture> = self.views.iter().map(further).collect::<Result<_, _>>()?;
+        for (picture, asked) in views.iter().zip(&self.views) {
+            let working = &picture.goal.working;
+            let unknown = Unknown { azimuth: asked.azimuth, frame: self.free_frame };
+            let view = GoalView::from_picture(working.bitmap.clone(), picture.view, working.frame(height));
+            goals.push(GoalView { unknown, ..view });
+        }
+        let holdout_views = self.holdout_views.iter().map(further).collect::<Result<_, _>>()?;
+        let mut problem = FitProblem { start: species, goals, foliage };
+        if let Some(volume) = &self.volume_from {
+            let outlined = Outlined::new(volume, source, &problem.goals, height)?;
+            problem.start = outlined.species.clone();
+            let individual = settings.individual;
+            settings = GoalSettings { individual, ..outlined.plan(settings.search)? };
+        }
+        add(&mut settings, spent);
+        let prepared = Prepared {
+            options: self.after(spent),
+            name: safe_name(&self.name.clone().unwrap_or_else(|| source.species_name())),
+            goal,
+            view,
+            views,
+            holdout_views,
+            height,
+            detects_leaves,
+            problem,
+            settings,
+            shares,
+        };
+        Ok(prepared.with_aftermath(DRAWING, DRAWING))
+    }
+
+    /// The goal's picture.
+    fn goal(&self, source: &FitSource) -> Result<GoalPair, PrepareError> {
+        let options = GoalOptions {
+            mask: match &self.mask {
+                Some(MaskFrom::File(file)) => Some(PathBuf::from(file)),
+                Some(MaskFrom::Auto) | None => None,
+            },
+            polarity: match self.tree {
+                Tone::Auto => Polarity::Auto,
+                Tone::Dark => Polarity::DarkTree,
+                Tone::Light => Polarity::LightTree,
+            },
+            ground_row: self.frame.map_or(self.ground_row, |frame| Some(frame.ground_row)),
+            axis_column: self.frame.map_or(self.axis_column, |frame| Some(frame.axis_column)),
+            ..GoalOptions::default()
+        };
+        match self.mask {
+            Some(MaskFrom::Auto) => GoalPair::of_photograph(&source.goal, options, self.size),
+            _ => Ok(GoalPair::read(&source.goal, options, self.size)?),
+        }
+    }
+}
+
+/// Adds what earlier parts have used to the budgets of the search.
+fn add(settings: &mut GoalSettings, spent: &Spent) {
+    let budget = &mut settings.search.budget;
+    budget.timeout = budget.timeout.map(|time| time + spent.time);
+    budget.evaluations = budget.evaluations.map(|count| count + spent.evaluations);
+    budget.generations = budget.generations.map(|count| count + spent.generations);
+}
+
+impl Prepared {
+    /// The same fit for a caller that does more with its result than to draw and score it: `writing` is what it takes
+    /// for the tree of the kind and for an individual, `further` for each further individual. Where time is bounded,
+    /// the fit leaves time for it.
+    #[must_use]
+    pub fn with_aftermath(self, writing: Aftermath, further: Aftermath) -> Self {
+        let settings = match self.shares {
+            Some(shares) => shares.bound(self.settings, writing, further),
+            None => self.settings,
+        };
+        Self { settings, ..self }
+    }
+
+    /// Runs the fit; `library` keeps trees of the known species from goal to goal.
+    ///
+    /// # Errors
+    /// See [`FitError`].
+    pub fn fit(&self, library: &mut GuessLibrary, control: Control<'_>) -> Result<Fitted, FitError> {
+        fit_goal_with(&self.problem, &self.settings, library, control)
+    }
+}
