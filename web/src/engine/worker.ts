@@ -1,4 +1,5 @@
-// One instance of the library behind a message port. What it can do is in handlers.ts.
+// One instance of the library behind a message port. What it can do is in worker-fit.ts, worker-goal.ts, worker-map.ts and
+// worker-species.ts.
 import init from "../wasm/pleach_web.js";
 import type { FromWorker, Op, Ops, Progress, ToWorker } from "./protocol";
 import { fitHandlers } from "./worker-fit";

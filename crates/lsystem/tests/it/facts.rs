@@ -29,8 +29,8 @@ fn sample(system: &LSystem) -> Vec<[f64; 7]> {
     (0..100).map(|seed| measure(system, seed, None)).collect()
 }
 
-/// Means and deviations as lsystems.md has them, of 100 other seeds; a deviation of 0 is exact to the
-/// digits printed.
+/// Means and deviations that another program measured over 100 other seeds; a deviation of 0 is exact to
+/// the digits printed.
 fn agree(name: &str, sample: &[[f64; 7]], table: [(f64, f64); 7]) {
     let columns = ["symbols", "F", "stems", "knots", "leaves", "height", "width"];
     for (i, (expected, deviation)) in table.into_iter().enumerate() {
