@@ -3,8 +3,10 @@
 //! | file | what it checks |
 //! | --- | --- |
 //! | `documents.rs` | paths, links, names and options in documents are in the tree |
+//! | `floors.rs` | the map in `ARCHITECTURE.md` against the manifests; the index of decisions |
 
 mod documents;
+mod floors;
 mod markdown;
 mod tree;
 mod words;
