@@ -2,11 +2,14 @@
 //!
 //! | file | what it checks |
 //! | --- | --- |
+//! | `circles.rs` | the files of each crate use each other in one direction |
 //! | `documents.rs` | paths, links, names and options in documents are in the tree |
 //! | `floors.rs` | the map in `ARCHITECTURE.md` against the manifests; the index of decisions |
 
+mod circles;
 mod documents;
 mod floors;
 mod markdown;
 mod tree;
+mod uses;
 mod words;

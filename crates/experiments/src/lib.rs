@@ -9,11 +9,13 @@ mod fits;
 mod growth;
 mod individual;
 mod journal;
+mod kind;
 mod kinds;
 mod likeness;
 mod list;
 mod needle;
 mod outputs;
+mod part;
 mod pictured;
 mod plot;
 mod record;
@@ -29,61 +31,18 @@ mod yao;
 
 use anyhow::bail;
 use journal::Journal;
+use kind::Kind;
 use kinds::Spec;
 use outputs::Outputs;
 use pleach_console::progress::bar as progress;
 use spec::Source;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use table::Table;
 
+pub use kind::Slice;
 pub use list::{FOLDER, of as list};
+pub use part::Part;
 pub use stop::raise as stop;
-
-/// What of an experiment is run.
-#[derive(Clone, Debug, Default)]
-pub struct Part {
-    /// Only these methods, again for further ones; rows of the others stay as they are (kind treefit).
-    /// All if there are none.
-    pub methods: Vec<String>,
-    /// Go on with a run that was interrupted or killed: rows that it had finished are kept.
-    pub resume: bool,
-    /// Start over although an unfinished run has left rows.
-    pub overwrite: bool,
-}
-
-/// Which part of an experiment is checked.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Slice {
-    /// Only the first so many repetitions; all if it is not said.
-    pub repetitions: Option<u64>,
-    /// Only up to this many evaluations of a fit.
-    pub evaluations: Option<u64>,
-}
-
-impl Slice {
-    /// So many of `all`: the first ones of a slice.
-    fn of(self, all: usize) -> usize {
-        self.repetitions.map_or(all, |n| all.min(usize::try_from(n).unwrap_or(usize::MAX)))
-    }
-}
-
-/// A kind of experiments.
-trait Kind {
-    /// The columns of its results.
-    ///
-    /// # Errors
-    /// If they cannot be told, a mistake in the kind.
-    fn columns(&self) -> anyhow::Result<Vec<String>>;
-
-    /// What it writes beside the results, and what it reads: paths in and from `folder`.
-    fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>);
-
-    /// Makes the rows.
-    fn rows(&self, folder: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()>;
-
-    /// Makes plots and pictures of a whole run, and a report.
-    fn report(&self, folder: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String>;
-}
 
 impl Spec {
     fn kind(&self) -> &dyn Kind {

@@ -1,8 +1,9 @@
 //! The recursion, as a stack of stems that wait.
 
+use crate::choices::{Dimensions, ThicknessRule};
 use crate::count::{self, MIN_LENGTH};
 use crate::frame::{Angle, Frame};
-use crate::model::{Dimensions, Model, ThicknessRule};
+use crate::model::Model;
 use crate::purpose::{APICAL, AZIMUTH, COUNT, DAUGHTER, DROP, LEAF, LEAN, LEAN_AZIMUTH, POLAR, SCALE};
 use glam::DVec3;
 use pleach_tree::{Address, Foliage, GrowError, Growth, Key, Knot, Leaf, Spread, Stem, StemKind, Tree};

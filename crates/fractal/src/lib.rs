@@ -7,6 +7,7 @@
 //! | module | idea |
 //! | --- | --- |
 //! | `params` | the numbers, declared once |
+//! | `choices` | parameters that are one of a few words |
 //! | `model` | the numbers as a generator wants them |
 //! | [`frame`] | where a branch points, and how its daughters' azimuths are counted |
 //! | [`noise`] | the two laws of chance |
@@ -14,6 +15,7 @@
 //! | `grow` | the recursion, as a stack |
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
+mod choices;
 mod count;
 mod family;
 pub mod frame;

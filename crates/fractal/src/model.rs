@@ -1,43 +1,9 @@
 //! The numbers of a tree as the generator wants them: radians, typed choices.
 
+use crate::choices::{Dimensions, ThicknessRule};
 use crate::noise::Noise;
 use crate::params::{Id, MAX_SIDES, SCALES};
 use pleach_tree::leaf_shape::LeafShape;
-
-/// Whether a tree is flat.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Dimensions {
-    /// All of it lies in the plane y = 0.
-    Plane,
-    /// Branches turn about their parents.
-    Space,
-}
-
-impl Dimensions {
-    pub(crate) const NAMES: [&str; 2] = ["plane", "space"];
-
-    pub(crate) fn from_number(number: f64) -> Self {
-        if number < 1.5 { Self::Plane } else { Self::Space }
-    }
-}
-
-/// How radii of daughters follow from their parent's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ThicknessRule {
-    /// Divided by a factor in each generation.
-    Factor,
-    /// Together the daughters have the cross-section of their parent, each in proportion to its
-    /// length squared: Leonardo da Vinci's rule (Coffey 2025, §2).
-    Area,
-}
-
-impl ThicknessRule {
-    pub(crate) const NAMES: [&str; 2] = ["factor", "area"];
-
-    pub(crate) fn from_number(number: f64) -> Self {
-        if number < 1.5 { Self::Factor } else { Self::Area }
-    }
-}
 
 /// A number and its greatest deviation.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! The numbers of a fractal tree, each declared once.
 
-use crate::model::{Dimensions, ThicknessRule};
+use crate::choices::{Dimensions, ThicknessRule};
 use crate::noise::Noise;
 use pleach_tree::leaf_shape::LeafShape;
 use pleach_tree::param::{Effect, Scale};

@@ -1,15 +1,13 @@
 //! Species from files and streams: bounded, and told apart from files that are not species.
 
-use crate::{RegistryError, read_text};
+use crate::error::{MAX_BYTES, RegistryError};
+use crate::families::{default_family, family, family_names};
 use pleach_tree::param::Problem;
 use pleach_tree::species::{Issue, safe_name};
-use pleach_tree::{Species, SpeciesError};
+use pleach_tree::{Species, SpeciesDoc, SpeciesError};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
-
-/// Largest species file that is read, in bytes: a thousand times the usual.
-pub(crate) const MAX_BYTES: u64 = 4 << 20;
 
 /// Reads a species file; a file without a name is called by its own.
 ///
@@ -52,6 +50,26 @@ fn from(reader: impl Read, path: &Path, name: &str) -> Result<Species, RegistryE
         species.name = safe_name(name);
     }
     Ok(species)
+}
+
+/// Reads the text of a species file; `origin` is for messages.
+///
+/// # Errors
+/// Every problem of the text, with line and column.
+pub fn read_text(origin: &str, text: &str) -> Result<Species, SpeciesError> {
+    let doc = SpeciesDoc::parse(origin, text)?;
+    let wrong = |issue| doc.wrong(vec![issue]);
+    let name = doc.text("generator").map_err(wrong)?.unwrap_or_else(|| default_family().name());
+    let Ok(family) = family(name) else {
+        let span = doc.get("generator").map_or(0..0, |node| node.span.clone());
+        let problem = Problem::UnknownChoice {
+            value: name.to_owned(),
+            known: family_names().into_iter().map(str::to_owned).collect(),
+            nearest: None,
+        };
+        return Err(wrong(doc.issue(span, "generator", problem)));
+    };
+    doc.species(family)
 }
 
 /// `bytes` as text, or where they stop to be any.

@@ -1,13 +1,10 @@
 //! Species files of this generator, and those that come with pleach.
 
-use crate::generator::LeastCostPath;
+use crate::generator::{LeastCostPath, NAME};
 use crate::structure::{Drawn, OUTLINE, SHAPES, Structure, VOLUMES, Volumes};
 use pleach_tree::species::{Form, Issue, Key};
 use pleach_tree::{Family, Generator, SpeciesDoc, species_files};
 use std::sync::Arc;
-
-/// The family's name in species files.
-pub(crate) const NAME: &str = "least-cost-path";
 
 /// Keys of a species file beside parameters.
 const KEYS: &[Key] = &[

@@ -1,7 +1,6 @@
 //! The growth model.
 
 use crate::budget::{Budget, Causes};
-use crate::family::NAME;
 use crate::graph::{Rules, Work};
 use crate::leaves;
 use crate::levels::{First, Levels};
@@ -15,6 +14,9 @@ use pleach_tree::{
     Tree, Workspace,
 };
 use std::sync::Arc;
+
+/// The family's name in species files.
+pub(crate) const NAME: &str = "least-cost-path";
 
 /// Trees of least-cost paths, with everything settled but the numbers.
 #[derive(Clone, Debug, Default)]

@@ -1,7 +1,7 @@
 //! A species whose volume follows the outline of a tree in pictures.
 
-use crate::family::NAME;
 use crate::generator::LeastCostPath;
+use crate::generator::NAME;
 use crate::numbers::space;
 use crate::structure::{Drawn, Structure};
 use pleach_tree::math;

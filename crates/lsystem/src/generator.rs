@@ -2,7 +2,6 @@
 
 use crate::derive::{DeriveError, Limits};
 use crate::diagnostic::Fault;
-use crate::evolve::MAX_TEXT;
 use crate::program::Command;
 use crate::syntax::{ExprKind, Grammar, ParamDecl, ParamUnit, SettingKey};
 use crate::system::{Derivation, LSystem};
@@ -15,6 +14,10 @@ use std::sync::Arc;
 
 /// The family's name in species files.
 pub(crate) const NAME: &str = "lsystem";
+
+/// Longest text of a grammar that evolves, in bytes: some ten screens. Longer ones are refused, so that rules
+/// cannot be duplicated without end.
+pub(crate) const MAX_TEXT: usize = 20_000;
 
 /// A grammar whose declared parameters are the numbers of a species.
 #[derive(Clone, Debug)]

@@ -1,4 +1,4 @@
-//! What a generator promises.
+//! What a generator promises, and how searches change its structure.
 //!
 //! Each sentence of [`Generator`]'s documentation, and of [`Family`](crate::Family)'s, is a check of the
 //! `conformance` suite, which every family passes.
@@ -10,7 +10,7 @@ use crate::leafless::Leafless;
 use crate::model::ModelId;
 use crate::param::{CheckedParams, ParamSpace, Slot};
 use crate::plant::Tree;
-use crate::variation::Variation;
+use crate::random::Key;
 use std::fmt;
 use std::sync::Arc;
 
@@ -136,4 +136,33 @@ pub trait Generator: Send + Sync + fmt::Debug {
         let _ = values;
         false
     }
+}
+
+/// What a family offers to searches that change the structure of a generator (a grammar) and not only
+/// its numbers.
+///
+/// A structure is a text that the family writes and reads. Every structure that comes out of
+/// [`Variation::fresh`], [`Variation::vary`] or [`Variation::cross`] is one that
+/// [`Variation::generator`] takes; whether its trees grow within limits is not promised. The generators
+/// of all structures that descend from one have equal parameter spaces.
+///
+/// The same arguments give the same structure.
+pub trait Variation: Send + Sync + fmt::Debug {
+    /// The structure of the generator that offers the variation.
+    fn own(&self) -> String;
+
+    /// A structure that is drawn from nothing: one that descends from [`Family::blank`](crate::Family::blank).
+    fn fresh(&self, key: Key) -> String;
+
+    /// `structure`, changed in one place or a few; the same if no change that was tried is valid.
+    fn vary(&self, structure: &str, key: Key) -> String;
+
+    /// `one` with a part of `other`; `one` if no part that was tried fits.
+    fn cross(&self, one: &str, other: &str, key: Key) -> String;
+
+    /// How long `structure` is for a reader, in words and signs.
+    fn length(&self, structure: &str) -> usize;
+
+    /// The generator with this structure; none if `structure` is not one.
+    fn generator(&self, structure: &str) -> Option<Arc<dyn Generator>>;
 }

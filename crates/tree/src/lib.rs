@@ -47,10 +47,9 @@ pub mod spline;
 pub mod stats;
 pub mod trig;
 pub mod turtle;
-mod variation;
 
 pub use fnv::Fnv;
-pub use generator::Generator;
+pub use generator::{Generator, Variation};
 pub use grow_error::{Blame, Conflict, GrowError};
 pub use growth::{Foliage, Growth, Limits, Workspace};
 pub use individual::{Address, Draw, Draws, Individual, Spread};
@@ -61,4 +60,3 @@ pub use plant::{Blob, Knot, Leaf, MalformedTree, Parts, Stem, StemKind, Tree};
 pub use random::Key;
 pub use species::{Family, Species, SpeciesDoc, SpeciesError};
 pub use stats::TreeStats;
-pub use variation::Variation;

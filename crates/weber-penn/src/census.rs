@@ -6,7 +6,7 @@
 
 use crate::budget::{Budget, CHILD_STEPS, Cause, Exceeded, POINT_STEPS};
 use crate::children::{self, Bearing};
-use crate::grow::{Buffers, GrowContext};
+use crate::context::{Buffers, GrowContext};
 use crate::leaves;
 use crate::path::{fork_index, forks_at};
 use crate::spacing::{Spacing, places};

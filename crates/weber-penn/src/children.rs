@@ -3,7 +3,7 @@
 //! Weber and Penn 1995, §4.3; Hewitt 2017, §3.2.1 *Branch Distribution*.
 
 use crate::budget::{CHILD_STEPS, Cause, Exceeded};
-use crate::grow::{Buffers, GrowContext};
+use crate::context::{Buffers, GrowContext};
 use crate::model::Model;
 use crate::purpose;
 use crate::radius::Profile;

@@ -8,6 +8,7 @@ use crate::budget::{Budget, Cause, Exceeded, POINT_STEPS, SOLIDS_A_STEP, TRIAL_S
 use crate::census;
 use crate::certain;
 use crate::children;
+use crate::context::{Buffers, GrowContext};
 use crate::leaves;
 use crate::model::Model;
 use crate::path::{Forks, PathPoint, lay_out, stretch, walk};
@@ -36,26 +37,6 @@ pub(crate) struct Scratch {
     forked_stems: Vec<StemSpec>,
     children: Vec<StemSpec>,
     sites: Vec<DVec2>,
-}
-
-/// One growth of one tree: what does not change while it grows.
-#[derive(Clone, Copy)]
-pub(crate) struct GrowContext<'a> {
-    pub(crate) model: &'a Model,
-    surroundings: &'a Surroundings,
-    pub(crate) growth: &'a Growth<'a>,
-    /// Whether trunks are pruned, and not their branches alone.
-    prunes_trunks: bool,
-}
-
-/// The tree being grown and the stacks that growing it needs.
-pub(crate) struct Buffers<'a> {
-    pub(crate) tree: &'a mut Tree,
-    pub(crate) path: &'a mut Vec<PathPoint>,
-    pub(crate) forked_stems: &'a mut Vec<StemSpec>,
-    /// Stems that wait to be grown. Within a stem's own, the next to grow is the last.
-    pub(crate) children: &'a mut Vec<StemSpec>,
-    pub(crate) budget: Budget<'a>,
 }
 
 pub(crate) fn grow(

@@ -4,7 +4,7 @@
 
 use crate::budget::{Cause, Exceeded};
 use crate::children::relative_length;
-use crate::grow::{Buffers, GrowContext};
+use crate::context::{Buffers, GrowContext};
 use crate::leaf_batch::{LANES, LeafBatch, LeafSite};
 use crate::leaf_fan::{self, LeafFan};
 use crate::model::Model;

@@ -18,6 +18,7 @@ mod budget;
 mod census;
 mod certain;
 mod children;
+mod context;
 mod family;
 mod generator;
 mod grow;

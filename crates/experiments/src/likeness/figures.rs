@@ -2,9 +2,10 @@
 
 use super::super::plot::{Plot, Scale};
 use super::blobs::{self, BLOBS};
+use super::line::Line;
 use super::measures::{self, MEASURES, Seen};
 use super::pictures;
-use super::walk::{Line, STEP};
+use super::walk::STEP;
 use super::{LikenessSpec, Outputs, species};
 use anyhow::Context;
 use pleach_silhouette::picture;

@@ -2,6 +2,7 @@
 
 mod blobs;
 mod figures;
+mod line;
 mod measures;
 mod pictures;
 mod rates;

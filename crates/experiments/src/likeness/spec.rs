@@ -1,6 +1,6 @@
 //! What the file of an experiment about likeness says.
 
-use super::walk::{Line, MIN_STEPS};
+use super::line::{Line, MIN_STEPS};
 use crate::spec::Source;
 use crate::within::{List, SpeciesName, Whole};
 use anyhow::Context;

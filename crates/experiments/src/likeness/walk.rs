@@ -1,6 +1,7 @@
 //! Does a measure fall steadily when one parameter walks away from the truth?
 
-use super::measures::{self, MEASURES, Seen, Values};
+use super::line::{Line, MIN_STEPS, Walk};
+use super::measures::{self, MEASURES, Seen};
 use super::pictures::silhouette;
 use super::{LikenessSpec, Rows, SIDE, progress, stop};
 use pleach_silhouette::{Frame, View};
@@ -9,23 +10,8 @@ use rayon::prelude::*;
 
 /// Step of a walk, as a part of the true value.
 pub(super) const STEP: f64 = 0.1;
-/// Shorter walks say too little about order.
-pub(in super::super) const MIN_STEPS: usize = 5;
 /// Seed of all trees: only the parameter changes.
 const SEED: u64 = 1;
-
-/// Values along a walk: how many steps away, and every measure there.
-type Walk = Vec<(u32, Values)>;
-
-/// One walk of one parameter of one species.
-#[derive(Clone, Debug)]
-pub(in super::super) struct Line {
-    species: String,
-    pub(super) parameter: String,
-    /// −1 towards smaller values, 1 towards larger ones.
-    pub(super) sign: f64,
-    pub(super) walk: Walk,
-}
 
 /// All walks of `species` that are long enough and change the picture at all.
 pub(super) fn lines(species: &[Species], spec: &LikenessSpec) -> anyhow::Result<Vec<Line>> {

@@ -14,7 +14,7 @@ mod sketch;
 mod tidy;
 mod walk;
 
-use crate::generator::GrammarGenerator;
+use crate::generator::{GrammarGenerator, MAX_TEXT};
 use crate::syntax::Grammar;
 use crate::system::LSystem;
 use draws::Draws;
@@ -24,9 +24,6 @@ use std::sync::Arc;
 
 /// Times that a change is tried before the grammar stays as it was.
 const TRIES: u32 = 8;
-/// Longest text of a grammar that evolves, in bytes: some ten screens. What is longer is refused, so
-/// that duplication ends.
-pub(crate) const MAX_TEXT: usize = 20_000;
 
 /// Chances of changes to numbers only, to items, and to rules otherwise.
 const NUMBERS: f64 = 0.6;

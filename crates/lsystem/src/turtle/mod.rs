@@ -14,7 +14,7 @@ use crate::program::Command;
 use crate::system::Derived;
 use glam::DVec3;
 use leaves::Leaves;
-pub(crate) use pen::{Pen, Steps};
+pub(crate) use pen::{At, Pen, Steps};
 use pleach_tree::math;
 use pleach_tree::{Foliage, Key, Limits, Tree};
 use std::f64::consts::TAU;
@@ -104,7 +104,7 @@ impl Walk<'_> {
                     self.stack.push(self.pen);
                     self.begun += 1;
                     let parent = self.pen.at.branch;
-                    self.pen.at = survey::At { branch: self.begun, gap: false };
+                    self.pen.at = At { branch: self.begun, gap: false };
                     self.pen.rotation = 0.0;
                     self.pen.width *= self.steps.branch_thinning;
                     self.stems.begin(self.begun, parent);

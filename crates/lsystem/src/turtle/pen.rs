@@ -1,8 +1,8 @@
 //! The turtle with a pen: what symbols do to it.
 
-use super::survey::At;
+use crate::header::Header;
 use crate::program::{Axis, Command};
-use crate::syntax::Dialect;
+use crate::syntax::{Dialect, SettingKey};
 use glam::DVec3;
 use pleach_tree::turtle::Turtle;
 use std::f64::consts::PI;
@@ -22,6 +22,31 @@ pub(crate) struct Steps {
     pub(crate) tips: bool,
 }
 
+impl Steps {
+    /// What the header says about single steps.
+    pub(crate) fn new(header: &Header) -> Self {
+        Self {
+            scale: header.get(SettingKey::Scale),
+            step: header.get(SettingKey::Step),
+            angle: header.get(SettingKey::Angle),
+            thickness: header.get(SettingKey::Thickness),
+            thinning: header.get(SettingKey::Thinning),
+            branch_thinning: header.get(SettingKey::BranchThinning),
+            tropism: header.tropism(),
+            elasticity: header.get(SettingKey::Elasticity),
+            bendiness: header.get(SettingKey::Bendiness),
+            tips: header.get(SettingKey::Tips) > 0.5,
+        }
+    }
+}
+
+/// Which branch is drawn, and whether a gap came before the next piece.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct At {
+    pub(crate) branch: u32,
+    pub(crate) gap: bool,
+}
+
 /// What `[` saves and `]` brings back.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pen {
@@ -34,6 +59,11 @@ pub(crate) struct Pen {
 }
 
 impl Pen {
+    /// The pen before the first symbol.
+    pub(crate) fn new(header: &Header) -> Self {
+        Self { turtle: Turtle::UP, width: header.get(SettingKey::Width), rotation: 0.0, at: At::default() }
+    }
+
     /// The radius of what is drawn, metres.
     pub(crate) fn radius(&self, steps: &Steps) -> f64 {
         steps.thickness * self.width.max(0.0) * steps.scale

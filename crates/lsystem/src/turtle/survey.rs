@@ -1,8 +1,7 @@
 //! Counts the parts of a tree before any of them is made.
 
 use super::GrowFault;
-use super::pen::{Pen, Steps};
-use crate::header::Header;
+use super::pen::{At, Steps};
 use crate::program::Command;
 use crate::system::Derived;
 use pleach_tree::Limits;
@@ -29,13 +28,6 @@ const MAX_LEAVES: f64 = 10_000.0;
 /// The number of leaves that the arguments of a piece ask for.
 pub(super) fn leaves_of(values: &[f64]) -> u32 {
     values.get(1).map_or(0.0, |count| count.clamp(0.0, MAX_LEAVES)) as u32
-}
-
-/// Which branch is drawn, and whether a gap came before the next piece.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct At {
-    pub(crate) branch: u32,
-    pub(crate) gap: bool,
 }
 
 impl Survey {
@@ -92,33 +84,5 @@ impl Survey {
             self.branches.push(Branch { pieces: 0, ..last });
         }
         at.gap = false;
-    }
-}
-
-impl Steps {
-    /// What the header says about single steps.
-    pub(crate) fn new(header: &Header) -> Self {
-        use crate::syntax::SettingKey as Key;
-        Self {
-            scale: header.get(Key::Scale),
-            step: header.get(Key::Step),
-            angle: header.get(Key::Angle),
-            thickness: header.get(Key::Thickness),
-            thinning: header.get(Key::Thinning),
-            branch_thinning: header.get(Key::BranchThinning),
-            tropism: header.tropism(),
-            elasticity: header.get(Key::Elasticity),
-            bendiness: header.get(Key::Bendiness),
-            tips: header.get(Key::Tips) > 0.5,
-        }
-    }
-}
-
-impl Pen {
-    /// The pen before the first symbol.
-    pub(crate) fn new(header: &Header) -> Self {
-        use crate::syntax::SettingKey as Key;
-        let turtle = pleach_tree::turtle::Turtle::UP;
-        Self { turtle, width: header.get(Key::Width), rotation: 0.0, at: At::default() }
     }
 }

@@ -1,6 +1,6 @@
 //! What can be wrong with a goal image.
 
-use super::read::{MAX_SIDE, MIN_SIDE};
+use super::limits::{MAX_SIDE, MIN_SIDE};
 use std::io;
 use std::path::PathBuf;
 

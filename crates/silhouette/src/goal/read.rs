@@ -1,20 +1,12 @@
 //! From bytes to brightness and opacity, without trusting them.
 
 use super::error::GoalError;
+use super::limits::{MAX_BESIDE, MAX_BYTES, MAX_SIDE, MIN_SIDE};
 use super::source::{self, Encoded};
 use super::structure::{Structure, structure};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
-
-/// Largest width and height that are read, in pixels.
-pub const MAX_SIDE: u32 = 8192;
-/// Smallest width and height of a goal, in pixels.
-pub const MIN_SIDE: u32 = 8;
-/// Most bytes that a file, or a decoded picture, may have: 8192² pixels of four bytes.
-pub const MAX_BYTES: u64 = 4 * MAX_SIDE as u64 * MAX_SIDE as u64;
-/// Most bytes that a PNG may carry beside its pixels, unpacked: colour profile and texts.
-pub(super) const MAX_BESIDE: u64 = 32 << 20;
 
 /// Most pixels whose colours are looked at to tell a photograph from a silhouette.
 const MAX_SAMPLES: usize = 1 << 17;

@@ -2,7 +2,7 @@
 
 use super::error::GoalError;
 use super::formats::{self, HEAD};
-use super::read::MAX_BYTES;
+use super::limits::MAX_BYTES;
 use image::ImageFormat;
 use std::fs::File;
 use std::io::Read;

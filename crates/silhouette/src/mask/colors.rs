@@ -12,6 +12,7 @@ use super::Segmentation;
 use super::backdrop::Backdrop;
 use super::mixture::Mixture;
 use super::oklab::Oklab;
+use super::photo::Photo;
 use super::score::{Foreground, Frame, MIN_DISTANCE, less};
 use crate::bitmap::Bitmap;
 use crate::pieces;
@@ -45,12 +46,12 @@ const MIN_TREE: u64 = 50;
 /// What speaks for tree by more, or by less, is firm or loose.
 const MARGIN: f64 = 1.5;
 
-/// What has other colours than the picture's edges; none if nothing has.
-pub(super) fn foreground(frame: &Frame<'_>) -> Option<Foreground> {
+/// What has other colours than the picture's edges; `None` if nothing has.
+pub(super) fn foreground(photo: &Photo) -> Option<Foreground> {
+    let frame = &Frame::new(photo);
     let small = Small::new(frame);
     let sky = Sky::new(frame);
     let (tree, rest, field) = small.separate(frame, &sky)?;
-    let photo = frame.photo;
     let (width, height) = (photo.width(), photo.height());
     let (mut ink, mut firm, mut loose) =
         (Bitmap::new(width, height), Bitmap::new(width, height), Bitmap::new(width, height));

@@ -193,7 +193,7 @@ impl Mask {
             best = best.filter(|mask| mask.confidence >= DOUBTFUL);
         }
         if options.background == Background::Auto && best.as_ref().is_none_or(|b| b.confidence < DOUBTFUL) {
-            let found = Foreground::of_other_colors(photo);
+            let found = colors::foreground(photo);
             let mask = found.and_then(|foreground| Self::by_color(&foreground, options).ok());
             let least = best.as_ref().map_or(LEAST, |best| best.confidence);
             if let Some(mask) = mask.filter(|mask| mask.confidence > least) {

@@ -4,7 +4,7 @@ use super::backdrop::{Backdrop, Sample};
 use super::horizon::{Horizon, StepThreshold};
 use super::oklab::{Converter, Oklab};
 use super::photo::Photo;
-use super::{Background, MaskError, Segmentation, colors};
+use super::{Background, MaskError, Segmentation};
 use crate::bitmap::Bitmap;
 use crate::goal::ink::otsu;
 
@@ -48,11 +48,6 @@ impl Foreground {
     pub(super) const fn told(segmentation: Segmentation, ink: Bitmap, firm: Bitmap, loose: Bitmap) -> Self {
         Self { ink, horizon: None, segmentation, firm, loose }
     }
-
-    /// What has other colours than the picture's edges; none if nothing has.
-    pub(super) fn of_other_colors(photo: &Photo) -> Option<Self> {
-        colors::foreground(&Frame::of(photo))
-    }
 }
 
 /// Tells what stands out from the background, for each way in which that may be seen, the clearest horizon
@@ -61,7 +56,7 @@ pub(super) fn foregrounds(
     photo: &Photo,
     background: Background,
 ) -> impl Iterator<Item = Result<Foreground, MaskError>> + '_ {
-    let frame = Frame::of(photo);
+    let frame = Frame::new(photo);
     let (left, right) = (frame.side(0), frame.side(photo.width() - frame.width));
     let detect = |clear| Horizon::detect(&left, &right, clear);
     let mut horizons = match background {
@@ -115,7 +110,7 @@ fn foreground(frame: &Frame<'_>, horizon: Option<Horizon>) -> Result<Foreground,
     let root = u32::from(otsu(&square_roots(&histogram)).ok_or(even)?);
     let level = ((root * root / 255) as u8).max(least);
     let row = width as usize;
-    let local = Local::of(&levels, width, height, level);
+    let local = Local::new(&levels, width, height, level);
     let beyond = |part: f64| {
         Bitmap::from_fn(width, height, |x, y| {
             let least = (part * f64::from(level.max(local.half_way(x, y)))) as u8;
@@ -152,7 +147,7 @@ pub(super) struct Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
-    fn of(photo: &'a Photo) -> Self {
+    pub(super) fn new(photo: &'a Photo) -> Self {
         let side = photo.width().min(photo.height());
         let width = ((f64::from(side) * FRAME).round() as u32).clamp(1, side);
         Self { photo, converter: Converter::new(), width }
@@ -236,7 +231,7 @@ struct Local {
 }
 
 impl Local {
-    fn of(levels: &[u8], width: u32, height: u32, level: u8) -> Self {
+    fn new(levels: &[u8], width: u32, height: u32, level: u8) -> Self {
         let tile = (f64::from(width.min(height)) * TILE).ceil() as u32;
         let (columns, rows) = (width.div_ceil(tile) as usize, height.div_ceil(tile) as usize);
         let mut sums = vec![(0_u64, 0_u64); columns * rows];

@@ -6,6 +6,15 @@ use crate::random::{Key, Purpose};
 /// What draws of one stem are for.
 const RESEED: Purpose = Purpose::MAX;
 
+/// Degrees and factors of lengths have this many decimal places: as many as files write.
+const PLACES: f64 = 1e4;
+
+/// `value` to the places that files write.
+#[must_use]
+pub fn rounded(value: f64) -> f64 {
+    (value * PLACES).round() / PLACES
+}
+
 /// Other draws of one stem.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
@@ -27,6 +36,13 @@ impl Draw {
     #[must_use]
     pub fn key(&self, own: Key) -> Key {
         if self.seed == 0 { own } else { own.child(RESEED, self.seed) }
+    }
+
+    /// The same with numbers as short as a file has them, so that a tree is the one that its file grows.
+    #[must_use]
+    pub fn rounded(&self) -> Self {
+        let angle = |radians: f64| rounded(radians.to_degrees()).to_radians();
+        Self { azimuth: angle(self.azimuth), pitch: angle(self.pitch), length: rounded(self.length), ..*self }
     }
 
     /// Whether the numbers are allowed: turns of at most half a turn, a length of a tenth to ten times.
@@ -64,10 +80,16 @@ const SHARE: f64 = 0.5;
 /// Degrees that a trunk may lean from where it stands; what it does about its axis is free.
 const LEAN: f64 = 2.0;
 /// Bounds of what a species may ask for, radians and a part of the length.
-const MOST_PITCH: f64 = 0.35;
-const MOST_LENGTH: f64 = 0.25;
+const MAX_PITCH: f64 = 0.35;
+const MAX_LENGTH: f64 = 0.25;
 
 impl Spread {
+    /// The spread of `degrees` about the parent and away from its tip, and of a part of the length.
+    #[must_use]
+    pub fn from_degrees(azimuth: f64, pitch: f64, length: f64) -> Self {
+        Self { azimuth: azimuth.to_radians(), pitch: pitch.to_radians(), length }
+    }
+
     /// Of trunks: turned freely, hardly leaning. A picture shows the height of a tree, so a trunk has no other
     /// length.
     #[must_use]
@@ -82,8 +104,8 @@ impl Spread {
         let part = |varied: f64, least: f64| (SHARE * varied.abs()).max(least);
         Self {
             azimuth: part(varied.azimuth, azimuth.to_radians()).min(std::f64::consts::PI),
-            pitch: part(varied.pitch, pitch.to_radians()).min(MOST_PITCH),
-            length: part(varied.length, length).min(MOST_LENGTH),
+            pitch: part(varied.pitch, pitch.to_radians()).min(MAX_PITCH),
+            length: part(varied.length, length).min(MAX_LENGTH),
         }
     }
 

@@ -16,19 +16,12 @@
 mod address;
 mod draw;
 mod draws;
-mod generator;
-mod read;
 
 pub use address::{Address, BadStemPath, StemPath, Step};
-pub use draw::{Draw, Spread};
+pub use draw::{Draw, Spread, rounded};
 pub use draws::{Draws, Trial};
-pub(crate) use generator::WithIndividual;
-pub use read::KEYS;
 
-use crate::generator::Generator;
-use crate::species::Species;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// The draws that make one tree of a species the one that it is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -79,33 +72,5 @@ impl Individual {
     #[must_use]
     pub fn draws(&self) -> Draws {
         Draws::new(self.stems.iter().map(|(path, draw)| (path.address(), *draw)))
-    }
-}
-
-impl Species {
-    /// The same species whose tree of seed `tree_seed` is `individual`. An individual that it had before is
-    /// forgotten.
-    #[must_use]
-    pub fn with_individual(&self, tree_seed: u64, individual: Individual) -> Self {
-        let kind = self.kind();
-        let generator = if individual.is_empty() {
-            kind.generator
-        } else {
-            Arc::new(WithIndividual::new(kind.generator, tree_seed, individual)) as Arc<dyn Generator>
-        };
-        Self { generator, tree_seed: Some(tree_seed), ..kind }
-    }
-
-    /// The draws of its individual, if it has one.
-    #[must_use]
-    pub fn individual(&self) -> Option<&Individual> {
-        self.generator.individual()
-    }
-
-    /// The same species without its individual.
-    #[must_use]
-    pub fn kind(&self) -> Self {
-        let generator = self.generator.kind().unwrap_or_else(|| Arc::clone(&self.generator));
-        Self { generator, ..self.clone() }
     }
 }

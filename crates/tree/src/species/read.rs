@@ -5,10 +5,11 @@ use super::appearance::Appearance;
 use super::doc::{Node, SpeciesDoc, Value};
 use super::error::{Issue, SpeciesError};
 use super::family::Family;
-use super::key::{Form, KEYS, Key, MAX_SEED};
+use super::individual;
+use super::key::{Form, Key, MAX_SEED};
+use super::keys::KEYS;
 use super::name::check_name;
 use crate::growth::Foliage;
-use crate::individual::Individual;
 use crate::param::{Kind, ParamSpace, Problem, Shape, Slot, is_hidden, nearest};
 
 /// Names that are wrong at the top level of every file, and what would be right.
@@ -35,7 +36,7 @@ impl SpeciesDoc {
         let is_bare = kept(self.said_bare(), &mut issues).flatten().unwrap_or(false);
         let foliage = if is_bare { Foliage::None } else { Foliage::All };
         let appearance = Appearance::read(self, &mut issues);
-        let individual = Individual::read(self, &mut issues);
+        let individual = individual::read(self, &mut issues);
         if let (Some(node), None) = (self.get("individual"), tree_seed) {
             let message =
                 "is one tree of a species and says not which, expected `tree_seed` beside it".to_owned();

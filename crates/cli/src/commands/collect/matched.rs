@@ -1,32 +1,12 @@
 //! Goals, and what was found of each.
 
+use super::collected::{Collected, State};
 use super::found::{Found, Run};
-use super::other::{self, Differences};
+use super::other;
 use super::run_name;
 use crate::commands::fit::request::file_sha256;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-
-/// A goal and what there is of it.
-#[derive(Debug)]
-pub(super) struct Collected {
-    pub(super) goal: PathBuf,
-    pub(super) state: State,
-    /// Further folders with a finished fit of it.
-    pub(super) also_in: Vec<PathBuf>,
-    /// What about its fit is not as in most.
-    pub(super) differences: Differences,
-}
-
-#[derive(Debug)]
-pub(super) enum State {
-    Finished(Run),
-    /// Why, as its worker said.
-    Failed(String),
-    /// With its folder.
-    Unfinished(PathBuf),
-    Missing,
-}
 
 /// All goals.
 #[derive(Debug)]
@@ -135,10 +115,4 @@ pub(super) fn all(found: Found) -> Matched {
     goals.sort_by(|a, b| a.goal.cmp(&b.goal));
     other::compare(&mut goals);
     Matched { goals, not_asked_for: Vec::new() }
-}
-
-impl Collected {
-    const fn new(goal: PathBuf, state: State) -> Self {
-        Self { goal, state, also_in: Vec::new(), differences: Vec::new() }
-    }
 }

@@ -1,6 +1,7 @@
 //! `pleach collect`: one table of what many workers left, and what is wrong with it.
 
 mod array;
+mod collected;
 mod found;
 mod matched;
 mod other;
@@ -9,8 +10,9 @@ mod report;
 use super::fit::{list, run_name, table};
 use crate::{files, input, output};
 use anyhow::{Context, ensure};
+use collected::State;
 use found::Found;
-use matched::{Matched, State};
+use matched::Matched;
 use report::Report;
 use std::path::{Path, PathBuf};
 

@@ -1,13 +1,10 @@
 //! Fits that were made with other options, or by another version, than most.
 
-use super::matched::{Collected, State};
+use super::collected::{Collected, Differences, State};
 use crate::commands::fit::flags::flag;
 use crate::commands::fit::request::shown;
 use serde_json::Value;
 use std::collections::BTreeMap;
-
-/// For people, a phrase each.
-pub(super) type Differences = Vec<String>;
 
 /// Options that a list gives each goal, and those that follow from them.
 const OF_A_GOAL: [&str; 7] = ["height", "view", "mask", "tree", "ground_row", "axis_column", "leaves"];

@@ -1,6 +1,7 @@
 //! What is said of a collection: for people, for scripts, and whether it is complete.
 
-use super::matched::{Matched, State};
+use super::collected::State;
+use super::matched::Matched;
 use crate::text::shown;
 use anyhow::ensure;
 use serde::Serialize;

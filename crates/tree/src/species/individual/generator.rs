@@ -1,13 +1,13 @@
 //! A generator one of whose trees is an individual.
 
-use super::{Draws, Individual, Spread};
-use crate::generator::Generator;
+use super::table::to_toml;
+use crate::generator::{Generator, Variation};
 use crate::grow_error::{Conflict, GrowError};
 use crate::growth::{Growth, Workspace};
+use crate::individual::{Draws, Individual, Spread};
 use crate::leafless::Leafless;
 use crate::param::{CheckedParams, ParamSpace, Slot};
 use crate::plant::Tree;
-use crate::variation::Variation;
 use std::sync::Arc;
 
 /// The generator of a kind, whose tree of one seed is an individual and whose other trees are of the kind.
@@ -52,7 +52,7 @@ impl Generator for WithIndividual {
     }
 
     fn structure(&self) -> String {
-        format!("{}{}", self.kind.structure(), self.individual.to_toml())
+        format!("{}{}", self.kind.structure(), to_toml(&self.individual))
     }
 
     fn variation(&self) -> Option<&dyn Variation> {

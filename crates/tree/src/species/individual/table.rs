@@ -1,0 +1,118 @@
+//! An individual in a species file: the table `[individual]`.
+//!
+//! ```toml
+//! [individual]
+//! # stem, seed of its draws, azimuth and pitch in degrees, factor of its length
+//! stems = [
+//!   ["0/12", 7, 12.5, -3.1, 1.04],
+//!   ["0/13", 0, -8.0, 0.0, 1.0],
+//! ]
+//! ```
+
+use crate::individual::{BadStemPath, Draw, Individual, StemPath, rounded};
+use crate::param::{Problem, nearest};
+use crate::species::doc::{Node, SpeciesDoc, Value};
+use crate::species::error::Issue;
+use crate::species::key::{Form, Key};
+use std::fmt::Write as _;
+
+/// The keys of the table.
+pub(crate) const KEYS: [Key; 1] = [Key {
+    name: "stems",
+    form: Form::Stems,
+    default: "none",
+    doc: "stems with other draws: where each is from the trunk up, their seed, degrees about and away, factor of length",
+}];
+
+/// Most stems of an individual: more than any fit writes.
+const MAX_STEMS: usize = 100_000;
+
+/// The table of `individual`; empty where no stem has draws of its own.
+pub(super) fn to_toml(individual: &Individual) -> String {
+    if individual.is_empty() {
+        return String::new();
+    }
+    let mut text =
+        "\n[individual]\n# stem, seed of its draws, azimuth and pitch in degrees, factor of its length\n\
+                    stems = [\n"
+            .to_owned();
+    for (path, Draw { seed, azimuth, pitch, length }) in individual.stems() {
+        let (azimuth, pitch) = (rounded(azimuth.to_degrees()), rounded(pitch.to_degrees()));
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  [\"{path}\", {seed}, {azimuth:?}, {pitch:?}, {length:?}],");
+    }
+    text + "]\n"
+}
+
+/// The individual of `doc`, empty where it has none; what is wrong joins `issues`.
+pub(crate) fn read(doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Individual {
+    let mut individual = Individual::default();
+    let Some(node) = doc.get("individual") else { return individual };
+    let Value::Table(entries) = &node.value else {
+        issues.push(doc.wrong_type("individual", node, "a table", &node.value));
+        return individual;
+    };
+    for entry in entries {
+        let name = format!("individual.{}", entry.key);
+        match &entry.node.value {
+            _ if entry.key != KEYS[0].name => {
+                let nearest = nearest(&entry.key, KEYS.iter().map(|key| key.name));
+                issues.push(doc.issue(entry.span.clone(), &name, Problem::UnknownName { nearest }));
+            }
+            Value::List(rows) if rows.len() > MAX_STEMS => {
+                let message = format!("has {} stems, expected at most {MAX_STEMS}", rows.len());
+                issues.push(doc.issue(entry.span.clone(), &name, Problem::Conflict { message }));
+            }
+            Value::List(rows) => {
+                for node in rows {
+                    match row(doc, &name, node, &individual) {
+                        Ok((path, draw)) => individual.set(path, draw),
+                        Err(issue) => issues.push(issue),
+                    }
+                }
+            }
+            other => issues.push(doc.wrong_type(&name, &entry.node, "an array of stems", other)),
+        }
+    }
+    individual
+}
+
+/// One stem and its draws.
+fn row(doc: &SpeciesDoc, name: &str, node: &Node, before: &Individual) -> Result<(StemPath, Draw), Issue> {
+    const EXPECTED: &str = "a stem, such as [\"0/12\", 7, 12.5, -3.1, 1.04]";
+    let Value::List(cells) = &node.value else {
+        return Err(doc.wrong_type(name, node, EXPECTED, &node.value));
+    };
+    let [path, seed, azimuth, pitch, length] = &cells[..] else {
+        let problem = Problem::WrongLength { expected: 5, found: cells.len() };
+        return Err(doc.issue(node.span.clone(), name, problem));
+    };
+    let conflict =
+        |node: &Node, message: String| doc.issue(node.span.clone(), name, Problem::Conflict { message });
+    let stem: StemPath = doc
+        .text_of(name, path)?
+        .parse()
+        .map_err(|error: BadStemPath| conflict(path, format!("names no stem: {error}")))?;
+    if before.get(&stem).is_some() {
+        return Err(conflict(path, format!("has the stem {stem} twice")));
+    }
+    let within = |node: &Node, min: f64, max: f64| {
+        let value = doc.number_of(name, node)?;
+        if (min..=max).contains(&value) {
+            Ok(value)
+        } else {
+            Err(doc.issue(node.span.clone(), name, Problem::OutOfRange { value, min, max }))
+        }
+    };
+    let seed_read = within(seed, 0.0, f64::from(u32::MAX))?;
+    if seed_read.fract() != 0.0 {
+        return Err(conflict(seed, "has a seed with a fraction, expected a whole number".to_owned()));
+    }
+    let draw = Draw {
+        seed: seed_read as u32,
+        azimuth: within(azimuth, -180.0, 180.0)?.to_radians(),
+        pitch: within(pitch, -180.0, 180.0)?.to_radians(),
+        length: within(length, 0.1, 10.0)?,
+    };
+    Ok((stem, draw))
+}

@@ -1,0 +1,28 @@
+//! What the parts of a growth share.
+
+use crate::budget::Budget;
+use crate::model::Model;
+use crate::path::PathPoint;
+use crate::solid::Surroundings;
+use crate::stem::StemSpec;
+use pleach_tree::{Growth, Tree};
+
+/// One growth of one tree: what does not change while it grows.
+#[derive(Clone, Copy)]
+pub(crate) struct GrowContext<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) surroundings: &'a Surroundings,
+    pub(crate) growth: &'a Growth<'a>,
+    /// Whether trunks are pruned, and not their branches alone.
+    pub(crate) prunes_trunks: bool,
+}
+
+/// The tree being grown and the stacks that growing it needs.
+pub(crate) struct Buffers<'a> {
+    pub(crate) tree: &'a mut Tree,
+    pub(crate) path: &'a mut Vec<PathPoint>,
+    pub(crate) forked_stems: &'a mut Vec<StemSpec>,
+    /// Stems that wait to be grown. Within a stem's own, the next to grow is the last.
+    pub(crate) children: &'a mut Vec<StemSpec>,
+    pub(crate) budget: Budget<'a>,
+}
