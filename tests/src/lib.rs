@@ -1,20 +1,5 @@
-//! What the end-to-end tests share: the program, a fresh directory, and readable failures.
-//!
-//! | file in `tests/` | what belongs there |
-//! | --- | --- |
-//! | `grow.rs`, `silhouette.rs`, `fit.rs`, … | one file per command, run as a user would |
-//! | `interruption.rs` | fits that are killed or asked to stop, and go on |
-//! | `cluster.rs`, `collect.rs` | many workers at one batch, and what they leave |
-//! | `ruler.rs` | goals of ours at their own numbers, and with other margins |
-//! | `run_folder.rs` | what a fit does to the files that are there |
-//! | `pictures.rs` | pictures from pipes, in odd formats, broken off, not of a tree |
-//! | `grow_formats.rs`, `help.rs`, `shell.rs` | options of every format, help texts, standard output and shells |
-//! | `bad_input.rs` | everything that must end in a clear error |
-//! | `reference_stats.rs` | our trees against those of the reference generator |
-//! | `experiments.rs` | a slice of each experiment against its committed results |
-//! | `experiment_runs.rs` | what experiments write over and refuse, how they end and go on |
-//! | `odd_files.rs` | links, pipes and left-over files in run folders; names that terminals and spreadsheets obey |
-//! | `robustness.rs` | spoilt input under limits of memory and time |
+//! What the end-to-end tests of the program (`crates/cli/tests`) and tests of files share: the program, a fresh
+//! directory, and readable failures.
 
 pub mod tool;
 
@@ -33,7 +18,7 @@ pub fn root() -> PathBuf {
         .expect("the repository is where it was built")
 }
 
-/// The program, in the profile of these tests: cargo has built it, since they belong to its package.
+/// The program, in the profile of the test that asks: cargo has built it if the test belongs to its package.
 #[must_use]
 pub fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();

@@ -15,7 +15,7 @@ use std::collections::VecDeque;
 use std::slice;
 use std::sync::Arc;
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/it/common.rs"]
 mod common;
 
 const GOALS: [&str; 6] =

@@ -1,0 +1,168 @@
+//! Pictures as people have them: from pipes, in odd formats, broken off, and not of a tree.
+
+use pleach_tests::{Dir, Run};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+
+fn target(name: &str) -> PathBuf {
+    pleach_tests::root().join("targets").join(name)
+}
+
+/// Runs the program with bytes on its standard input.
+fn piped(dir: &Dir, args: &[&str], bytes: &[u8]) -> Run {
+    let mut command = dir.command(args);
+    let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    let mut child = child.unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let bytes = bytes.to_vec();
+    // Who refuses what it is given does not read it to its end.
+    let writer = std::thread::spawn(move || drop(input.write_all(&bytes)));
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap();
+    Run::of(format!("{args:?} with a pipe"), output)
+}
+
+const QUICK: [&str; 8] = ["--evaluations", "12", "--size", "64", "--from", "acer", "--free", "crown"];
+
+#[test]
+fn goals_come_from_standard_input() {
+    let dir = Dir::new();
+    let acer = std::fs::read(target("acer.png")).unwrap();
+    for name in ["-", "/dev/stdin"] {
+        let scores =
+            piped(&dir, &["score", name, target("acer.png").to_str().unwrap(), "--json"], &acer).json();
+        assert_eq!(scores["iou"], 1.0, "{name}");
+    }
+    let _ = piped(&dir, &[&["fit", "-"][..], &QUICK].concat(), &acer).ok();
+    assert!(dir.path("runs/stdin/best.toml").exists());
+    let text = std::fs::read_to_string(dir.path("runs/stdin/best.toml")).unwrap();
+    assert!(text.contains("stdin"), "{text}");
+    piped(&dir, &["score", "-", "-"], &acer).fails(1, &["standard input"]);
+    piped(&dir, &["score", "-", "x.png"], b"no picture").fails(1, &["standard input is not a picture"]);
+    piped(&dir, &["score", "-", "x.png"], b"").fails(1, &["standard input is not a picture"]);
+}
+
+#[test]
+fn a_jpeg_that_breaks_off_is_no_goal() {
+    let dir = Dir::new();
+    let half = pleach_tests::root().join("crates/silhouette/tests/pictures/half.jpg");
+    let half = half.to_str().unwrap();
+    dir.run(["fit", half, "--out", "run"]).fails(1, &["half.jpg", "breaks off"]);
+    dir.run(["score", half, half]).fails(1, &["half.jpg", "breaks off"]);
+    dir.run(["mask", half, "-o", "m.png"]).fails(1, &["half.jpg", "breaks off"]);
+    assert!(!dir.path("run").exists() && !dir.path("m.png").exists());
+}
+
+#[test]
+fn tiff_is_a_goal_like_any_other() {
+    let dir = Dir::new();
+    // Eight bits, one strip, black on white.
+    let picture = image::open(target("palm.png")).unwrap().to_luma8();
+    let (width, height) = picture.dimensions();
+    let mut tiff = b"II*\0\x08\0\0\0\x08\0".to_vec();
+    let entry =
+        |tag: u16, value: u32| [&tag.to_le_bytes()[..], &[4, 0, 1, 0, 0, 0], &value.to_le_bytes()].concat();
+    let pixels = picture.into_raw();
+    let length = u32::try_from(pixels.len()).unwrap();
+    for (tag, value) in
+        [(256, width), (257, height), (258, 8), (259, 1), (262, 1), (273, 110), (278, height), (279, length)]
+    {
+        tiff.extend(entry(tag, value));
+    }
+    tiff.extend([0; 4]);
+    assert_eq!(tiff.len(), 110);
+    tiff.extend(pixels);
+    let _ = dir.file("palm.tif", tiff);
+    let scores = dir.run(["score", "palm.tif", target("palm.png").to_str().unwrap(), "--json"]).json();
+    assert_eq!(scores["iou"], 1.0);
+}
+
+#[cfg(unix)]
+#[test]
+fn names_need_not_be_utf_8() {
+    use std::ffi::{OsStr, OsString};
+    use std::os::unix::ffi::OsStrExt;
+    let dir = Dir::new();
+    let name = OsStr::from_bytes(b"pal\xffm.png");
+    std::fs::copy(target("palm.png"), dir.path("").join(name)).unwrap();
+    let args = |first: &[&OsStr]| -> Vec<OsString> { first.iter().map(|a| (*a).to_owned()).collect() };
+    let score = dir.run(args(&["score".as_ref(), name, name, "--json".as_ref()])).json();
+    assert_eq!(score["iou"], 1.0);
+    let mut fit = args(&["fit".as_ref(), name]);
+    fit.extend(QUICK.map(OsString::from));
+    let _ = dir.run(fit).ok();
+    // Its folder can be typed.
+    assert!(dir.path("runs/pal\u{fffd}m/best.toml").exists());
+}
+
+#[test]
+fn a_fit_says_what_is_odd_about_its_goal_and_goes_on() {
+    let dir = Dir::new();
+    let fit = |goal: &Path| dir.run([&["fit", goal.to_str().unwrap(), "--overwrite"][..], &QUICK].concat());
+    let quiet = fit(&target("acer.png"));
+    let _ = quiet.ok();
+    assert!(!quiet.stderr().contains("warning"), "{quiet}");
+    let square = image::GrayImage::from_fn(64, 64, |x, y| {
+        image::Luma([if (16..48).contains(&x) && (16..48).contains(&y) { 0 } else { 255 }])
+    });
+    square.save(dir.path("square.png")).unwrap();
+    let odd = fit(&dir.path("square.png"));
+    let _ = odd.ok();
+    assert!(odd.stderr().contains("square.png: the shape has neither gaps nor notches"), "{odd}");
+}
+
+/// The peak of memory that the system allows is what counts here: 1.5 GB of addresses.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_colour_profile_that_unpacks_to_a_gigabyte_fits_in_less() {
+    let dir = Dir::new();
+    // Stored blocks cannot be large, so the bomb of the library's tests is made here the short way: a long
+    // run of matches in one block of fixed codes.
+    let mut bits = "110".to_owned() + "00110000";
+    // Symbol 285 is 258 bytes, distance code 0 is one byte back; 8 of them are 13 bytes.
+    let eight = "1100010100000".repeat(8);
+    bits.truncate(11);
+    // Fill to a whole byte with literals of eight bits each, then whole bytes of eight matches.
+    let mut stream = vec![0x78, 0x9c];
+    let pack = |bits: &str, out: &mut Vec<u8>, left: &mut String| {
+        left.push_str(bits);
+        let whole = left.len() / 8 * 8;
+        for byte in left.as_bytes()[..whole].chunks(8) {
+            out.push((0..8).map(|i| u8::from(byte[i] == b'1') << i).sum());
+        }
+        *left = left[whole..].to_owned();
+    };
+    let mut left = String::new();
+    pack(&bits, &mut stream, &mut left);
+    let start = stream.len();
+    pack(&eight, &mut stream, &mut left);
+    let unit = stream[start..].to_vec();
+    assert_eq!(unit.len(), 13);
+    for _ in 0..(2_u64 << 30) / (8 * 258) {
+        stream.extend_from_slice(&unit);
+    }
+    pack("00000000000000", &mut stream, &mut left);
+    let chunk = |kind: &[u8; 4], data: &[u8]| {
+        let mut crc = u32::MAX;
+        for byte in kind.iter().chain(data) {
+            crc ^= u32::from(*byte);
+            for _ in 0..8 {
+                crc = if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
+            }
+        }
+        let length = u32::try_from(data.len()).unwrap();
+        [&length.to_be_bytes(), kind.as_slice(), data, &(!crc).to_be_bytes()].concat()
+    };
+    let png = std::fs::read(target("acer.png")).unwrap();
+    let profile = chunk(b"iCCP", &[b"profile\0\0", &stream[..]].concat());
+    let bomb = dir.file("bomb.png", [&png[..33], &profile, &png[33..]].concat());
+    let script = format!(
+        "ulimit -v 1500000; exec {} score {} {} --json --threads 1",
+        pleach_tests::program().display(),
+        bomb.display(),
+        target("acer.png").display()
+    );
+    let output = std::process::Command::new("sh").args(["-c", &script]).output().unwrap();
+    assert_eq!(Run::of("a bomb".to_owned(), output).json()["iou"], 1.0);
+}

@@ -1,0 +1,202 @@
+//! What is asked of a result: other seeds, and what the goal determines.
+
+use crate::common::goal_of;
+use pleach_fit::{
+    Budget, Control, EvalWorkspace, Evaluator, FIT_LIMITS, FitError, FitProblem, FitSettings, Freedom,
+    Genome, Identifiability, Objective, Score, Scored, Start, TreeSeed, fit, fresh_seeds, profile,
+    reset_unidentified, settled,
+};
+use pleach_tree::Slot;
+use std::num::NonZeroU32;
+use std::sync::atomic::AtomicBool;
+
+/// Nobody asks these to stop.
+static GO: AtomicBool = AtomicBool::new(false);
+
+fn base(problem: &FitProblem) -> &[f64] {
+    problem.start.params.values()
+}
+
+fn truth(problem: &FitProblem) -> Genome {
+    Genome::new(base(problem).to_vec(), 1)
+}
+
+fn evaluate(evaluator: &Evaluator, genome: &Genome) -> Score {
+    let mut memory: EvalWorkspace = evaluator.workspace();
+    evaluator.evaluate(genome, &mut memory)
+}
+
+#[test]
+fn several_seeds_are_judged_by_their_mean() {
+    let problem = goal_of("acer", 1, 64);
+    let one = Evaluator::new(&problem, Objective::Iou, FIT_LIMITS).unwrap();
+    let cost = |seed| evaluate(&one, &Genome { tree_seed: seed, ..truth(&problem) }).cost;
+    let mean = (cost(1) + cost(2) + cost(3)) / 3.0;
+    assert!(cost(1) == 0.0 && mean > 0.1, "only the goal's own tree fits: {mean}");
+    let three = Evaluator::new(&problem, Objective::Iou, FIT_LIMITS).unwrap();
+    let three = three.with_seeds(NonZeroU32::new(3).unwrap());
+    assert!((evaluate(&three, &truth(&problem)).cost - mean).abs() < 1e-12);
+}
+
+#[test]
+fn other_seeds_of_the_truth_are_alike_but_not_the_same() {
+    let problem = goal_of("lombardy_poplar", 1, 96);
+    let fresh = fresh_seeds(&problem, Objective::Iou, FIT_LIMITS, &truth(&problem), 8, (&GO).into())
+        .unwrap()
+        .unwrap();
+    assert_eq!(fresh.count, 8);
+    assert!((0.6..0.95).contains(&fresh.iou.mean), "{fresh:?}");
+    assert!(fresh.iou.sd > 0.001 && fresh.iou.sd < 0.1, "{fresh:?}");
+    assert!((fresh.iou.mean + fresh.cost.mean - 1.0).abs() < 1e-12);
+    // Trees that do not grow have no mean.
+    let none = pleach_tree::Limits { stems: 3, ..FIT_LIMITS };
+    assert_eq!(fresh_seeds(&problem, Objective::Iou, none, &truth(&problem), 8, (&GO).into()).unwrap(), None);
+}
+
+#[test]
+fn heights_are_determined_and_what_is_not_read_is_not_seen() {
+    let problem = goal_of("palm", 1, 96);
+    let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
+    let best = Scored { genome: truth(&problem), score: Score::from_cost(0.0) };
+    let profiles = profile(&problem, &settings, &best, 0.05, (&GO).into()).unwrap();
+    let space = problem.start.generator.space();
+    let seen = |name: &str| {
+        let slot = space.select(name).unwrap()[0];
+        profiles.iter().find(|profile| profile.slot == slot).unwrap().seen
+    };
+    assert_eq!(seen("g_scale"), Identifiability::Determined);
+    // A palm has two levels.
+    assert_eq!(seen("length[3]"), Identifiability::NotSeen);
+    assert_eq!(seen("blossom_shape"), Identifiability::NotSeen);
+
+    // What is not seen goes back to the start, and nothing else does.
+    let mut start = base(&problem).to_vec();
+    let slot = |name: &str| space.select(name).unwrap()[0];
+    start[slot("length[3]").index()] = 0.123;
+    start[slot("g_scale").index()] = 5.0;
+    let (kept, slots) =
+        reset_unidentified(&problem, &settings, &best, &profiles, &start, 0.05, (&GO).into()).unwrap();
+    assert_eq!(slots, [slot("length[3]")]);
+    assert_eq!(kept.genome.values[slot("length[3]").index()], 0.123);
+    assert_eq!(kept.genome.values[slot("g_scale").index()], base(&problem)[slot("g_scale").index()]);
+    assert_eq!(kept.score.cost, 0.0);
+}
+
+#[test]
+fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
+    let problem = goal_of("acer", 2, 64);
+    let slots: Vec<Slot> = problem.start.generator.space().size_jitters().collect();
+    assert!(slots.iter().any(|&slot| base(&problem)[slot.index()] != 0.0), "the species has them");
+    let result = |freedom: Freedom, optimizer: &str| {
+        let settings = FitSettings {
+            optimizer: optimizer.parse().unwrap(),
+            budget: Budget::evaluations(60),
+            start: Start::Lists(vec![base(&problem).to_vec()]),
+            freedom,
+            ..FitSettings::default()
+        };
+        let clock = || std::time::Duration::ZERO;
+        let stop = std::sync::atomic::AtomicBool::new(false);
+        let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
+        let kept: Vec<f64> = slots.iter().map(|&slot| best.genome.values[slot.index()]).collect();
+        (kept, settled(&problem, &settings, &best.genome).unwrap(), settings, best)
+    };
+    let (kept, told, settings, best) = result(Freedom::default(), "evolution");
+    assert!(kept.iter().all(|value| *value == 0.0) && told == slots, "{kept:?} {told:?}");
+    let profiles = profile(&problem, &settings, &best, 0.01, (&GO).into()).unwrap();
+    let unseen = |slot| profiles.iter().any(|p| p.slot == slot && p.seen == Identifiability::NotSeen);
+    assert!(slots.iter().all(|&slot| unseen(slot)));
+    // Nor do they go back to the start.
+    let (kept, _) =
+        reset_unidentified(&problem, &settings, &best, &profiles, base(&problem), 0.01, (&GO).into())
+            .unwrap();
+    assert!(slots.iter().all(|&slot| kept.genome.values[slot.index()] == 0.0));
+
+    // The dissertation's algorithm searches them, and what is fixed stays.
+    assert!(result(Freedom::default(), "hewitt").1.is_empty());
+    let fixed = Freedom { free: Vec::new(), fix: vec!["g_scale_v".to_owned()] };
+    let (kept, told, ..) = result(fixed, "evolution");
+    assert_eq!(kept[0], base(&problem)[slots[0].index()]);
+    assert!(!told.contains(&slots[0]), "{told:?}");
+}
+
+#[test]
+fn asked_to_stop_nothing_is_judged() {
+    let problem = goal_of("palm", 1, 64);
+    let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
+    let best = Scored { genome: truth(&problem), score: Score::from_cost(0.0) };
+    let stop = AtomicBool::new(true);
+    let fresh = fresh_seeds(&problem, Objective::Iou, FIT_LIMITS, &truth(&problem), 8, (&stop).into());
+    assert!(matches!(fresh, Err(FitError::Interrupted)));
+    let profiled = profile(&problem, &settings, &best, 0.05, (&stop).into());
+    assert!(matches!(profiled, Err(FitError::Interrupted)));
+    let profiles = profile(&problem, &settings, &best, 0.05, (&GO).into()).unwrap();
+    // Something that is read but not seen: the tolerance is large.
+    let all: Vec<_> =
+        profiles.into_iter().map(|p| pleach_fit::Profile { seen: Identifiability::NotSeen, ..p }).collect();
+    let start = pleach_generators::preset("acer").unwrap().params.values().to_vec();
+    let back = reset_unidentified(&problem, &settings, &best, &all, &start, 0.05, (&stop).into());
+    assert!(matches!(back, Err(FitError::Interrupted)));
+}
+
+/// Steps back are tried together, and come to the same on any number of threads.
+#[test]
+fn going_back_step_by_step_is_the_same_on_any_number_of_threads() {
+    let problem = goal_of("acer", 1, 64);
+    let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
+    let best = Scored { genome: truth(&problem), score: Score::from_cost(0.0) };
+    let space = problem.start.generator.space();
+    let all: Vec<_> = space
+        .slots()
+        .map(|slot| pleach_fit::Profile { slot, seen: Identifiability::NotSeen, rises: [[None; 2]; 2] })
+        .collect();
+    let start = pleach_generators::preset("hill_cherry").unwrap().params.values().to_vec();
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        // Room for some of the numbers and not for others.
+        pool.install(|| {
+            reset_unidentified(&problem, &settings, &best, &all, &start, 2.0, (&GO).into()).unwrap()
+        })
+    };
+    let (kept, slots) = run(1);
+    let differing = (0..space.len()).filter(|&slot| base(&problem)[slot] != start[slot]).count();
+    assert!(!slots.is_empty() && slots.len() < differing, "{} of {differing}", slots.len());
+    assert!(kept.score.cost <= 0.2 + 1e-12);
+    let evaluator = Evaluator::new(&problem, Objective::Iou, FIT_LIMITS).unwrap();
+    assert_eq!(evaluate(&evaluator, &kept.genome).cost, kept.score.cost);
+    assert!((kept.clone(), slots.clone()) == run(2) && (kept, slots) == run(8));
+}
+
+/// Pipes and beads are nobody's trees: stems taper as the start's do, or at most to a point.
+#[test]
+fn nothing_is_searched_that_nobody_would_draw() {
+    let problem = goal_of("palm", 1, 64);
+    let space = problem.start.generator.space();
+    let slot = |name: &str| space.select(name).unwrap()[0];
+    // A palm's trunk has rings and its fronds are long: fits that start there keep both.
+    assert!(
+        base(&problem)[slot("taper[0]").index()] > 2.0 && base(&problem)[slot("leaf_scale").index()] > 0.5
+    );
+    let acer = pleach_generators::preset("acer").unwrap().params.values().to_vec();
+    let most = |start: &[f64], optimizer: &str| {
+        let settings = FitSettings {
+            optimizer: optimizer.parse().unwrap(),
+            budget: Budget::evaluations(150),
+            // The second list may be anything: it is brought into the range of the first.
+            start: Start::Lists(vec![start.to_vec(), base(&problem).to_vec()]),
+            tree_seed: TreeSeed::Fixed(1),
+            ..FitSettings::default()
+        };
+        let problem = problem.with_values(start.to_vec()).unwrap();
+        let (clock, stop) = (|| std::time::Duration::ZERO, AtomicBool::new(false));
+        let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
+        let profiles = profile(&problem, &settings, &best, 0.02, (&GO).into()).unwrap();
+        assert!(profiles.iter().any(|p| p.slot == slot("taper[1]")));
+        let tapers = space.select("taper").unwrap().into_iter().map(|slot| best.genome.values[slot.index()]);
+        tapers.fold(0.0, f64::max)
+    };
+    for optimizer in ["evolution", "cma", "de"] {
+        assert!(most(&acer, optimizer) <= 1.0, "{optimizer}");
+        assert!(most(base(&problem), optimizer) <= base(&problem)[slot("taper[0]").index()], "{optimizer}");
+    }
+}

@@ -1,0 +1,17 @@
+//! Tests of the whole crate, in one program so that it is linked once; allocations are counted in another.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+mod families;
+mod grows;
+mod guess;
+mod height;
+mod individual;
+mod judged;
+mod nuisances;
+mod pole;
+mod problems;
+mod same_bits;
+mod stepwise;
+mod whole;
