@@ -4,12 +4,14 @@
 //! | --- | --- |
 //! | `circles.rs` | the files of each crate use each other in one direction |
 //! | `documents.rs` | paths, links, names and options in documents are in the tree |
+//! | `packages.rs` | what every published package has |
 //! | `floors.rs` | the map in `ARCHITECTURE.md` against the manifests; the index of decisions |
 
 mod circles;
 mod documents;
 mod floors;
 mod markdown;
+mod packages;
 mod tree;
 mod uses;
 mod words;

@@ -2,7 +2,7 @@
 
 use crate::generator::{Fractal, NAME};
 use pleach_tree::species::Issue;
-use pleach_tree::{Family, Generator, SpeciesDoc, species_files};
+use pleach_tree::{Family, Generator, SpeciesDoc};
 use std::sync::Arc;
 
 /// Reads species files of fractal trees.
@@ -31,20 +31,6 @@ impl Family for FractalFamily {
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        PRESETS
+        pleach_species::FRACTAL
     }
 }
-
-/// Name and text of each species file, in the order of the paper's figures.
-const PRESETS: &[(&str, &str)] = species_files![
-    "coffey_umbrella",
-    "coffey_fan",
-    "coffey_turned_crown",
-    "coffey_winter_oak",
-    "coffey_pine",
-    "coffey_turned_fork",
-    "coffey_long_arms",
-    "coffey_whorls",
-    "coffey_young_tree",
-    "coffey_old_tree",
-];

@@ -3,7 +3,7 @@
 use crate::generator::{LeastCostPath, NAME};
 use crate::structure::{Drawn, OUTLINE, SHAPES, Structure, VOLUMES, Volumes};
 use pleach_tree::species::{Form, Issue, Key};
-use pleach_tree::{Family, Generator, SpeciesDoc, species_files};
+use pleach_tree::{Family, Generator, SpeciesDoc};
 use std::sync::Arc;
 
 /// Keys of a species file beside parameters.
@@ -52,33 +52,6 @@ impl Family for LeastCostPathFamily {
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        PRESETS
+        pleach_species::LEAST_COST_PATH
     }
 }
-
-/// Name and text of each species file.
-const PRESETS: &[(&str, &str)] = species_files![
-    "fan_elm",
-    "vase_elm",
-    "weeping_crown",
-    "forked_apple",
-    "mop_shrub",
-    "drooping_spruce",
-    "leaning_pine",
-    "spreading_oak",
-    "tiered_fir",
-    "broom_shrub",
-    "upright_cypress",
-    "young_larch",
-    "round_maple",
-    "oval_hornbeam",
-    "tufted_acacia",
-    "taproot_elm",
-    "shallow_root_oak",
-    "tilted_tree",
-    "leafy_elm",
-    "leafy_maple",
-    "leafy_conifer",
-    "leafy_oak",
-    "leafy_willow",
-];

@@ -7,7 +7,7 @@ use crate::syntax::Span;
 use crate::system::LSystem;
 use pleach_tree::param::Problem;
 use pleach_tree::species::{Form, Issue, KEYS, Key, Value};
-use pleach_tree::{Family, Generator, SpeciesDoc, species_files};
+use pleach_tree::{Family, Generator, SpeciesDoc};
 use std::sync::Arc;
 
 /// The key of the grammar.
@@ -93,48 +93,9 @@ impl Family for LSystemFamily {
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        PRESETS
+        pleach_species::LSYSTEM
     }
 }
 
 /// Mistakes of one grammar beyond which nobody reads on.
 const MAX_TOLD: usize = 20;
-
-/// Name and text of each species file.
-const PRESETS: &[(&str, &str)] = species_files![
-    "hewitt_palm",
-    "hewitt_lombardy_poplar",
-    "hewitt_quaking_aspen",
-    "aspen_falling_profile",
-    "grammar_pine",
-    "grammar_acer",
-    "steen_tree",
-    "abop_monopodial_a",
-    "abop_monopodial_b",
-    "abop_monopodial_c",
-    "abop_monopodial_d",
-    "abop_sympodial_a",
-    "abop_sympodial_b",
-    "abop_sympodial_c",
-    "abop_sympodial_d",
-    "abop_ternary_a",
-    "abop_ternary_b",
-    "abop_ternary_c",
-    "abop_ternary_d",
-    "abop_plant_a",
-    "abop_plant_b",
-    "abop_plant_c",
-    "abop_plant_d",
-    "abop_plant_e",
-    "abop_plant_f",
-    "abop_plant_stochastic",
-    "abop_bush",
-    "abop_flowering_plant",
-    "abop_hilbert",
-    "abop_hilbert_space",
-    "abop_sierpinski",
-    "abop_gosper",
-    "abop_dragon",
-    "abop_koch_island",
-    "abop_row_of_trees",
-];

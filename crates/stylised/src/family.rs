@@ -2,7 +2,7 @@
 
 use crate::generator::{NAME, Stylised};
 use pleach_tree::species::Issue;
-use pleach_tree::{Family, Generator, SpeciesDoc, species_files};
+use pleach_tree::{Family, Generator, SpeciesDoc};
 use std::sync::Arc;
 
 /// Reads species files of stylised trees.
@@ -27,23 +27,6 @@ impl Family for StylisedFamily {
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        PRESETS
+        pleach_species::STYLISED
     }
 }
-
-/// Name and text of each species file.
-const PRESETS: &[(&str, &str)] = species_files![
-    "stylised_oak",
-    "stylised_round",
-    "stylised_birch",
-    "stylised_cherry",
-    "stylised_bonsai",
-    "stylised_baobab",
-    "stylised_poplar",
-    "stylised_willow",
-    "stylised_dead",
-    "stylised_twins",
-    "stylised_spruce",
-    "stylised_palm",
-    "stylised_bush",
-];

@@ -53,24 +53,12 @@ impl Family for WeberPennFamily {
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        PRESETS
+        pleach_species::WEBER_PENN
     }
 }
 
-/// Declares a set of species and, with the others, all files.
-macro_rules! species {
-    ($(#[$doc:meta])* pub const $set:ident: $($of_set:literal,)* others: $($other:literal,)*) => {
-        $(#[$doc])*
-        pub const $set: &[&str] = &[$($of_set),*];
-
-        /// Name and text of each file.
-        const PRESETS: &[(&str, &str)] = pleach_tree::species_files![$($of_set,)* $($other,)*];
-    };
-}
-
-species! {
-    /// The fifteen species of Hewitt's dissertation, in the order of its figures.
-    pub const HEWITT_2017:
+/// The fifteen species of Hewitt's dissertation, in the order of its figures.
+pub const HEWITT_2017: &[&str] = &[
     "quaking_aspen",
     "weeping_willow",
     "bamboo",
@@ -86,16 +74,21 @@ species! {
     "european_larch",
     "hill_cherry",
     "balsam_fir",
-    others:
-    "cambridge_oak",
-    "fan_palm",
-    "sassafras",
-    "sphere_tree",
-    "weeping_willow_o",
-}
+];
 
 /// A species that comes with pleach.
 #[must_use]
 pub fn preset(name: &str) -> Option<Species> {
     pleach_tree::species::preset(&WeberPennFamily, name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hewitts_species_come_first() {
+        let names: Vec<&str> = WeberPennFamily.presets().iter().map(|(name, _)| *name).collect();
+        assert!(names.starts_with(HEWITT_2017), "{names:?}");
+    }
 }

@@ -7,19 +7,6 @@ use crate::generator::Generator;
 use std::fmt;
 use std::sync::Arc;
 
-/// What [`Family::presets`] returns: of each name, itself and the text of `../species/NAME.toml`, seen from the
-/// file that calls this.
-///
-/// ```ignore
-/// const PRESETS: &[(&str, &str)] = pleach_tree::species_files!["palm", "acer"];
-/// ```
-#[macro_export]
-macro_rules! species_files {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../species/", $name, ".toml")))),*]
-    };
-}
-
 /// A family of generators: reads species files that name it.
 pub trait Family: Send + Sync + fmt::Debug {
     /// The name in `generator = "…"`.
