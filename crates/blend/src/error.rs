@@ -5,6 +5,7 @@ use pleach_tree::ModelId;
 
 /// Why there is no map or no blend.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BlendError {
     /// There is nothing between fewer than two species.
     #[error("a map or a blend needs at least two species, found {found}")]
@@ -85,11 +86,23 @@ pub enum BlendError {
         y: f64,
     },
     /// The decomposition failed; a bug rather than bad input.
-    #[error("the principal components could not be computed: {message}")]
-    Decomposition {
-        /// What the library said.
-        message: String,
-    },
+    #[error("the principal components could not be computed: {0}")]
+    Decomposition(DecompositionFault),
+}
+
+/// Why there are no principal components.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DecompositionFault {
+    /// A number of a row is infinite or not a number.
+    #[error("a feature is not finite")]
+    NotFinite,
+    /// There is no direction in which the rows differ.
+    #[error("all rows are alike")]
+    AllAlike,
+    /// The eigenvalue solver gave up.
+    #[error("the eigenvalue solver failed")]
+    Solver,
 }
 
 /// What `second` is called beside `first`, which it is not the same as.

@@ -53,7 +53,7 @@ pub mod plane;
 mod testing;
 
 pub use coding::{Coding, Encoding};
-pub use error::BlendError;
+pub use error::{BlendError, DecompositionFault};
 pub use landmarks::{Landmarks, Weights};
 pub use map::{Blend, BlendMap, Settings};
 pub use measures::Measure;

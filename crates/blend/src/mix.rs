@@ -10,6 +10,13 @@ use pleach_tree::Species;
 ///
 /// For many blends of the same species make [`Landmarks`] once.
 ///
+/// ```
+/// let [aspen, birch] = ["quaking_aspen", "silver_birch"].map(pleach_generators::species);
+/// let mixed = pleach_blend::mix(vec![aspen?, birch?], &[0.7, 0.3], "mixed")?;
+/// assert!(!mixed.grow(1)?.stems.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// See [`Landmarks::new`] and [`Landmarks::weights`].
 pub fn mix(species: Vec<Species>, shares: &[f64], name: &str) -> Result<Species, BlendError> {

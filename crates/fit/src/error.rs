@@ -9,6 +9,7 @@ pub type ObserverError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Why a fit could not begin or go on.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum FitError {
     /// Goals that cannot be compared with.
     #[error(transparent)]

@@ -71,6 +71,7 @@ pub struct FitProblem {
 
 /// Why a problem's goals cannot be compared with.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ProblemError {
     /// No goal at all.
     #[error("there is no goal image")]

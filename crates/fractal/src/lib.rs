@@ -4,6 +4,14 @@
 //! with chance). The declarations say what each number does; `docs/fractal.md` shows the
 //! trees.
 //!
+//! ```
+//! use pleach_fractal::FractalFamily;
+//!
+//! let species = pleach_tree::species::preset(&FractalFamily, "coffey_umbrella").unwrap();
+//! let tree = species.grow(1)?;
+//! assert!(!tree.stems.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //! | module | idea |
 //! | --- | --- |
 //! | `params` | the numbers, declared once |

@@ -1,6 +1,6 @@
 //! Which families of generators take part.
 
-use crate::{default_family, families, family, presets};
+use crate::{UnknownFamily, default_family, families, family, presets};
 use pleach_tree::Species;
 use std::str::FromStr;
 
@@ -20,15 +20,19 @@ impl Default for GeneratorChoice {
     }
 }
 
+/// A word that is neither `auto`, `all` nor the name of a family.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}, and auto for all")]
+pub struct UnknownGenerator(UnknownFamily);
+
 impl FromStr for GeneratorChoice {
-    type Err = String;
+    type Err = UnknownGenerator;
 
     fn from_str(given: &str) -> Result<Self, Self::Err> {
         if ["auto", "all"].contains(&given) {
             return Ok(Self::Auto);
         }
-        let family = family(given);
-        family.map(|family| Self::Family(family.name())).map_err(|error| format!("{error}, and auto for all"))
+        family(given).map(|family| Self::Family(family.name())).map_err(UnknownGenerator)
     }
 }
 
@@ -74,7 +78,7 @@ mod tests {
         for name in std::iter::once("auto").chain(crate::family_names()) {
             assert_eq!(name.parse::<GeneratorChoice>().unwrap().to_string(), name);
         }
-        let error = "lsystems".parse::<GeneratorChoice>().unwrap_err();
+        let error = "lsystems".parse::<GeneratorChoice>().unwrap_err().to_string();
         assert!(error.starts_with("unknown generator `lsystems`, known are weber-penn, lsystem"), "{error}");
     }
 }

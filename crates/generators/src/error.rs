@@ -8,6 +8,7 @@ pub(crate) const MAX_BYTES: u64 = 4 << 20;
 
 /// Why loading a species failed.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RegistryError {
     /// Neither a known name nor a file.
     #[error("no species and no file is called `{}`{}; `pleach species` lists the known ones", pleach_tree::param::shown(.name), suggestion(.nearest))]

@@ -1,6 +1,18 @@
 //! The registry of generators: from a species' name or file to something that grows.
 //!
 //! A new generator is one more line in [`families()`].
+//!
+//! ```
+//! let species = pleach_generators::species("aspen")?; // a name, a word that one name holds, or a file
+//! assert_eq!((species.name.as_str(), species.generator.family()), ("quaking_aspen", "weber-penn"));
+//! let tree = species.grow(1)?;
+//! assert!(tree.leaves.len() > 1_000);
+//!
+//! let text = "generator = \"fractal\"\nname = \"mine\"\n";
+//! let mine = pleach_generators::read(text.as_bytes(), "mine.toml")?;
+//! assert!(!mine.grow(1)?.stems.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod choice;
@@ -8,7 +20,7 @@ mod error;
 mod families;
 mod file;
 
-pub use choice::GeneratorChoice;
+pub use choice::{GeneratorChoice, UnknownGenerator};
 pub use error::RegistryError;
 pub use families::{UnknownFamily, default_family, families, family, family_names};
 pub use file::{read, read_file, read_text};
@@ -56,6 +68,11 @@ pub fn names_like(name: &str) -> Vec<&'static str> {
 
 /// A species by name or by file: a known name wins, then a file, then a word that only one known name
 /// holds ([`names_like`]).
+///
+/// ```
+/// let error = pleach_generators::species("aser").unwrap_err().to_string();
+/// assert!(error.contains("did you mean `acer`"), "{error}");
+/// ```
 ///
 /// # Errors
 /// See [`RegistryError`].

@@ -6,6 +6,14 @@
 //! the paths of least weight to the root become branches, and around each endpoint a smaller graph
 //! grows the next ones.
 //!
+//! ```
+//! use pleach_least_cost_path::LeastCostPathFamily;
+//!
+//! let species = pleach_tree::species::preset(&LeastCostPathFamily, "fan_elm").unwrap();
+//! let tree = species.grow(1)?;
+//! assert!(!tree.stems.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //! | module | idea |
 //! | --- | --- |
 //! | `numbers` | every parameter, declared once |

@@ -1,6 +1,27 @@
 //! L-systems: a grammar language, derivation and a turtle that grows trees.
 //!
 //! Prusinkiewicz and Lindenmayer 1990, *The Algorithmic Beauty of Plants*; Hewitt 2017, §3.1.
+//!
+//! ```
+//! use pleach_lsystem::{Derivation, LSystem};
+//!
+//! let plant = LSystem::read("plant.lsystem", "steps: 2\nangle: 25\naxiom: F\nF -> F[+F]F\n")?;
+//! let string = plant.derive(&Derivation::default())?;
+//! assert_eq!(string.to_text(), "F[+F]F[+F[+F]F]F[+F]F");
+//! assert_eq!(string.count("F"), 9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A grammar grows trees as the generator of a species ([`GrammarGenerator`], [`LSystemFamily`]):
+//!
+//! ```
+//! use pleach_lsystem::LSystemFamily;
+//!
+//! let species = pleach_tree::species::preset(&LSystemFamily, "hewitt_palm").unwrap();
+//! let tree = species.grow(7)?;
+//! assert!(!tree.stems.is_empty() && !tree.leaves.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
 mod derive;

@@ -45,6 +45,13 @@ pub struct Derived<'a> {
 impl LSystem {
     /// Reads a grammar; `origin` (a file name) is for messages.
     ///
+    /// ```
+    /// use pleach_lsystem::LSystem;
+    ///
+    /// let report = LSystem::read("bad.lsystem", "steps: 3\naxiom: A\nA -> F(\n").unwrap_err();
+    /// assert!(report.to_string().contains("bad.lsystem:3"), "{report}");
+    /// ```
+    ///
     /// # Errors
     /// Every problem that was found, with its place.
     pub fn read(origin: &str, text: &str) -> Result<Self, Report> {

@@ -41,6 +41,7 @@ pub struct Site {
 
 /// Why a forest cannot be planted.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ForestError {
     /// A side or the spacing is not a positive number.
     #[error("a forest needs positive sides and spacing, not {width} × {depth} m every {spacing} m")]

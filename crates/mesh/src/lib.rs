@@ -1,5 +1,17 @@
 //! Trees as triangles.
 //!
+//! ```
+//! use pleach_mesh::{Mesh, MeshSettings, Palette, write};
+//!
+//! let species = pleach_generators::species("acer")?;
+//! let tree = species.grow(1)?;
+//! let mesh = Mesh::new(&tree, MeshSettings::with_tolerance(0.01));
+//! println!("{} triangles", mesh.triangles());
+//! let mut file = std::io::Cursor::new(Vec::new());
+//! write::glb::write(&mut file, "acer", &tree, &Palette::new(&species, None))?;
+//! assert!(mesh.triangles() > 1_000 && file.into_inner().starts_with(b"glTF"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //! | module | idea |
 //! | --- | --- |
 //! | [`settings`] | how fine a mesh should be |

@@ -46,6 +46,16 @@ const RECIPES: [Recipe; MAX_LEVELS as usize] = [
 
 /// `count` levels of `tree`, the finest first, which is `tree` itself after `settings`. At most
 /// [`MAX_LEVELS`].
+///
+/// ```
+/// use pleach_mesh::{MeshSettings, Mesher, lod};
+///
+/// let tree = pleach_generators::species("palm")?.grow(1)?;
+/// let levels = lod::levels(&tree, MeshSettings::default(), 3);
+/// let count = |level: &lod::Level<'_>| Mesher::new(&level.tree, level.settings).count().triangles;
+/// assert!(count(&levels[0]) > count(&levels[1]) && count(&levels[1]) > count(&levels[2]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn levels(tree: &Tree, settings: MeshSettings, count: u32) -> Vec<Level<'_>> {
     (0..count.min(MAX_LEVELS)).map(|level| self::level(tree, settings, level)).collect()

@@ -67,6 +67,7 @@ pub struct Part {
 
 /// Why a mesh could not be written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MeshError {
     /// The system refused: a full disk, a closed pipe.
     #[error("{0}")]

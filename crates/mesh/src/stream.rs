@@ -10,6 +10,16 @@ use std::ops::Range;
 /// Blocks are made on rayon's threads and arrive in order; what arrives does not depend on the number
 /// of threads.
 ///
+/// ```
+/// use pleach_mesh::{MeshSettings, Mesher, send, write::obj::Obj};
+///
+/// let tree = pleach_generators::species("palm")?.grow(1)?;
+/// let mut text = Vec::new();
+/// send(&[Mesher::new(&tree, MeshSettings::default())], &mut Obj::new(&mut text, "palm", ""))?;
+/// assert!(String::from_utf8(text)?.lines().any(|line| line.starts_with("f ")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// The sink's, or [`MeshError::Empty`].
 pub fn send<S: Source>(meshes: &[S], sink: &mut dyn Sink) -> Result<(), MeshError> {

@@ -115,6 +115,9 @@ pub use pleach_tree::{
 /// What generators of your own are made of; `docs/a-generator.md` shows how.
 pub use pleach_tree::{param, random, species};
 
+#[cfg(test)]
+mod shared;
+
 #[cfg(feature = "fit")]
 mod at_full_size;
 #[cfg(feature = "fit")]

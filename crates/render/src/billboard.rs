@@ -32,6 +32,16 @@ pub struct Billboards {
 impl Billboards {
     /// Paints `trees`, each from `sides` (1 to [`MAX_SIDES`]) directions spread over half a turn, the
     /// first looking along +y.
+    ///
+    /// ```
+    /// use pleach_mesh::Palette;
+    /// use pleach_render::Billboards;
+    ///
+    /// let species = pleach_generators::species("palm")?;
+    /// let billboards = Billboards::paint(&[&species.grow(1)?], &Palette::new(&species, None), 2);
+    /// assert_eq!(billboards.cards[0].len(), 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn paint(trees: &[&Tree], palette: &Palette, sides: u32) -> Self {
         let sides = sides.clamp(1, MAX_SIDES);

@@ -1,5 +1,18 @@
 //! Pictures of trees, drawn by the processor.
 //!
+//! ```
+//! use pleach_mesh::Palette;
+//! use pleach_tree::species::Season;
+//!
+//! let species = pleach_generators::species("acer")?;
+//! let mut tree = species.grow(1)?;
+//! let palette = Palette::new(&species, Some(Season::Autumn));
+//! palette.apply_season(&mut tree);
+//! let picture = pleach_render::preview::render(&tree, &palette, 64);
+//! picture.write_png(&mut std::io::sink())?;
+//! assert_eq!((picture.width, picture.rgba.len()), (64, 64 * 64 * 4));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //! | module | idea |
 //! | --- | --- |
 //! | [`preview`] | shaded pictures without a graphics card |

@@ -1,5 +1,20 @@
 //! Silhouettes of trees: cameras, a bit-packed rasteriser, goal images and image scores.
 //!
+//! ```
+//! use pleach_silhouette::score::ScoreCard;
+//! use pleach_silhouette::{View, silhouette};
+//!
+//! let species = pleach_generators::species("acer")?;
+//! let [goal, other] = [1, 2].map(|seed| species.grow(seed).map(|tree| silhouette(&tree, View::FRONT, 64)));
+//! let card = ScoreCard::new(&other?, &goal?)?;
+//! assert!(card.iou < 1.0 && card.likeness > 0.5);
+//! println!("IoU {:.2}, likeness {:.2}", card.iou, card.likeness);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A picture of a tree is read as a [`Goal`], a photograph becomes a [`mask::Mask`] first, and a [`Rasterizer`] draws many
+//! trees in one memory.
+//!
 //! | module | idea |
 //! | --- | --- |
 //! | [`bitmap`] | one-bit pictures in 64-bit words |

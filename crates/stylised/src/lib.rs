@@ -5,6 +5,14 @@
 //! of one to five joined spheres. The report gives little of it as formulas; what had to be decided is
 //! said where it is decided.
 //!
+//! ```
+//! use pleach_stylised::StylisedFamily;
+//!
+//! let species = pleach_tree::species::preset(&StylisedFamily, "stylised_oak").unwrap();
+//! let tree = species.grow(1)?;
+//! assert!(!tree.stems.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //! | module | idea |
 //! | --- | --- |
 //! | `params` | the declarations: the report's seventeen sliders and six numbers of ours |

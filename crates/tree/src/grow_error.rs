@@ -50,6 +50,7 @@ pub enum Conflict {
 
 /// Why a tree did not grow.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GrowError {
     /// More stems than [`Limits::stems`](crate::Limits::stems).
     #[error(

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 /// Why a checkpoint was not read or written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum CheckpointError {
     /// The file could not be read or written.
     #[error("{path}: {action}: {source}")]
@@ -72,6 +73,7 @@ pub enum CheckpointError {
 
 /// What is wrong with the body of a checkpoint whose checksum is right.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BodyProblem {
     /// It does not parse.
     #[error("{0}")]

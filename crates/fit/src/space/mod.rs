@@ -37,6 +37,7 @@ pub enum TreeSeed {
 
 /// Why there is nothing to search in.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SpaceError {
     /// A pattern that names no parameter.
     #[error("`{pattern}` {problem}")]

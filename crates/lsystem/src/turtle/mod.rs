@@ -23,6 +23,7 @@ use survey::{Survey, leaves_of};
 
 /// Why a string cannot be a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GrowFault {
     /// More stems than the limit.
     #[error("the tree has too many stems")]

@@ -27,6 +27,7 @@ use stitch::Surface;
 
 /// Why a tree could not be welded.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum WeldError {
     /// The grid would be larger than memory should be.
     #[error("cells of {:.3} mm are too fine to weld this tree; larger cells", 1e3 * cell)]

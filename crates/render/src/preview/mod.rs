@@ -32,6 +32,21 @@ pub fn render(tree: &Tree, palette: &Palette, size: u32) -> Picture {
 }
 
 /// A tree ready to be looked at from many sides.
+///
+/// ```
+/// use pleach_mesh::Palette;
+/// use pleach_render::{Preview, PreviewSettings};
+///
+/// let species = pleach_generators::species("palm")?;
+/// let tree = species.grow(1)?;
+/// let preview = Preview::new(&tree, &Palette::new(&species, None), 48);
+/// let small = PreviewSettings { width: 48, height: 48, ..PreviewSettings::default() };
+/// let [front, side] = [0.0, 90.0].map(|degrees: f64| {
+///     preview.picture(&PreviewSettings { azimuth: degrees.to_radians(), ..small })
+/// });
+/// assert_ne!(front.rgba, side.rgba);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Preview<'a> {
     scene: Scene<'a>,

@@ -112,6 +112,15 @@ pub struct Goal {
 impl Goal {
     /// Reads a goal image: PNG, JPEG, WebP or TIFF, told by content, not by name.
     ///
+    /// ```
+    /// use pleach_silhouette::{Goal, GoalOptions};
+    ///
+    /// let goal = Goal::load("../../targets/palm.png", &GoalOptions::default())?;
+    /// println!("{} pixels high, {} warnings", goal.height_in_pixels(), goal.warnings.len());
+    /// assert!(goal.bitmap.ink() > 0 && goal.warnings.is_empty());
+    /// # Ok::<(), pleach_silhouette::GoalError>(())
+    /// ```
+    ///
     /// # Errors
     /// See [`GoalError`]: files that cannot be read, are not pictures, are damaged, too large, too
     /// small or of one tone, and places set by hand that are not in the picture.

@@ -136,6 +136,18 @@ const MAX_INK: f64 = 0.9;
 impl Mask {
     /// Finds the tree.
     ///
+    /// ```
+    /// use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
+    ///
+    /// // A brown trunk before a blue sky.
+    /// let photo = Photo::from_fn(60, 60, |x, y| {
+    ///     if (25..35).contains(&x) && y > 10 { [90, 60, 30, 255] } else { [120, 170, 230, 255] }
+    /// });
+    /// let mask = Mask::from_photo(&photo, &MaskOptions::default())?;
+    /// assert!(mask.bitmap.get(30, 40) && !mask.bitmap.get(5, 5));
+    /// # Ok::<(), pleach_silhouette::mask::MaskError>(())
+    /// ```
+    ///
     /// # Errors
     /// See [`MaskError`]: no tree, or a seed point that is not on one.
     pub fn from_photo(photo: &Photo, options: &MaskOptions) -> Result<Self, MaskError> {

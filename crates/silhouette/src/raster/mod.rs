@@ -59,6 +59,21 @@ pub fn silhouette(tree: &Tree, view: View, size: u32) -> Bitmap {
 }
 
 /// Draws silhouettes; keeps its memory from one to the next.
+///
+/// ```
+/// use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+/// use pleach_tree::Parts;
+///
+/// let species = pleach_generators::species("palm")?;
+/// let view = View::degrees(30.0, 10.0);
+/// let frame = Frame::automatic(&species.grow(1)?, &view, Parts::LEAFY, 64, 64);
+/// let (mut rasterizer, mut picture) = (Rasterizer::new(), Bitmap::default());
+/// for seed in 1..4 {
+///     rasterizer.draw(&species.grow(seed)?, &view, &frame, Parts::LEAFY, &mut picture);
+///     assert!(picture.ink() > 100);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Rasterizer {
     /// How finely pixels are sampled.

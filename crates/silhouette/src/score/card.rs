@@ -88,6 +88,16 @@ const BARE: f64 = 0.25;
 impl ScoreCard {
     /// Scores `image` against `goal`.
     ///
+    /// ```
+    /// use pleach_silhouette::Bitmap;
+    /// use pleach_silhouette::score::ScoreCard;
+    ///
+    /// let disc = |r: i64| Bitmap::from_fn(64, 64, |x, y| (i64::from(x) - 32).pow(2) + (i64::from(y) - 32).pow(2) < r * r);
+    /// let card = ScoreCard::new(&disc(20), &disc(28))?;
+    /// assert!((card.iou - (20.0_f64 / 28.0).powi(2)).abs() < 0.02);
+    /// # Ok::<(), pleach_silhouette::score::SizeMismatch>(())
+    /// ```
+    ///
     /// # Errors
     /// If they differ in size.
     pub fn new(image: &Bitmap, goal: &Bitmap) -> Result<Self, SizeMismatch> {

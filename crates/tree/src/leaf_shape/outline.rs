@@ -14,6 +14,7 @@ pub struct Outline {
 
 /// Why corners are not the outline of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum OutlineError {
     /// Fewer corners than a triangle, or more than [`Outline::MAX_CORNERS`].
     #[error("a leaf's outline has {count} corners, expected 3 to {max}", max = Outline::MAX_CORNERS)]

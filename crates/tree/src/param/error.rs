@@ -6,6 +6,7 @@ use std::fmt;
 /// What is wrong with one value or name. [`fmt::Display`] makes the rest of a sentence that begins
 /// with the name: `g_scale` + "is 5000, …".
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Problem {
     /// Outside the allowed range.
     OutOfRange {
@@ -78,9 +79,10 @@ pub enum Problem {
         /// The parser's words.
         message: String,
     },
-    /// Values that are each allowed and do not go together.
+    /// A rule of one family of generators, or of one key, that no other variant says; values that do not go
+    /// together. Families outside of pleach have rules of their own, so this one is a sentence.
     Conflict {
-        /// Which, and what would be right.
+        /// What is wrong, and what would be right.
         message: String,
     },
 }

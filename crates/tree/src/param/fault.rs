@@ -15,6 +15,7 @@ pub struct DeclarationError {
 
 /// What is wrong with a declaration.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Fault {
     /// Two parameters have the same name.
     #[error("is declared twice")]

@@ -31,7 +31,7 @@ pub use error::{Issue, SpeciesError};
 pub use family::Family;
 pub use key::{Form, Key, Shape};
 pub use keys::KEYS;
-pub use name::{MAX_NAME_BYTES, MAX_NAME_CHARS, check_name, safe_name};
+pub use name::{MAX_NAME_BYTES, MAX_NAME_CHARS, NameError, check_name, safe_name};
 
 use crate::generator::Generator;
 use crate::grow_error::GrowError;

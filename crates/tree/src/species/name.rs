@@ -10,28 +10,51 @@ pub const MAX_NAME_CHARS: usize = 100;
 /// Most bytes of a name: file systems allow 255 for a name with all that is appended to it.
 pub const MAX_NAME_BYTES: usize = 200;
 
+/// Why a text cannot be the name of a species. The message is the rest of a sentence that begins with the name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NameError {
+    /// It has no characters.
+    #[error("is empty; a name has 1 to {MAX_NAME_CHARS} characters")]
+    Empty,
+    /// It has more than [`MAX_NAME_CHARS`] characters or [`MAX_NAME_BYTES`] bytes.
+    #[error("is too long: a name has at most {MAX_NAME_CHARS} characters ({MAX_NAME_BYTES} bytes)")]
+    TooLong,
+    /// It is `.` or `..`.
+    #[error("is a folder, expected a name such as `my_tree`")]
+    Folder,
+    /// It has a separator of paths.
+    #[error("contains `{separator}`, expected a name such as `my_tree` and not a path")]
+    Path {
+        /// A slash or a backslash.
+        separator: char,
+    },
+    /// It has a control character or another that is not shown.
+    #[error("contains the character {}, which a name must not", .character.escape_unicode())]
+    Hidden {
+        /// The first such character.
+        character: char,
+    },
+}
+
 /// Checks that `name` can be the name of a species.
 ///
 /// # Errors
-/// What is wrong, as the rest of a sentence that begins with the name.
-pub fn check_name(name: &str) -> Result<(), String> {
+/// See [`NameError`].
+pub fn check_name(name: &str) -> Result<(), NameError> {
     if name.is_empty() {
-        return Err("is empty; a name has 1 to 100 characters".to_owned());
+        return Err(NameError::Empty);
     }
     if name.chars().count() > MAX_NAME_CHARS || name.len() > MAX_NAME_BYTES {
-        return Err(format!(
-            "is too long: a name has at most {MAX_NAME_CHARS} characters ({MAX_NAME_BYTES} bytes)"
-        ));
+        return Err(NameError::TooLong);
     }
     if name == "." || name == ".." {
-        return Err("is a folder, expected a name such as `my_tree`".to_owned());
+        return Err(NameError::Folder);
     }
     match name.chars().find(|&c| !is_fit_for_names(c)) {
         None => Ok(()),
-        Some(c) if matches!(c, '/' | '\\') => {
-            Err(format!("contains `{c}`, expected a name such as `my_tree` and not a path"))
-        }
-        Some(c) => Err(format!("contains the character {}, which a name must not", c.escape_unicode())),
+        Some(separator @ ('/' | '\\')) => Err(NameError::Path { separator }),
+        Some(character) => Err(NameError::Hidden { character }),
     }
 }
 
@@ -90,7 +113,12 @@ mod tests {
         for name in BAD {
             assert!(check_name(name).is_err(), "{name:?}");
         }
-        assert!(check_name(&"x".repeat(101)).is_err() && check_name(&"木".repeat(70)).is_err());
+        assert_eq!(check_name(""), Err(NameError::Empty));
+        assert_eq!(check_name("a/b"), Err(NameError::Path { separator: '/' }));
+        assert_eq!(check_name("two\nlines"), Err(NameError::Hidden { character: '\n' }));
+        for long in ["x".repeat(101), "木".repeat(70)] {
+            assert_eq!(check_name(&long), Err(NameError::TooLong));
+        }
         for name in ["acer", "Quaking Aspen", "Bäumchen", "木", "v1.2", "..x", "-x", &"x".repeat(100)] {
             assert_eq!(check_name(name), Ok(()), "{name:?}");
         }

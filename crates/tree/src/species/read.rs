@@ -69,8 +69,9 @@ impl SpeciesDoc {
     fn said_name(&self) -> Result<Option<&str>, Issue> {
         let Some(node) = self.get("name") else { return Ok(None) };
         let name = self.text_of("name", node)?;
-        check_name(name)
-            .map_err(|message| self.issue(node.span.clone(), "name", Problem::Conflict { message }))?;
+        check_name(name).map_err(|error| {
+            self.issue(node.span.clone(), "name", Problem::Conflict { message: error.to_string() })
+        })?;
         Ok(Some(name))
     }
 
