@@ -1,5 +1,6 @@
 // Compiles crates/web to WebAssembly and writes it, with what JavaScript needs to load it, to src/wasm.
-// Environment: CARGO_TARGET_DIR as for cargo.
+// Environment: CARGO_TARGET_DIR as for cargo; PLEACH_WASM=quick builds a larger, slower module in less time;
+// PLEACH_BINDGEN is crates/web-bindgen as it was built before.
 
 import { spawnSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, rmSync, statSync } from "node:fs";
@@ -11,6 +12,8 @@ const web = dirname(dirname(fileURLToPath(import.meta.url)));
 const root = dirname(web);
 const target = process.env.CARGO_TARGET_DIR ? resolve(process.env.CARGO_TARGET_DIR) : join(root, "target");
 const TRIPLE = "wasm32-unknown-unknown";
+const quick = process.env.PLEACH_WASM === "quick";
+const profile = quick ? "wasm-quick" : "wasm";
 
 /** Runs a program at the root of the repository; ends the build if it fails. */
 function run(program, args, more = {}) {
@@ -37,15 +40,17 @@ if (!hasTarget()) {
 
 // Vector instructions without fused ones: every browser since 2023 has them, and they round as scalar ones do.
 const RUSTFLAGS = `${process.env.RUSTFLAGS ?? ""} -C target-feature=+simd128`.trim();
-run("cargo", ["build", "--quiet", "-p", "pleach-web", "--target", TRIPLE, "--profile", "wasm"], {
+run("cargo", ["build", "--quiet", "-p", "pleach-web", "--target", TRIPLE, "--profile", profile], {
   env: { ...process.env, RUSTFLAGS },
 });
 
 const made = join(target, "web");
 rmSync(made, { recursive: true, force: true });
 mkdirSync(made, { recursive: true });
-const compiled = join(target, TRIPLE, "wasm", "pleach_web.wasm");
-run("cargo", ["run", "--quiet", "-p", "pleach-web-bindgen", "--", compiled, made]);
+const compiled = join(target, TRIPLE, profile, "pleach_web.wasm");
+const bindgen = process.env.PLEACH_BINDGEN;
+if (bindgen) run(resolve(bindgen), [compiled, made]);
+else run("cargo", ["run", "--quiet", "-p", "pleach-web-bindgen", "--", compiled, made]);
 
 // Binaryen takes another tenth off.
 const optimiser = join(
@@ -67,7 +72,7 @@ const features = [
 run(process.execPath, [
   optimiser,
   join(made, "pleach_web_bg.wasm"),
-  "-O3",
+  quick ? "-O1" : "-O3",
   "--strip-debug",
   "--strip-producers",
   ...features.map((feature) => `--enable-${feature}`),

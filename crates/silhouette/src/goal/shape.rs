@@ -1,7 +1,7 @@
 //! What in a silhouette is not as in that of a tree.
 //!
 //! The thresholds are such that nothing is said of the pictures in `targets/` and `tests/data/silhouettes`,
-//! which are of trees of many kinds, leafy and bare (`tests/warnings.rs`).
+//! which are of trees of many kinds, leafy and bare (`tests/it/warnings.rs`).
 
 use super::hollow;
 use super::warning::GoalWarning;
