@@ -3,6 +3,7 @@
 use super::draws::{Draws, rounded};
 use super::walk::{Role, exprs, literal, number};
 use crate::syntax::{Grammar, Item, SettingKey, Values};
+use pleach_tree::leaf_shape::LeafShape;
 use pleach_tree::math;
 
 /// Steps are drawn by ratio between these parts of a number, or of [`TURN`].
@@ -18,20 +19,6 @@ const MAX_NUMBER: f64 = 1000.0;
 /// Most repeats, steps and leaves that a change leads to; what was more may stay.
 const MAX_REPEATS: f64 = 40.0;
 const MAX_LEAVES: f64 = 400.0;
-/// Whole words that leaf shapes are.
-const SHAPES: [&str; 10] = [
-    "ovate",
-    "linear",
-    "cordate",
-    "maple",
-    "palmate",
-    "spiky_oak",
-    "rounded_oak",
-    "elliptic",
-    "rectangle",
-    "triangle",
-];
-
 /// Changes one number, a few, many a little, or all values of a repetition together.
 pub(super) fn vary(grammar: &mut Grammar, draws: &mut Draws) {
     let kind = draws.unit();
@@ -140,7 +127,7 @@ fn for_lists(grammar: &mut Grammar, visit: &mut dyn FnMut(&mut Vec<crate::syntax
 /// Another shape of the leaves.
 fn shape(grammar: &mut Grammar, draws: &mut Draws) {
     let setting = grammar.settings.iter_mut().find(|setting| setting.key == SettingKey::LeafShape);
-    if let (Some(setting), Some(word)) = (setting, draws.pick(&SHAPES)) {
-        setting.values = vec![super::walk::expr(crate::syntax::ExprKind::Name((*word).to_owned()))];
+    if let (Some(setting), Some(shape)) = (setting, draws.pick(&LeafShape::ALL)) {
+        setting.values = vec![super::walk::expr(crate::syntax::ExprKind::Name(shape.name().to_owned()))];
     }
 }

@@ -1,6 +1,7 @@
 //! The settings of a grammar's header.
 
 use super::{Dialect, Expr, Span};
+use pleach_tree::leaf_shape::LeafShape;
 
 /// The form of a setting's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,20 +51,16 @@ pub enum SettingKey {
     Tips,
 }
 
-/// Words of `leaf_shape`, numbered as in species files.
-const LEAF_SHAPES: &[&str] = &[
-    "default",
-    "ovate",
-    "linear",
-    "cordate",
-    "maple",
-    "palmate",
-    "spiky_oak",
-    "rounded_oak",
-    "elliptic",
-    "rectangle",
-    "triangle",
-];
+/// Words of `leaf_shape`, numbered as in species files; 0 is the default shape.
+const LEAF_SHAPES: [&str; LeafShape::ALL.len() + 1] = {
+    let mut words = ["default"; LeafShape::ALL.len() + 1];
+    let mut i = 0;
+    while i < LeafShape::ALL.len() {
+        words[LeafShape::ALL[i] as usize] = LeafShape::ALL[i].name();
+        i += 1;
+    }
+    words
+};
 
 impl SettingKey {
     /// All of them, in the order of the normal form.
@@ -114,7 +111,7 @@ impl SettingKey {
     pub const fn shape(self) -> Shape {
         match self {
             Self::Tropism => Shape::Vector,
-            Self::LeafShape => Shape::Word(LEAF_SHAPES),
+            Self::LeafShape => Shape::Word(&LEAF_SHAPES),
             Self::Tips => Shape::Word(&["bare", "leaf"]),
             _ => Shape::Number,
         }
@@ -128,7 +125,7 @@ impl SettingKey {
             Self::Angle => (-360.0, 360.0),
             Self::Bendiness => (0.0, 180.0),
             Self::Elasticity | Self::Tropism => (-1000.0, 1000.0),
-            Self::LeafShape => (0.0, 10.0),
+            Self::LeafShape => (0.0, LeafShape::ALL.len() as f64),
             Self::LeafBend | Self::Tips => (0.0, 1.0),
             Self::Thinning | Self::BranchThinning => (0.0, 10.0),
             _ => (0.0, 1e6),
@@ -147,7 +144,7 @@ impl SettingKey {
             },
             Self::Width => 0.1,
             Self::Thickness => 0.5,
-            Self::LeafShape => 8.0,
+            Self::LeafShape => LeafShape::Elliptic as u8 as f64,
             Self::LeafScale => 0.2,
             Self::Step | Self::Scale | Self::Thinning | Self::BranchThinning | Self::LeafScaleX => 1.0,
         }

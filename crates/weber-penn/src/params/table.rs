@@ -277,7 +277,7 @@ parameters! {
                 .unit(Unit::Count).scale([Count]).effect([Layout]);
         leaf_shape: LeafShape [leaf_shape] when |f| f.has_leaves() && f.model.blossom_rate < 1.0 =>
             scalar("leaves", "shape of a leaf", Kind::choice(1, LeafShape::ALL.map(LeafShape::name)), 8.0)
-                .search([(1.0, 10.0)])
+                .search([(1.0, LeafShape::ALL.len() as f64)])
                 .unit(Unit::Count);
         leaf_scale: f64 [number] when |f| f.has_leaves() && f.model.blossom_rate < 1.0 =>
             scalar("leaves", "length of a leaf", Kind::real(0.0, 100.0), 0.17)
