@@ -70,6 +70,17 @@ pub fn wait_for_progress(checkpoint: &Path) {
     }
 }
 
+/// A chunk of a PNG file: length, kind, data and checksum.
+///
+/// # Panics
+/// If `data` is longer than a chunk can be.
+#[must_use]
+pub fn png_chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
+    let checked = [kind.as_slice(), data].concat();
+    let length = u32::try_from(data.len()).expect("a chunk has less than 4 GiB");
+    [&length.to_be_bytes(), &checked[..], &crc32fast::hash(&checked).to_be_bytes()].concat()
+}
+
 /// The bytes of a file.
 ///
 /// # Panics

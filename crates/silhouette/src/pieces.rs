@@ -1,6 +1,7 @@
 //! Pieces of ink, and holes in them.
 
 use crate::bitmap::Bitmap;
+use std::cmp::Reverse;
 
 /// Visits the pixels of the piece that holds `start`, and marks them in `seen`; diagonal neighbours
 /// belong together if `diagonal`.
@@ -87,38 +88,32 @@ pub(crate) fn widened(ink: &Bitmap, reach: u32) -> Bitmap {
     out
 }
 
+/// The pieces of `grounds` with ink in them: where the first ink is, in rows from the top, and how much there is.
+fn inked(ink: &Bitmap, grounds: &Bitmap) -> Vec<((u32, u32), u64)> {
+    let mut seen = Bitmap::new(ink.width(), ink.height());
+    let mut found = Vec::new();
+    for y in 0..ink.height() {
+        for x in ink.ink_in_row(y) {
+            if !seen.get(x, y) {
+                let mut count = 0;
+                let visit = |x, y| count += u64::from(ink.get(x, y));
+                flood(|x, y| grounds.get(x, y), (x, y), true, &mut seen, visit);
+                found.push(((x, y), count));
+            }
+        }
+    }
+    found
+}
+
 /// Of the pieces of `grounds`, the one that holds `start`, or else the one with the most ink: its
-/// ink. None if `start` lies outside `grounds`, or there is no ink.
+/// ink. `None` if `start` lies outside `grounds`, or there is no ink.
 pub(crate) fn piece(ink: &Bitmap, grounds: &Bitmap, start: Option<(u32, u32)>) -> Option<Bitmap> {
-    let size = || Bitmap::new(ink.width(), ink.height());
     let start = match start {
         Some((x, y)) => grounds.get(x, y).then_some((x, y))?,
-        None => {
-            let mut seen = size();
-            let mut best = (0_u64, None);
-            for y in 0..ink.height() {
-                for x in ink.ink_in_row(y) {
-                    if seen.get(x, y) {
-                        continue;
-                    }
-                    let mut count = 0;
-                    flood(
-                        |x, y| grounds.get(x, y),
-                        (x, y),
-                        true,
-                        &mut seen,
-                        |x, y| {
-                            count += u64::from(ink.get(x, y));
-                        },
-                    );
-                    if count > best.0 {
-                        best = (count, Some((x, y)));
-                    }
-                }
-            }
-            best.1?
-        }
+        // Of equal ones the first.
+        None => inked(ink, grounds).into_iter().min_by_key(|(_, count)| Reverse(*count))?.0,
     };
+    let size = || Bitmap::new(ink.width(), ink.height());
     let (mut seen, mut out) = (size(), size());
     flood(|x, y| grounds.get(x, y), start, true, &mut seen, |x, y| out.set(x, y, ink.get(x, y)));
     Some(out)
@@ -126,27 +121,8 @@ pub(crate) fn piece(ink: &Bitmap, grounds: &Bitmap, start: Option<(u32, u32)>) -
 
 /// Ink of the pieces of `grounds`, most first.
 pub(crate) fn sizes(ink: &Bitmap, grounds: &Bitmap) -> Vec<u64> {
-    let mut seen = Bitmap::new(ink.width(), ink.height());
-    let mut sizes = Vec::new();
-    for y in 0..ink.height() {
-        for x in ink.ink_in_row(y) {
-            if seen.get(x, y) {
-                continue;
-            }
-            let mut size = 0;
-            flood(
-                |x, y| grounds.get(x, y),
-                (x, y),
-                true,
-                &mut seen,
-                |x, y| {
-                    size += u64::from(ink.get(x, y));
-                },
-            );
-            sizes.push(size);
-        }
-    }
-    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    let mut sizes: Vec<u64> = inked(ink, grounds).into_iter().map(|(_, count)| count).collect();
+    sizes.sort_unstable_by_key(|&size| Reverse(size));
     sizes
 }
 
@@ -223,7 +199,7 @@ mod tests {
         assert_eq!(piece(&ink, &grounds, Some((6, 2))), None);
         assert_eq!(piece(&Bitmap::new(9, 9), &Bitmap::new(9, 9), None), None);
         assert_eq!(sizes(&ink, &grounds), [8, 2]);
-        assert_eq!(sizes(&Bitmap::new(9, 9), &Bitmap::new(9, 9)), []);
+        assert_eq!(sizes(&Bitmap::new(9, 9), &Bitmap::new(9, 9)), Vec::<u64>::new());
     }
 
     #[test]

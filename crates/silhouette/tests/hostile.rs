@@ -6,6 +6,7 @@
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, RgbaImage};
 use pleach_silhouette::goal::{Encoded, Goal, GoalError, GoalOptions, MAX_BYTES};
 use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
+use pleach_tests::png_chunk;
 use proptest::prelude::*;
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::io::{Cursor, Read};
@@ -52,19 +53,6 @@ fn encoded(format: ImageFormat) -> Vec<u8> {
 
 const FORMATS: [ImageFormat; 4] = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::WebP, ImageFormat::Tiff];
 
-/// A chunk of a PNG.
-fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
-    let mut crc = u32::MAX;
-    for byte in kind.iter().chain(data) {
-        crc ^= u32::from(*byte);
-        for _ in 0..8 {
-            crc = if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
-        }
-    }
-    let length = u32::try_from(data.len()).unwrap();
-    [&length.to_be_bytes(), kind.as_slice(), data, &(!crc).to_be_bytes()].concat()
-}
-
 /// A zlib stream of about `blocks` × 64 kB of zeros: fixed codes, and nothing but matches of 258 bytes.
 ///
 /// RFC 1951, section 3.2.6: the literal 0 is 0011_0000; length 258 is the code of symbol 285, 1100_0101; the
@@ -108,10 +96,10 @@ fn what_a_png_carries_beside_its_pixels_does_not_unpack_to_a_gigabyte() {
     let xmp = [b"XML:com.adobe.xmp\0\x01\0\0\0", &bomb[..]].concat();
     let iptc = [b"Raw profile type iptc\0\0", &bomb[..]].concat();
     for (name, chunk) in [
-        ("profile", chunk(b"iCCP", &profile)),
-        ("text", chunk(b"zTXt", &compressed)),
-        ("metadata", chunk(b"zTXt", &iptc)),
-        ("international text", chunk(b"iTXt", &xmp)),
+        ("profile", png_chunk(b"iCCP", &profile)),
+        ("text", png_chunk(b"zTXt", &compressed)),
+        ("metadata", png_chunk(b"zTXt", &iptc)),
+        ("international text", png_chunk(b"iTXt", &xmp)),
     ] {
         let bytes = png_with(&[chunk]);
         let (result, memory) = measured(|| goal(&bytes));
@@ -122,10 +110,10 @@ fn what_a_png_carries_beside_its_pixels_does_not_unpack_to_a_gigabyte() {
     }
     // The stream is what it is meant to be: a profile that is not too large is unpacked.
     let small = [b"profile\0\0", &zeros(8)[..]].concat();
-    let (result, memory) = measured(|| goal(&png_with(&[chunk(b"iCCP", &small)])));
+    let (result, memory) = measured(|| goal(&png_with(&[png_chunk(b"iCCP", &small)])));
     assert!(result.is_ok() && memory > 8 << 20, "{memory}");
     // More text than anybody reads is an error that says so.
-    let text = chunk(b"tEXt", &[b"Comment\0", &vec![b'a'; 20 << 20][..]].concat());
+    let text = png_chunk(b"tEXt", &[b"Comment\0", &vec![b'a'; 20 << 20][..]].concat());
     let (result, memory) = measured(|| goal(&png_with(&[text.clone(), text])));
     let error = result.unwrap_err();
     assert!(matches!(error, GoalError::TooMuchBeside { .. }), "{error}");
@@ -136,8 +124,8 @@ fn what_a_png_carries_beside_its_pixels_does_not_unpack_to_a_gigabyte() {
 fn sides_that_no_picture_has_are_told_as_sizes() {
     for side in [8193_u32, 1 << 20, 1 << 31, u32::MAX] {
         let head = [&side.to_be_bytes()[..], &side.to_be_bytes(), &[8, 6, 0, 0, 0]].concat();
-        let png =
-            [&b"\x89PNG\r\n\x1a\n"[..], &chunk(b"IHDR", &head), &chunk(b"IDAT", &[0x78, 0x9c])].concat();
+        let png = [&b"\x89PNG\r\n\x1a\n"[..], &png_chunk(b"IHDR", &head), &png_chunk(b"IDAT", &[0x78, 0x9c])]
+            .concat();
         let (result, memory) = measured(|| goal(&png));
         let error = result.unwrap_err();
         assert!(matches!(error, GoalError::TooLarge { width, .. } if width == side), "{side}: {error}");
@@ -229,9 +217,11 @@ fn of_an_animation_and_of_pages_the_first_is_taken_and_that_is_said() {
     let length = u32::try_from(body.len() + 4).unwrap().to_le_bytes();
     let animated = goal(&[b"RIFF", &length[..], b"WEBP", &body].concat()).unwrap();
     // An animated PNG, and a TIFF whose first page is followed by the same again.
-    let control = chunk(b"acTL", &[0, 0, 0, 2, 0, 0, 0, 0]);
-    let frame =
-        chunk(b"fcTL", &[&[0; 4][..], &[0, 0, 0, 60, 0, 0, 0, 52], &[0; 8], &[0, 1, 0, 9, 0, 0]].concat());
+    let control = png_chunk(b"acTL", &[0, 0, 0, 2, 0, 0, 0, 0]);
+    let frame = png_chunk(
+        b"fcTL",
+        &[&[0; 4][..], &[0, 0, 0, 60, 0, 0, 0, 52], &[0; 8], &[0, 1, 0, 9, 0, 0]].concat(),
+    );
     let png = goal(&png_with(&[control, frame])).unwrap();
     let mut pages = encoded(ImageFormat::Tiff);
     let first = u32::from_le_bytes(*pages[4..].first_chunk().unwrap()) as usize;

@@ -1,7 +1,7 @@
 //! Whatever a user may throw at the program ends in a clear message and exit code 1 or 2: no panic,
 //! no hang, no memory eaten.
 
-use pleach_tests::Dir;
+use pleach_tests::{Dir, png_chunk};
 
 /// A grey PNG of one value.
 fn plain(dir: &Dir, name: &str, side: u32, value: u8) -> String {
@@ -12,24 +12,17 @@ fn plain(dir: &Dir, name: &str, side: u32, value: u8) -> String {
 
 /// The head of a PNG of 20,000 × 20,000 pixels and next to no data: what a decoder sees first.
 fn huge(dir: &Dir) -> String {
-    fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
-        let mut crc = u32::MAX;
-        for byte in kind.iter().chain(data) {
-            crc ^= u32::from(*byte);
-            for _ in 0..8 {
-                crc = if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
-            }
-        }
-        let length = u32::try_from(data.len()).unwrap();
-        [&length.to_be_bytes(), kind.as_slice(), data, &(!crc).to_be_bytes()].concat()
-    }
     let side = 20_000_u32.to_be_bytes();
     let head = [side.as_slice(), &side, &[8, 6, 0, 0, 0]].concat();
     // A deflate stream that promises more than it holds.
     let body = [0x78, 0x9c, 0x63, 0x00, 0x00];
-    let png =
-        [b"\x89PNG\r\n\x1a\n".to_vec(), chunk(b"IHDR", &head), chunk(b"IDAT", &body), chunk(b"IEND", &[])]
-            .concat();
+    let png = [
+        b"\x89PNG\r\n\x1a\n".to_vec(),
+        png_chunk(b"IHDR", &head),
+        png_chunk(b"IDAT", &body),
+        png_chunk(b"IEND", &[]),
+    ]
+    .concat();
     dir.file("huge.png", png).to_str().unwrap().to_owned()
 }
 

@@ -143,19 +143,8 @@ fn a_colour_profile_that_unpacks_to_a_gigabyte_fits_in_less() {
         stream.extend_from_slice(&unit);
     }
     pack("00000000000000", &mut stream, &mut left);
-    let chunk = |kind: &[u8; 4], data: &[u8]| {
-        let mut crc = u32::MAX;
-        for byte in kind.iter().chain(data) {
-            crc ^= u32::from(*byte);
-            for _ in 0..8 {
-                crc = if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
-            }
-        }
-        let length = u32::try_from(data.len()).unwrap();
-        [&length.to_be_bytes(), kind.as_slice(), data, &(!crc).to_be_bytes()].concat()
-    };
     let png = std::fs::read(target("acer.png")).unwrap();
-    let profile = chunk(b"iCCP", &[b"profile\0\0", &stream[..]].concat());
+    let profile = pleach_tests::png_chunk(b"iCCP", &[b"profile\0\0", &stream[..]].concat());
     let bomb = dir.file("bomb.png", [&png[..33], &profile, &png[33..]].concat());
     let script = format!(
         "ulimit -v 1500000; exec {} score {} {} --json --threads 1",

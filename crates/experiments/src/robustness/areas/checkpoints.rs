@@ -68,15 +68,10 @@ impl Checkpoints {
         let magic: Vec<&str> = head.split(' ').take(3).collect();
         let body = mutate::binary(&bytes[end + 1..], &mut draws);
         let head = format!("{} {} ", magic.join(" "), body.len());
-        let checksum = checksum(&[head.as_bytes(), &body].concat());
+        // Of the header up to it and of the body.
+        let checksum = crc32fast::hash(&[head.as_bytes(), &body].concat());
         (optimizer, [format!("{head}{checksum:08x}\n").as_bytes(), &body].concat(), true)
     }
-}
-
-/// The CRC-32 of the header up to it and of the body, which checkpoints carry.
-fn checksum(bytes: &[u8]) -> u32 {
-    let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
-    !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
 }
 
 /// A search to so many evaluations that saves itself in `file`, and goes on from there if asked to.
