@@ -3,7 +3,7 @@
 use crate::{input, output};
 use anyhow::ensure;
 use pleach_silhouette::goal::{Goal, GoalOptions};
-use pleach_silhouette::score::{Likeness, ScoreCard};
+use pleach_silhouette::score::ScoreCard;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
@@ -46,26 +46,14 @@ impl Score {
 
 /// The score card as a table.
 pub(crate) fn card(scores: &ScoreCard) -> String {
-    let row = |name: &str, value: f64, beside: String| vec![name.to_owned(), format!("{value:.4}"), beside];
-    let rows = vec![
-        row("likeness", scores.likeness, parts(&scores.likeness_parts)),
-        row("IoU", scores.iou, format!("best single ellipse {:.4}", scores.best_ellipse_iou)),
-        row("pixel accuracy", scores.pixel_accuracy, format!("empty picture {:.4}", scores.empty_accuracy)),
-        row("Dice", scores.dice, String::new()),
-        row("boundary F", scores.boundary_f, String::new()),
-        row("blurred IoU", scores.blurred_iou.sixteenth, "blurred by 1/16 of the height".to_owned()),
-        row("", scores.blurred_iou.thirty_second, "1/32".to_owned()),
-        row("", scores.blurred_iou.sixty_fourth, "1/64".to_owned()),
-        row(
-            "Chamfer",
-            scores.chamfer,
-            "mean distance of the outlines, in image heights; 0 is best".to_owned(),
-        ),
-    ];
+    let mut last = "";
+    let shown = ScoreCard::COLUMNS.iter().filter(|column| !column.is_baseline);
+    let rows: Vec<Vec<String>> = shown
+        .map(|column| {
+            let words = if column.words == last { "" } else { column.words };
+            last = column.words;
+            vec![words.to_owned(), format!("{:.4}", (column.value)(scores)), (column.note)(scores)]
+        })
+        .collect();
     output::table(&rows, &[1])
-}
-
-fn parts(likeness: &Likeness) -> String {
-    let parts = Likeness::PARTS.iter().zip(likeness.parts());
-    parts.map(|(name, part)| format!("{name} {part:.2}")).collect::<Vec<_>>().join(", ")
 }

@@ -5,7 +5,7 @@ use super::distance::squared_distances;
 use super::ellipse::best_ellipse_iou;
 use super::likeness::Likeness;
 use crate::bitmap::Bitmap;
-use pleach_tree::math;
+use pleach_plant::math;
 use serde::Serialize;
 
 /// The scores of a picture against a goal of the same size. The names are those of the JSON.

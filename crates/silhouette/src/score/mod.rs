@@ -5,6 +5,7 @@
 
 mod blur;
 mod card;
+mod columns;
 mod distance;
 mod ellipse;
 pub mod fast;
@@ -12,5 +13,6 @@ pub mod likeness;
 
 pub use blur::{Blurred, blob, blurred_iou};
 pub use card::{BlurredIou, Crown, ScoreCard, SizeMismatch};
+pub use columns::ScoreColumn;
 pub use ellipse::{best_ellipse, best_ellipse_iou};
 pub use likeness::Likeness;

@@ -1,21 +1,13 @@
 //! The table of many fits: a row for each goal, from the summaries in the run folders.
 
 use crate::text;
+use pleach::ScoreCard;
 use serde_json::Value;
 use std::path::Path;
 
-/// Columns of the summary and where in `summary.json` they come from; after them come the two that
-/// depend on the clock.
-const COLUMNS: [(&str, &str); 31] = [
-    ("likeness", "/likeness"),
-    ("iou", "/iou"),
-    ("best_ellipse_iou", "/best_ellipse_iou"),
-    ("pixel_accuracy", "/pixel_accuracy"),
-    ("empty_accuracy", "/empty_accuracy"),
-    ("dice", "/dice"),
-    ("boundary_f", "/boundary_f"),
-    ("blurred_iou_16", "/blurred_iou/16"),
-    ("chamfer", "/chamfer"),
+/// Columns of the summary after those of the score card, and where in `summary.json` they come from; after them
+/// come the two that depend on the clock.
+const COLUMNS: [(&str, &str); 22] = [
     ("fresh_likeness_mean", "/fresh_seeds/likeness/mean"),
     ("fresh_likeness_sd", "/fresh_seeds/likeness/sd"),
     ("fresh_iou_mean", "/fresh_seeds/iou/mean"),
@@ -50,8 +42,9 @@ pub(in crate::commands) const REASON: &str = "reason";
 pub(in crate::commands) const FAILED: &str = "failed";
 const FINISHED: &str = "finished";
 
-fn columns() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
-    COLUMNS.iter().chain(&WALL_COLUMNS)
+fn columns() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let scores = ScoreCard::COLUMNS.into_iter().map(|column| (column.name, column.pointer));
+    scores.chain(COLUMNS).chain(WALL_COLUMNS)
 }
 
 /// The first row.
