@@ -2,8 +2,8 @@
 
 use crate::coding::{Code, Coding, Encoding};
 use crate::error::BlendError;
+use pleach_tree::Appearance;
 use pleach_tree::param::Effect;
-use pleach_tree::species::Appearance;
 use pleach_tree::{CheckedParams, ParamSpace, Slot, Species};
 use std::sync::Arc;
 
@@ -260,7 +260,7 @@ impl Landmarks {
     }
 
     /// A species called `name` with these parameters, and an appearance
-    /// [blended](pleach_tree::species::Appearance::blend) by the weights: everything else beside the
+    /// [blended](pleach_tree::Appearance::blend) by the weights: everything else beside the
     /// numbers is that of the landmark with the largest weight.
     #[must_use]
     pub fn species_of(&self, weights: &Weights, params: CheckedParams, name: &str) -> Species {

@@ -14,7 +14,6 @@ use pleach_mesh::Palette;
 use pleach_render::preview::Background;
 use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_silhouette::goal::{Goal, GoalOptions};
-use pleach_tree::species;
 use std::path::Path;
 
 /// Goal, what is written below it, and the species whose colours the fit gets: silhouettes have none.
@@ -95,9 +94,9 @@ fn fitted(path: &str, like: &str, further: u64) -> anyhow::Result<Picture> {
     let seed = species.tree_seed.context("a fit has a seed")? + further;
     let mut tree = species.grow(seed)?;
     like.clone_into(&mut species.name);
-    let palette = Palette::new(&species, None);
+    let palette = Palette::new(&species.appearance, None);
     palette.apply_season(&mut tree);
-    let white = Background::Plain(species::Color([255; 3]));
+    let white = Background::Plain(pleach_tree::Color([255; 3]));
     // As level as the goal.
     let settings = PreviewSettings {
         width: SIZE,

@@ -5,7 +5,7 @@ use pleach_console::files;
 use pleach_fit::GoalView;
 use pleach_silhouette::goal::{Goal, GoalOptions};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-use pleach_tree::species::Appearance;
+use pleach_tree::Appearance;
 use pleach_tree::{Foliage, Growth, Parts, Species, Tree};
 use std::path::Path;
 

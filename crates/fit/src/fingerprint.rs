@@ -61,7 +61,7 @@ impl Fingerprint {
     /// Adds the part called `name`, made of `bytes`.
     #[must_use]
     pub(crate) fn with_bytes(mut self, name: &'static str, bytes: impl AsRef<[u8]>) -> Self {
-        self.parts.push((name.into(), Fnv::of(bytes.as_ref())));
+        self.parts.push((name.into(), Fnv::hash(bytes.as_ref())));
         self
     }
 

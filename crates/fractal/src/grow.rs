@@ -310,13 +310,17 @@ fn scale(model: &Model, key: Key) -> f64 {
 /// How far draws of single stems may lie from their own, level by level.
 pub(crate) fn spreads(model: &Model) -> Vec<Spread> {
     let part = if model.scale.nominal > 0.0 { model.scale.deviation / model.scale.nominal } else { 0.0 };
-    let stems = Spread::of_stems(Spread {
+    let stems = Spread::for_stems(Spread {
         azimuth: model.azimuth.deviation,
         pitch: model.polar.deviation,
         length: part,
     });
     // Where branches are forks, all are of one level.
-    if model.has_central() { vec![Spread::of_trunks(), stems] } else { vec![Spread { length: 0.0, ..stems }] }
+    if model.has_central() {
+        vec![Spread::for_trunks(), stems]
+    } else {
+        vec![Spread { length: 0.0, ..stems }]
+    }
 }
 
 /// Whether a daughter of `parent` is long enough, and not left out by chance.

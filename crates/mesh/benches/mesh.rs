@@ -17,7 +17,7 @@ fn meshes(criterion: &mut Criterion) {
         let Ok(tree) = species.grow(1) else { continue };
         let scene = Scene {
             name: name.to_owned(),
-            palette: Palette::new(&species, None),
+            palette: Palette::new(&species.appearance, None),
             extras: serde_json::Value::Null,
             placed: vec![Placed::at_origin(name, 1)],
             rig: None,

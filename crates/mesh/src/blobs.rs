@@ -3,7 +3,7 @@
 use crate::block::{Block, Vertex};
 use crate::part::Count;
 use glam::{Vec2, Vec3};
-use pleach_tree::{Blob, Tree};
+use pleach_plant::{Blob, Tree};
 
 /// Vertices and triangles of all blobs.
 pub(crate) fn count(tree: &Tree) -> Count {

@@ -24,7 +24,7 @@ impl Vertex {
     }
 }
 
-/// What a shader needs to sway a corner; see [`crate::wind`].
+/// What a shader needs to sway a vertex; see [`crate::wind`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wind {
     /// The point about which the corner's stem turns, in metres.

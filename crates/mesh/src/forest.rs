@@ -6,8 +6,8 @@
 //! random numbers, by address: it plants and does not mesh.
 
 use glam::{DVec2, dvec2};
-use pleach_tree::Key;
-use pleach_tree::trig::sin_cos;
+use pleach_plant::Key;
+use pleach_plant::trig::sin_cos;
 use std::f64::consts::TAU;
 
 /// Throws around a point before it is given up (Bridson's k).

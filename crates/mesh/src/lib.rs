@@ -8,14 +8,14 @@
 //! let mesh = Mesh::new(&tree, MeshSettings::with_tolerance(0.01));
 //! println!("{} triangles", mesh.triangles());
 //! let mut file = std::io::Cursor::new(Vec::new());
-//! write::glb::write(&mut file, "acer", &tree, &Palette::new(&species, None))?;
+//! write::glb::write(&mut file, "acer", &tree, &Palette::new(&species.appearance, None))?;
 //! assert!(mesh.triangles() > 1_000 && file.into_inner().starts_with(b"glTF"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //! | module | idea |
 //! | --- | --- |
 //! | [`settings`] | how fine a mesh should be |
-//! | [`mesher`] | from a [`pleach_tree::Tree`] to blocks of triangles, sizes known beforehand |
+//! | [`mesher`] | from a [`pleach_plant::Tree`] to blocks of triangles, sizes known beforehand |
 //! | [`part`] | materials, and the traits of what triangles come from and go to |
 //! | [`stream`] | from the one to the other, block by block |
 //! | [`block`] | corners and triangles |

@@ -7,7 +7,7 @@
 //! stem; what is left of their ink is too thin to be seen from where the level is used.
 
 use crate::settings::{LeafStyle, MeshSettings};
-use pleach_tree::{Leaf, Stem, Tree};
+use pleach_plant::{Leaf, Stem, Tree};
 use std::borrow::Cow;
 
 /// Most levels that [`levels`] makes, the finest included.

@@ -5,7 +5,7 @@ use crate::mesher::Mesher;
 use crate::part::{Material, MeshError, Part, Sink};
 use crate::settings::MeshSettings;
 use crate::stream::send;
-use pleach_tree::Tree;
+use pleach_plant::Tree;
 
 /// Parts with all their corners and triangles; also the sink that collects them.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -9,7 +9,7 @@ use crate::rig::Rig;
 use crate::settings::{LeafStyle, MeshSettings};
 use crate::tube::{Rings, Tubes};
 use crate::wind;
-use pleach_tree::{Leaf, Parts, StemKind, Tree};
+use pleach_plant::{Leaf, Parts, StemKind, Tree};
 use rayon::prelude::*;
 use std::ops::Range;
 

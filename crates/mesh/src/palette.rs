@@ -1,10 +1,9 @@
 //! Colours of a species in a season.
 
 use crate::part::Material;
-use pleach_tree::math;
-pub use pleach_tree::species::BarkPattern;
-use pleach_tree::species::{Color, Look, Season};
-use pleach_tree::{Species, Tree};
+pub use pleach_plant::BarkPattern;
+use pleach_plant::math;
+use pleach_plant::{Appearance, Color, Look, Season, Tree};
 use std::borrow::Cow;
 
 /// The colours that a tree is drawn in, and what it wears.
@@ -25,14 +24,11 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// The palette of `species` in `season`; without one, in the season of its file; without that,
-    /// in summer's leaves and with whatever blossom the model gives it.
-    ///
-    /// Colours are those of the species' [`Appearance`](pleach_tree::species::Appearance) and of
-    /// nothing else: its name does not matter.
+    /// The palette of a species of this `appearance` in `season`; without one, in the season that it says; without
+    /// that, in summer's leaves and with whatever blossom the model gives it.
     #[must_use]
-    pub fn new(species: &Species, season: Option<Season>) -> Self {
-        Self::in_season(&species.appearance.look(), season)
+    pub fn new(appearance: &Appearance, season: Option<Season>) -> Self {
+        Self::in_season(&appearance.look(), season)
     }
 
     fn in_season(look: &Look, season: Option<Season>) -> Self {
@@ -114,7 +110,7 @@ mod tests {
     use super::*;
 
     fn palette(name: &str, season: Option<Season>) -> Palette {
-        Palette::new(&pleach_generators::preset(name).unwrap(), season)
+        Palette::new(&pleach_generators::preset(name).unwrap().appearance, season)
     }
 
     #[test]
@@ -132,21 +128,21 @@ mod tests {
         let red = Color([255, 0, 0]);
         species.appearance.autumn = Some(red);
         species.appearance.season = Some(Season::Autumn);
-        assert_eq!(Palette::new(&species, None).leaf, red);
-        assert_ne!(Palette::new(&species, Some(Season::Spring)).leaf, red, "an argument wins over the file");
+        assert_eq!(Palette::new(&species.appearance, None).leaf, red);
+        assert_ne!(
+            Palette::new(&species.appearance, Some(Season::Spring)).leaf,
+            red,
+            "an argument wins over the file"
+        );
         species.appearance.evergreen = Some(true);
-        assert_eq!(Palette::new(&species, None).leaf, summer, "an evergreen does not turn");
+        assert_eq!(Palette::new(&species.appearance, None).leaf, summer, "an evergreen does not turn");
     }
 
     #[test]
-    fn a_name_has_no_colours() {
+    fn every_species_says_its_colours() {
+        assert_eq!(Palette::new(&Appearance::default(), None), Palette::in_season(&Look::PLAIN, None));
         for name in pleach_generators::names() {
             let species = pleach_generators::preset(name).unwrap();
-            let renamed = Species { name: "mine".to_owned(), ..species.clone() };
-            assert_eq!(Palette::new(&renamed, None), Palette::new(&species, None), "{name}");
-            let appearance = pleach_tree::species::Appearance::default();
-            let silent = Palette::new(&Species { appearance, ..species.clone() }, None);
-            assert_eq!(silent, Palette::in_season(&Look::PLAIN, None), "{name}");
             assert!(species.appearance.bark.is_some() && species.appearance.bark_pattern.is_some(), "{name}");
             assert!(species.appearance.leaf.is_some(), "{name}");
         }

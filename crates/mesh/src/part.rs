@@ -48,7 +48,7 @@ impl Material {
     }
 }
 
-/// What a sink is told of a part before its blocks come.
+/// What a sink knows of a part before its blocks come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
     /// Number of the mesh that it belongs to: a level of detail, or a variant in a forest.

@@ -4,7 +4,7 @@ use crate::block::{Block, Placement};
 use crate::foliage::UnitMesh;
 use crate::part::Count;
 use glam::{Mat3, Quat, Vec3, vec3};
-use pleach_tree::Leaf;
+use pleach_plant::Leaf;
 use std::ops::Range;
 
 /// All leaves, or all blossoms, of a tree with the meshes of their unit shapes.
@@ -87,7 +87,7 @@ pub(crate) fn placement(leaf: &Leaf) -> Placement {
 mod tests {
     use super::*;
     use crate::settings::LeafStyle;
-    use pleach_tree::leaf_shape::LeafShape;
+    use pleach_plant::leaf_shape::LeafShape;
 
     #[test]
     fn runs_hold_every_leaf_once_whatever_its_shape() {

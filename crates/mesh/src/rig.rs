@@ -2,7 +2,7 @@
 
 use crate::wind::Sway;
 use glam::DVec3;
-use pleach_tree::Tree;
+use pleach_plant::Tree;
 
 /// Joints along each trunk and each clone of it.
 const ALONG_TRUNKS: u32 = 4;

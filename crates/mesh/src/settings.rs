@@ -1,6 +1,6 @@
 //! What a mesh should be like.
 
-use pleach_tree::Parts;
+use pleach_plant::Parts;
 
 /// How leaves and blossoms become triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

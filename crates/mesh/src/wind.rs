@@ -19,11 +19,11 @@
 //! | `_WIND_PIVOT` | x, y, z of the stem's base in metres and in the file's axes; phase in turns, 0 to 1 |
 //! | `_WIND_SWAY` | level (0 trunk; leaves one more than their stem), place along the stem 0 to 1, frequency in Hz, amplitude in radians |
 //!
-//! A shader turns a corner about its pivot by `amplitude · place · sin(2π (frequency · time + phase))`.
+//! A shader turns a vertex about its pivot by `amplitude · place · sin(2π (frequency · time + phase))`.
 
 use crate::block::Wind;
 use glam::Vec3;
-use pleach_tree::{Leaf, Stem, Tree};
+use pleach_plant::{Leaf, Stem, Tree};
 
 /// What part of a turn separates neighbours: no two of a run come close.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;

@@ -10,7 +10,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let name = std::env::args().nth(1).unwrap_or_else(|| "acer".to_owned());
     let species = pleach::species(&name)?;
     let mut tree = species.grow(1)?;
-    let palette = Palette::new(&species, Some(Season::Autumn));
+    let palette = Palette::new(&species.appearance, Some(Season::Autumn));
     palette.apply_season(&mut tree); // a winter tree would lose its leaves
 
     let mesh = Mesh::new(&tree, MeshSettings::with_tolerance(0.005));

@@ -75,7 +75,7 @@
 //!
 //! let species = pleach::species("acer")?;
 //! let tree = species.grow(1)?;
-//! let palette = Palette::new(&species, None);
+//! let palette = Palette::new(&species.appearance, None);
 //! let mut glb = std::io::Cursor::new(Vec::new());
 //! pleach::write_glb(&mut glb, "acer", &tree, &palette)?;
 //! let picture = pleach::render(&tree, &palette, 128);
@@ -99,24 +99,28 @@ pub use pleach_generators::{
 };
 pub use pleach_silhouette::goal::{Crop, Encoded};
 pub use pleach_silhouette::mask::{Mask, MaskError, MaskOptions, Photo};
-pub use pleach_silhouette::score::ScoreCard;
+pub use pleach_silhouette::score::{ScoreCard, ScoreColumn};
 pub use pleach_silhouette::{
     Bitmap, Detail, FOUR_VIEWS, Frame, Goal, GoalError, GoalOptions, GoalWarning, Polarity, Projection,
     Rasterizer, View, four_views, silhouette,
 };
 pub use pleach_tree::leaf_shape::{BlossomShape, LeafShape, Outline, OutlineError};
-pub use pleach_tree::species::{Appearance, Color, Season};
-pub use pleach_tree::stats::Bounds;
 pub use pleach_tree::{
-    Address, Blame, Blob, CheckedParams, Conflict, Draw, Draws, Family, Foliage, Generator, GrowError,
-    Growth, Individual, Key, Knot, Leaf, Limits, MalformedTree, ModelId, Param, ParamSpace, Parts, Slot,
-    Species, SpeciesDoc, SpeciesError, Spread, Stem, StemKind, Tree, TreeStats, Variation, Workspace,
+    Address, Appearance, Blame, Blob, Bounds, CheckedParams, Color, Conflict, Draw, Draws, Family, Foliage,
+    Generator, GrowError, Growth, Individual, Key, Knot, Leaf, Limits, MalformedTree, ModelId, Param,
+    ParamSpace, Parts, Season, Slot, Species, SpeciesDoc, SpeciesError, Spread, Stem, StemKind, Tree,
+    TreeStats, Variation, Workspace,
 };
 /// What generators of your own are made of; `docs/a-generator.md` shows how.
 pub use pleach_tree::{param, random, species};
 
 #[cfg(test)]
 mod shared;
+
+#[cfg(feature = "mesh")]
+mod extras;
+#[cfg(feature = "mesh")]
+pub use extras::extras;
 
 #[cfg(feature = "fit")]
 mod at_full_size;

@@ -16,7 +16,7 @@ use std::time::Duration;
 
 fn ink(picture: &Bitmap) -> u64 {
     let rows = (0..picture.height()).flat_map(|y| (0..picture.width()).map(move |x| (x, y)));
-    Fnv::of(&rows.map(|(x, y)| u8::from(picture.get(x, y))).collect::<Vec<u8>>())
+    Fnv::hash(&rows.map(|(x, y)| u8::from(picture.get(x, y))).collect::<Vec<u8>>())
 }
 
 /// What is compared, and its hash: every species' tree 1 and its silhouette, points of the map, and a fit of the
@@ -34,9 +34,9 @@ fn bits(root: &Path) -> String {
     for (x, y) in [(0.2, -0.4), (-0.5, 0.3), (0.0, 0.0), (2.5, 1.5)] {
         let blend = map.at(Point { x, y }).unwrap();
         let toml = map.species_at(&blend, "blend").to_toml(&[]);
-        writeln!(text, "map {x} {y},{:016x}", Fnv::of(toml.as_bytes())).unwrap();
+        writeln!(text, "map {x} {y},{:016x}", Fnv::hash(toml.as_bytes())).unwrap();
     }
-    writeln!(text, "fit palm,{:016x}", Fnv::of(fitted(root).as_bytes())).unwrap();
+    writeln!(text, "fit palm,{:016x}", Fnv::hash(fitted(root).as_bytes())).unwrap();
     text
 }
 

@@ -198,7 +198,7 @@ impl Tree {
     fn to_glb<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let species = &self.species.inner;
         let glb = pool::on(py, None, || {
-            let palette = Palette::new(species, None);
+            let palette = Palette::new(&species.appearance, None);
             let tree = palette.dressed(&self.inner);
             let mut glb = Cursor::new(Vec::new());
             pleach::write_glb(&mut glb, &species.name, &tree, &palette).map(|_| glb.into_inner())
@@ -251,7 +251,7 @@ impl Tree {
             None => usual,
         };
         pool::on(py, threads, || {
-            let palette = Palette::new(&self.species.inner, None);
+            let palette = Palette::new(&self.species.inner.appearance, None);
             let tree = palette.dressed(&self.inner);
             Preview::new(&tree, &palette, size).picture(&settings)
         })

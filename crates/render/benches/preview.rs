@@ -11,7 +11,7 @@ fn pictures(criterion: &mut Criterion) {
     for name in ["acer", "quaking_aspen"] {
         let Some(species) = pleach_generators::preset(name) else { continue };
         let Ok(tree) = species.grow(1) else { continue };
-        let palette = Palette::new(&species, None);
+        let palette = Palette::new(&species.appearance, None);
         let settings = PreviewSettings { width: 512, height: 512, ..PreviewSettings::default() };
         group.bench_function(name, |b| {
             b.iter(|| black_box(Preview::new(&tree, &palette, 512).picture(&settings)));

@@ -9,8 +9,8 @@ use crate::preview::{Frame, Preview};
 use glam::{Vec3, vec3};
 use pleach_mesh::Palette;
 use pleach_mesh::card::Card;
-use pleach_tree::Tree;
-use pleach_tree::trig::sin_cos;
+use pleach_plant::Tree;
+use pleach_plant::trig::sin_cos;
 use std::f64::consts::PI;
 
 /// Most cards of a tree.
@@ -38,7 +38,7 @@ impl Billboards {
     /// use pleach_render::Billboards;
     ///
     /// let species = pleach_generators::species("palm")?;
-    /// let billboards = Billboards::paint(&[&species.grow(1)?], &Palette::new(&species, None), 2);
+    /// let billboards = Billboards::paint(&[&species.grow(1)?], &Palette::new(&species.appearance, None), 2);
     /// assert_eq!(billboards.cards[0].len(), 2);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

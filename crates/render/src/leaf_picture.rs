@@ -6,9 +6,9 @@
 
 use crate::picture::Picture;
 use pleach_mesh::{Material, Palette, blossom_spread};
-use pleach_tree::Tree;
-use pleach_tree::leaf_shape::{BlossomShape, Outline};
-use pleach_tree::species::Color;
+use pleach_plant::Color;
+use pleach_plant::Tree;
+use pleach_plant::leaf_shape::{BlossomShape, Outline};
 
 /// Height and width in pixels.
 const SIDE: u32 = 128;
@@ -98,7 +98,7 @@ fn inside(polygon: &[Point], p: Point) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pleach_tree::leaf_shape::LeafShape;
+    use pleach_plant::leaf_shape::LeafShape;
 
     const GREEN: Color = Color([90, 140, 50]);
 

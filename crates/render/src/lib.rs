@@ -2,11 +2,11 @@
 //!
 //! ```
 //! use pleach_mesh::Palette;
-//! use pleach_tree::species::Season;
+//! use pleach_plant::Season;
 //!
 //! let species = pleach_generators::species("acer")?;
 //! let mut tree = species.grow(1)?;
-//! let palette = Palette::new(&species, Some(Season::Autumn));
+//! let palette = Palette::new(&species.appearance, Some(Season::Autumn));
 //! palette.apply_season(&mut tree);
 //! let picture = pleach_render::preview::render(&tree, &palette, 64);
 //! picture.write_png(&mut std::io::sink())?;

@@ -18,7 +18,7 @@ fn a_dense_crown_is_never_a_mesh() {
     let species = pleach_generators::preset("weeping_willow").unwrap();
     let mut tree = species.grow(1).unwrap();
     tree.shrink_to_fit();
-    let palette = Palette::new(&species, None);
+    let palette = Palette::new(&species.appearance, None);
     let settings = PreviewSettings { width: 256, height: 256, ..PreviewSettings::default() };
     // What growing took at most is forgotten, where the system lets us.
     let _ = std::fs::write("/proc/self/clear_refs", "5");

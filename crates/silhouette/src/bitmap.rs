@@ -21,7 +21,7 @@ impl Bitmap {
         Self { width, height, words_per_row, words: vec![0; words_per_row * height as usize] }
     }
 
-    /// The picture of these [words](Self::words); none if they are not as many as it has, or have ink beyond the
+    /// The picture of these [words](Self::words); `None` if their number is not right, or there is ink beyond the
     /// width.
     #[must_use]
     pub fn from_words(width: u32, height: u32, words: Vec<u64>) -> Option<Self> {
@@ -149,7 +149,7 @@ impl Bitmap {
         })
     }
 
-    /// First and last column and row with ink, as (left, top, right, bottom); none without ink.
+    /// First and last column and row with ink, as (left, top, right, bottom); `None` without ink.
     #[must_use]
     pub fn ink_box(&self) -> Option<(u32, u32, u32, u32)> {
         let mut bounds: Option<(u32, u32, u32, u32)> = None;

@@ -4,7 +4,7 @@ use crate::bitmap::Bitmap;
 use crate::raster::Rasterizer;
 use crate::view::{Frame, Projection, View};
 use glam::DVec3;
-use pleach_tree::{Leaf, Parts, Tree};
+use pleach_plant::{Leaf, Parts, Tree};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// From the south, the south-east and the east, with +x east and +y north, and from above, north at the
@@ -112,7 +112,7 @@ impl Extent {
 mod tests {
     use super::*;
     use glam::dvec3;
-    use pleach_tree::{Knot, Stem, StemKind};
+    use pleach_plant::{Knot, Stem, StemKind};
 
     /// A straight trunk and a level branch from its top.
     fn gallows(branch: DVec3) -> Tree {

@@ -4,7 +4,7 @@ use crate::bitmap::Bitmap;
 use crate::raster::Rasterizer;
 use crate::view::{Frame, View};
 use font8x8::UnicodeFonts;
-use pleach_tree::{Parts, Tree};
+use pleach_plant::{Parts, Tree};
 use std::io::{self, Write};
 
 /// Red, green, blue.

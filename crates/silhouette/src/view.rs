@@ -1,9 +1,9 @@
 //! Where the picture is taken from, and which part of the world it shows.
 
 use glam::DVec3;
-use pleach_tree::math;
-use pleach_tree::stats::Bounds;
-use pleach_tree::{Parts, Tree};
+use pleach_plant::Bounds;
+use pleach_plant::math;
+use pleach_plant::{Parts, Tree};
 
 /// How depth is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,7 +59,7 @@ pub struct Frame {
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
-    /// Metres that a pixel is wide and high.
+    /// Width and height of a pixel in metres.
     pub meters_per_pixel: f64,
     /// Where the trunk's foot is, in pixels from the left edge; pixel 0 reaches from 0 to 1.
     pub axis_column: f64,
@@ -162,7 +162,7 @@ impl Camera {
         self.distance.is_infinite()
     }
 
-    /// How much larger than at the axis things are at `point`; none behind the camera.
+    /// How much larger than at the axis things are at `point`; `None` behind the camera.
     #[must_use]
     pub fn magnification(&self, point: DVec3) -> Option<f64> {
         if self.distance.is_infinite() {

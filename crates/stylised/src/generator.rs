@@ -65,7 +65,7 @@ impl Generator for Stylised {
 
     fn spreads(&self, _: &[f64]) -> Vec<Spread> {
         // Azimuths of branches are drawn within a tenth of a turn, and elevations between two angles.
-        let branches = Spread::of_stems(Spread::from_degrees(20.0, 40.0, 0.0));
-        vec![Spread::of_trunks(), branches]
+        let branches = Spread::for_stems(Spread::from_degrees(20.0, 40.0, 0.0));
+        vec![Spread::for_trunks(), branches]
     }
 }

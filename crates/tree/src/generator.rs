@@ -5,12 +5,12 @@
 
 use crate::grow_error::{Conflict, GrowError};
 use crate::growth::{Growth, Workspace};
-use crate::individual::{Individual, Spread};
 use crate::leafless::Leafless;
 use crate::model::ModelId;
 use crate::param::{CheckedParams, ParamSpace, Slot};
-use crate::plant::Tree;
-use crate::random::Key;
+use pleach_plant::Key;
+use pleach_plant::Tree;
+use pleach_plant::{Individual, Spread};
 use std::fmt;
 use std::sync::Arc;
 
@@ -69,7 +69,7 @@ pub trait Generator: Send + Sync + fmt::Debug {
         String::new()
     }
 
-    /// How searches may change the structure; none if they may not.
+    /// How searches may change the structure; `None` if they may not.
     fn variation(&self) -> Option<&dyn Variation> {
         None
     }
@@ -98,7 +98,7 @@ pub trait Generator: Send + Sync + fmt::Debug {
     }
 
     /// The number because of which no tree of these `values`, each allowed by its declaration, has leaves, if
-    /// others ask for leaves: most likely that is not meant. None where leaves grow or are not asked for.
+    /// others ask for leaves: most likely a mistake. `None` where leaves grow or are not asked for.
     fn leafless(&self, values: &[f64]) -> Option<Leafless> {
         let _ = values;
         None
@@ -163,6 +163,6 @@ pub trait Variation: Send + Sync + fmt::Debug {
     /// How long `structure` is for a reader, in words and signs.
     fn length(&self, structure: &str) -> usize;
 
-    /// The generator with this structure; none if `structure` is not one.
+    /// The generator with this structure; `None` if `structure` is not one.
     fn generator(&self, structure: &str) -> Option<Arc<dyn Generator>>;
 }

@@ -3,8 +3,8 @@
 use crate::param::ForeignParams;
 use std::fmt;
 
-/// The parameters, or the rules of a grammar, that an error is put down to, most of all first; none where
-/// that is not known.
+/// The parameters, or the rules of a grammar, that cause an error, the main cause first; empty where it is not
+/// known.
 ///
 /// Its text continues a sentence: `, because of branches[2] and branches[1]`, with quotes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -59,7 +59,7 @@ pub enum GrowError {
     TooManyStems {
         /// The limit.
         limit: usize,
-        /// What makes them so many.
+        /// The parameters that cause it.
         blame: Blame,
     },
     /// More leaves and blossoms than [`Limits::leaves`](crate::Limits::leaves).
@@ -67,7 +67,7 @@ pub enum GrowError {
     TooManyLeaves {
         /// The limit.
         limit: usize,
-        /// What makes them so many.
+        /// The parameters that cause it.
         blame: Blame,
     },
     /// More knots than [`Limits::knots`](crate::Limits::knots).
@@ -77,7 +77,7 @@ pub enum GrowError {
     TooManyKnots {
         /// The limit.
         limit: usize,
-        /// What makes them so many.
+        /// The parameters that cause it.
         blame: Blame,
     },
     /// More work than [`Limits::work`](crate::Limits::work).
@@ -85,7 +85,7 @@ pub enum GrowError {
     TooMuchWork {
         /// The limit.
         limit: u64,
-        /// What most of the work is done for.
+        /// The parameters that cause most of the work.
         blame: Blame,
     },
     /// Numbers left the range in which positions make sense.
@@ -97,7 +97,7 @@ pub enum GrowError {
     /// More stems wait to be grown, at one time, than memory has room for.
     #[error("far too many stems wait to be pruned{blame}; fewer branches")]
     TooManyWaiting {
-        /// What makes them so many.
+        /// The parameters that cause it.
         blame: Blame,
     },
     /// A rule of a grammar that cannot be computed with these numbers, such as one that divides by 0.

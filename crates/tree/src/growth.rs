@@ -1,6 +1,6 @@
 //! One request to grow a tree, and what is reused from one tree to the next.
 
-use crate::individual::{Address, Draw, Draws};
+use pleach_plant::{Address, Draw, Draws, Foliage};
 use std::any::Any;
 use std::fmt;
 
@@ -16,8 +16,8 @@ pub struct Limits {
     pub leaves: usize,
     /// Most knots of all stems together: what memory grows with.
     pub knots: usize,
-    /// Most steps of work: points walked, places tried for children and leaves, whether or not
-    /// anything comes of them. What a step is, is the generator's affair; it takes some 50 ns.
+    /// Most steps of work: points walked, places tried for children and leaves, successful or not. Each generator
+    /// defines its step; one takes some 50 ns.
     pub work: u64,
 }
 
@@ -33,16 +33,6 @@ impl Default for Limits {
     fn default() -> Self {
         Self::DEFAULT
     }
-}
-
-/// Which leaves are made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Foliage {
-    /// Every leaf and blossom.
-    #[default]
-    All,
-    /// Stems only.
-    None,
 }
 
 /// One request to grow a tree.
@@ -72,7 +62,7 @@ impl Growth<'_> {
         Self { seed, ..Self::default() }
     }
 
-    /// What the stem at `address`, of `level`, has drawn in place of its own draws.
+    /// The draw of the stem at `address`, of `level`.
     #[must_use]
     pub fn draw(&self, address: Address, level: usize) -> Draw {
         self.draws.map_or(Draw::OWN, |draws| draws.at(address, level))

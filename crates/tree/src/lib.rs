@@ -1,24 +1,14 @@
-//! The plant model that every part of pleach shares.
+//! What generators of plants share: parameters, species files, and the traits that they implement.
 //!
-//! A *generator* turns checked parameters and a seed into a [`Tree`]: stems as cubic Bézier splines
-//! with radii, leaves and blossoms as small oriented shapes. Renderers, meshers and scorers read the
-//! tree and know nothing of how it grew.
+//! A *generator* turns checked parameters and a seed into a [`Tree`]. A *family* reads the species files that
+//! say which parameters. What a tree is stands in `pleach-plant`; all of that is exported here too, so that a
+//! generator needs one dependency.
 //!
 //! | module | idea |
 //! | --- | --- |
-//! | [`plant`] | [`Tree`], [`Stem`], [`Knot`], [`Leaf`]: flat arrays, metres, z up, right-handed |
-//! | [`spline`] | one cubic Bézier piece: evaluate, differentiate, flatten by tolerance |
-//! | [`math`] | powers, logarithms and the like, the same bits everywhere |
-//! | [`trig`] | fast sine, cosine and arc tangent, the same bits everywhere |
-//! | [`turtle`] | a position with two axes that walks and turns |
-//! | [`random`] | draws that are a function of an address, never of the draws before |
-//! | [`leaf_shape`] | outlines of ten leaves and faces of three blossoms |
 //! | [`param`] | one declaration of a parameter, and everything that follows from it |
 //! | [`species`] | reading and writing species files |
-//! | [`individual`] | one particular tree: stems with draws of their own |
 //! | [`generator`] | the traits that generators implement |
-//! | [`stats`] | measurements of a tree, with fixed names |
-//! | [`dendrometry`] | height, crown and stem diameter, as foresters measure them |
 //!
 //! # Invariants
 //!
@@ -29,34 +19,24 @@
 
 #[cfg(any(test, feature = "conformance"))]
 pub mod conformance;
-pub mod dendrometry;
-mod fnv;
 pub mod generator;
 mod grow_error;
 mod growth;
-pub mod individual;
-pub mod leaf_shape;
 mod leafless;
-pub mod math;
 mod model;
 pub mod param;
-pub mod plant;
-pub mod random;
 pub mod species;
-pub mod spline;
-pub mod stats;
-pub mod trig;
-pub mod turtle;
 
-pub use fnv::Fnv;
 pub use generator::{Generator, Variation};
 pub use grow_error::{Blame, Conflict, GrowError};
-pub use growth::{Foliage, Growth, Limits, Workspace};
-pub use individual::{Address, Draw, Draws, Individual, Spread};
+pub use growth::{Growth, Limits, Workspace};
 pub use leafless::Leafless;
 pub use model::ModelId;
 pub use param::{CheckedParams, Kind, Param, ParamSpace, Slot, Unit};
-pub use plant::{Blob, Knot, Leaf, MalformedTree, Parts, Stem, StemKind, Tree};
-pub use random::Key;
+pub use pleach_plant::{
+    Address, Appearance, BREAST_HEIGHT, BadStemPath, BarkPattern, Blob, Bounds, Color, Dendrometry, Draw,
+    Draws, Fnv, Foliage, Individual, Key, Knot, Leaf, Look, MalformedTree, Parts, Season, Spread, Stem,
+    StemKind, StemPath, Step, Tree, TreeStats, Trial, piece,
+};
+pub use pleach_plant::{leaf_shape, math, random, spline, trig, turtle};
 pub use species::{Family, Species, SpeciesDoc, SpeciesError};
-pub use stats::TreeStats;

@@ -1,9 +1,9 @@
 //! The identity of a generator.
 
-use crate::fnv::Fnv;
+use pleach_plant::Fnv;
 use std::fmt;
 
-/// What tells a generator from others, whatever its numbers: its family and a hash of its structure.
+/// The identity of a generator, whatever its numbers: its family and a hash of its structure.
 ///
 /// Stable from run to run and from version to version, so that it may be written to files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -17,7 +17,7 @@ impl ModelId {
     /// [structure](crate::Generator::structure).
     #[must_use]
     pub fn new(family: &'static str, structure: &str) -> Self {
-        Self { family, structure: Fnv::of(structure.as_bytes()) }
+        Self { family, structure: Fnv::hash(structure.as_bytes()) }
     }
 
     /// The family's name.

@@ -2,11 +2,12 @@
 
 use crate::error::thrown;
 use glam::Vec3;
+use pleach::extras;
 use pleach::{LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Season, Tree, send};
 use pleach_mesh::block::{Block, Wind};
 use pleach_mesh::lod;
 use pleach_mesh::palette::linear;
-use pleach_mesh::write::glb::{Glb, Placed, Scene, extras};
+use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{obj, ply, stl, usda};
 use pleach_render::{leaf_picture, png_file};
 use serde_json::json;

@@ -40,7 +40,7 @@ pub(crate) fn ink(picture: &pleach::Bitmap) -> Vec<u8> {
 impl Tree {
     /// The tree as it is in a season.
     pub(crate) fn dressed(&self, season: &str) -> Result<(Palette, Cow<'_, pleach::Tree>), JsError> {
-        let palette = Palette::new(&self.species, season_named(season)?);
+        let palette = Palette::new(&self.species.appearance, season_named(season)?);
         Ok((palette, palette.dressed(&self.inner)))
     }
 

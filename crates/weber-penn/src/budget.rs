@@ -14,7 +14,7 @@ const TELL: u64 = 1024;
 const WAITING_SHARE: usize = 16;
 
 /// Part of a limit that has to be spent before it is worth counting what is to come.
-const LEAST_SPENT: f64 = 0.01;
+const MIN_SPENT: f64 = 0.01;
 /// Part of a limit that a tree has to be likely to spend for that.
 const LOOKS_SHORT: f64 = 0.6;
 
@@ -179,7 +179,7 @@ impl Budget<'_> {
             .max(part(spent.leaves as u64, limits.leaves as u64))
             .max(part(spent.knots as u64, limits.knots as u64))
             .max(part(spent.work, limits.work));
-        spent > LEAST_SPENT && spent * all as f64 > LOOKS_SHORT * done as f64
+        spent > MIN_SPENT && spent * all as f64 > LOOKS_SHORT * done as f64
     }
 
     /// A budget of its own that goes on from what has been spent so far.

@@ -102,7 +102,7 @@ impl<'a> Bearing<'a> {
     }
 
     /// Child `number` at `offset` metres, without its place in space and in the tree, and its draws;
-    /// none where the parent is too thin or the child would be too short.
+    /// `None` where the parent is too thin or the child would be too short.
     pub(crate) fn child(&self, number: u32, offset: f64, in_fan: bool) -> Option<(StemSpec, Draw)> {
         let Self { model, stem, child_length, .. } = *self;
         // The tip of a cone has no radius to bear a fan; its base has.

@@ -18,7 +18,7 @@ use crate::solid::Surroundings;
 use crate::stem::{ForkStart, StemSpec};
 use crate::trunks;
 use glam::{DVec2, DVec3};
-use pleach_tree::plant::piece;
+use pleach_tree::piece;
 use pleach_tree::turtle::Turtle;
 use pleach_tree::{Address, Draw, Foliage, GrowError, Growth, Key, Knot, Stem, StemKind, Tree};
 use rayon::prelude::*;
@@ -219,7 +219,7 @@ impl GrowContext<'_> {
         let level = &model.levels[stem.level];
         let child_length = stem.child_length(model);
         let first_point = buffers.path.len();
-        let first_clone = buffers.forked_stems.len();
+        let first_fork = buffers.forked_stems.len();
         let first_child = buffers.children.len();
         let is_pruned = model.prune_ratio > 0.0
             && stem.forked.is_none_or(|_| level.split_angle_v < 0.0)
@@ -231,7 +231,7 @@ impl GrowContext<'_> {
             stem.length = length.unwrap_or(0.0);
             if !stem.is_made() {
                 buffers.path.truncate(first_point);
-                buffers.forked_stems.truncate(first_clone);
+                buffers.forked_stems.truncate(first_fork);
                 *carry = carry_before;
                 return Ok(());
             }
@@ -246,7 +246,7 @@ impl GrowContext<'_> {
         }
         buffers.budget.work(Cause::Walk, stem.level, POINT_STEPS * u64::from(stem.points(model)))?;
         if is_pruned {
-            self.lay_out(buffers, &stem, first_point, first_clone);
+            self.lay_out(buffers, &stem, first_point, first_fork);
         } else {
             self.walk(buffers, &stem, child_length, carry);
         }
@@ -264,14 +264,14 @@ impl GrowContext<'_> {
             self.waiting(buffers, first_child)?;
         }
 
-        let last_clone = buffers.forked_stems.len();
-        for i in first_clone..last_clone {
-            let mut clone = buffers.forked_stems[i];
-            clone.parent = Some(index);
-            clone.adopt(model, &stem);
-            self.stem(buffers, clone, carry)?;
+        let last_fork = buffers.forked_stems.len();
+        for i in first_fork..last_fork {
+            let mut fork = buffers.forked_stems[i];
+            fork.parent = Some(index);
+            fork.adopt(model, &stem);
+            self.stem(buffers, fork, carry)?;
         }
-        buffers.forked_stems.truncate(first_clone);
+        buffers.forked_stems.truncate(first_fork);
         Ok(())
     }
 
@@ -307,9 +307,9 @@ impl GrowContext<'_> {
     }
 
     /// Moves the path of `stem` to where it is at its new length, and its forks with it.
-    fn lay_out(&self, buffers: &mut Buffers<'_>, stem: &StemSpec, first_point: usize, first_clone: usize) {
+    fn lay_out(&self, buffers: &mut Buffers<'_>, stem: &StemSpec, first_point: usize, first_fork: usize) {
         lay_out(self.model, stem, stem.length, buffers.path, first_point);
-        for fork in &mut buffers.forked_stems[first_clone..] {
+        for fork in &mut buffers.forked_stems[first_fork..] {
             let point = first_point + (fork.start() - stem.start()) as usize;
             fork.turtle.position = buffers.path[point].point;
         }
@@ -365,7 +365,7 @@ struct Collect<'a> {
 }
 
 impl Forks for Collect<'_> {
-    fn clone_at(&mut self, mut turtle: Turtle, state: ForkStart, index: u32) {
+    fn fork_at(&mut self, mut turtle: Turtle, state: ForkStart, index: u32) {
         let (fork, draw) = self.origin.fork_at(self.growth, state, index);
         if draw != Draw::OWN {
             turtle.rotate_about(DVec3::Z, draw.azimuth);

@@ -82,8 +82,8 @@ impl Model {
     }
 }
 
-/// Two numbers that `base` to the power `power` is between, for comparisons that need not know it any better; none
-/// outside of 0..=1, or for a negative power. They are the base itself and the tangent at 1, with room for rounding.
+/// Lower and upper bound of `base` to the power `power`, for comparisons that need no more; `None` outside of 0..=1 or
+/// for a negative power. They are the base itself and the tangent at 1, with room for rounding.
 pub(crate) fn power_bounds(base: f64, power: f64) -> Option<(f64, f64)> {
     if !(0.0..=1.0).contains(&base) || !(0.0..=1e6).contains(&power) {
         return None;

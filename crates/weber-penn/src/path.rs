@@ -42,7 +42,7 @@ impl PathPoint {
 
 /// Receives the forks of a path.
 pub(crate) trait Forks {
-    fn clone_at(&mut self, turtle: Turtle, state: ForkStart, index: u32);
+    fn fork_at(&mut self, turtle: Turtle, state: ForkStart, index: u32);
 }
 
 /// Walks the path of `stem` at `length` metres for the whole stem; appends its points to `path`.
@@ -168,7 +168,7 @@ pub(crate) fn forks_at(
     Parting { forked_stems: forked_stems as u32, base: false }
 }
 
-/// What tells fork `j` of those that leave at point `i` from the other forks of its stem.
+/// The number of fork `j` of those that leave at point `i`: no other fork of the stem has it.
 pub(crate) const fn fork_index(i: u32, j: u32) -> u32 {
     i * 32 + j
 }
@@ -213,24 +213,24 @@ fn part(
     fork.correction = angle / f64::from(level.curve_res + 1 - i);
 
     for j in 0..count {
-        let mut clone = arrival;
+        let mut arm = arrival;
         if direct {
             let share = 0.5 * spread * f64::from(1 + j / 2);
-            clone.turn_right(if j % 2 == 0 { -share } else { share });
+            arm.turn_right(if j % 2 == 0 { -share } else { share });
         } else {
-            clone.pitch_down(angle / 2.0);
+            arm.pitch_down(angle / 2.0);
             let about = if base {
-                let jitter = level.split_angle_v * stem.key.signed(purpose::CLONE_SPREAD, i * 32 + j);
+                let jitter = level.split_angle_v * stem.key.signed(purpose::FORK_SPREAD, i * 32 + j);
                 TAU * f64::from(j + 1) / f64::from(count + 1) + jitter
             } else if j == 0 {
                 spread / 2.0
             } else {
                 -spread / 2.0
             };
-            clone.rotate_about(DVec3::Z, about);
+            arm.rotate_about(DVec3::Z, about);
         }
         let state = ForkStart { start: i, first_handle, child_length, fork: *fork };
-        forks.clone_at(clone, state, fork_index(i, j));
+        forks.fork_at(arm, state, fork_index(i, j));
     }
 
     if direct {
@@ -343,7 +343,7 @@ mod tests {
     struct NoForks;
 
     impl Forks for NoForks {
-        fn clone_at(&mut self, _: Turtle, _: ForkStart, _: u32) {}
+        fn fork_at(&mut self, _: Turtle, _: ForkStart, _: u32) {}
     }
 
     const PLAIN: [(&str, f64); 6] = [

@@ -29,8 +29,8 @@ pub(crate) const CURVE: Purpose = 31;
 pub(crate) const SPLIT: Purpose = 32;
 pub(crate) const SPLIT_ANGLE: Purpose = 33;
 pub(crate) const SPLIT_SPREAD: Purpose = 34;
-pub(crate) const CLONE: Purpose = 35;
-pub(crate) const CLONE_SPREAD: Purpose = 36;
+pub(crate) const FORK: Purpose = 35;
+pub(crate) const FORK_SPREAD: Purpose = 36;
 // Of a stem's child or leaf.
 pub(crate) const CHILD: Purpose = 40;
 pub(crate) const ROTATE: Purpose = 41;

@@ -7,10 +7,10 @@ use pleach_tree::Spread;
 pub(crate) fn spreads(model: &Model) -> Vec<Spread> {
     let level = |number: usize| {
         if number == 0 {
-            return Spread::of_trunks();
+            return Spread::for_trunks();
         }
         let level = &model.levels[number];
-        Spread::of_stems(Spread {
+        Spread::for_stems(Spread {
             azimuth: level.rotate_v,
             pitch: level.down_angle_v,
             length: if level.length > 0.0 { level.length_v / level.length } else { 0.0 },

@@ -13,7 +13,7 @@ pub(crate) struct StemSpec {
     /// What its random numbers follow from.
     pub(crate) key: Key,
     /// What the numbers of its forks follow from: `key`, but of a fork with other draws its own. Forks share
-    /// what they carry over from one to the next, and none is to change for the draws of another one.
+    /// what they carry over from one to the next, and no fork changes with the draws of another.
     pub(crate) fork_key: Key,
     /// Where it is in the tree.
     pub(crate) address: Address,
@@ -33,7 +33,7 @@ pub(crate) struct StemSpec {
     pub(crate) radius: f64,
     /// Largest radius that the base may have: the parent's where it starts.
     pub(crate) radius_limit: f64,
-    /// The parent's length, radius and greatest relative length of children.
+    /// The parent's length in metres.
     pub(crate) parent_length: f64,
     /// The parent's nominal base radius in metres.
     pub(crate) parent_radius: f64,
@@ -135,8 +135,8 @@ impl StemSpec {
         let address = self.address.fork(index);
         let draw = growth.draw(address, self.level);
         let fork = Self {
-            key: draw.key(self.key.child(purpose::CLONE, index)),
-            fork_key: self.fork_key.child(purpose::CLONE, index),
+            key: draw.key(self.key.child(purpose::FORK, index)),
+            fork_key: self.fork_key.child(purpose::FORK, index),
             address,
             number: index,
             forked: Some(state),

@@ -75,7 +75,8 @@ fn it_is_blended() {
 fn it_is_exported() {
     let species = bush("broom");
     let mut glb = std::io::Cursor::new(Vec::new());
-    pleach::write_glb(&mut glb, "broom", &species.grow(1).unwrap(), &Palette::new(&species, None)).unwrap();
+    pleach::write_glb(&mut glb, "broom", &species.grow(1).unwrap(), &Palette::new(&species.appearance, None))
+        .unwrap();
     let bytes = glb.into_inner();
     assert!(bytes.starts_with(b"glTF") && bytes.len() > 10_000, "{}", bytes.len());
 }

@@ -5,17 +5,18 @@ use super::leaf_form::Leaves;
 use crate::choice::{Choice, one_of};
 use crate::files::{self, Out};
 use anyhow::{Context, bail};
+use pleach::extras;
 use pleach_mesh::forest;
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::weld::WeldSettings;
-use pleach_mesh::write::glb::{Glb, Placed, Scene, extras};
+use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{obj, ply, stl, usda};
 use pleach_mesh::{
     Block, Card, Cards, LeafStyle, Material, MeshError, MeshSettings, Mesher, Palette, Rig, Source, Welded,
     send, weld,
 };
 use pleach_render::{Billboards, billboard, leaf_picture, png_file};
-use pleach_tree::species::Season;
+use pleach_tree::Season;
 use pleach_tree::{Foliage, Parts, Species, Tree};
 use serde_json::json;
 use std::io::Write;
@@ -189,7 +190,7 @@ impl MeshArgs {
 
     /// The colours of the season that was asked for.
     pub(super) fn palette(&self, species: &Species) -> Palette {
-        Palette::new(species, self.season)
+        Palette::new(&species.appearance, self.season)
     }
 
     /// Writes a tree as a mesh.
@@ -298,7 +299,7 @@ impl MeshArgs {
         let mut palette = None;
         for &variant in &used {
             let mut tree = grow(seed + u64::from(variant))?;
-            let colors = Palette::new(species, season);
+            let colors = Palette::new(&species.appearance, season);
             colors.apply_season(&mut tree);
             palette = palette.or(Some(colors));
             trees.push(tree);

@@ -5,7 +5,7 @@ use pleach_blend::picture::{Anchor, Color, Scene, Shape};
 use pleach_mesh::Palette;
 use pleach_render::preview::Background;
 use pleach_render::{Picture, Preview, PreviewSettings};
-use pleach_tree::species::{self, Season};
+use pleach_tree::Season;
 use pleach_tree::{Parts, Species, Tree, TreeStats};
 
 /// Pixels of a sheet, at most: a gigabyte of colours.
@@ -41,7 +41,7 @@ pub(super) fn sheet(
     let settings = PreviewSettings {
         width: size,
         height: size,
-        background: Background::Plain(species::Color([255; 3])),
+        background: Background::Plain(pleach_tree::Color([255; 3])),
         ..*settings
     };
     let mut pictures = Vec::new();
@@ -57,7 +57,7 @@ pub(super) fn sheet(
             f64::from(size),
         );
         for (k, season) in [(0, None), (1, Some(Season::Winter))] {
-            let palette = Palette::new(species, season);
+            let palette = Palette::new(&species.appearance, season);
             palette.apply_season(&mut tree);
             let picture = Preview::with_parts(&tree, &palette, size, parts).picture(&settings);
             pictures.push((x + k * size, y, picture));

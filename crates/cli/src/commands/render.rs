@@ -11,7 +11,7 @@ use pleach_mesh::Palette;
 use pleach_render::preview::{Background, Ground};
 use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_silhouette::View;
-use pleach_tree::species::{Color, Season};
+use pleach_tree::{Color, Season};
 use pleach_tree::{Growth, Parts, Species, Tree};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -121,7 +121,7 @@ impl Render {
         let seed = self.seed.or(species.tree_seed).unwrap_or(1);
         let file = self.file()?;
         let mut tree = self.grow(species, seed)?;
-        let palette = Palette::new(species, self.season);
+        let palette = Palette::new(&species.appearance, self.season);
         palette.apply_season(&mut tree);
         let preview = Preview::with_parts(&tree, &palette, self.size, self.parts());
         let name = |what: &str| format!("{}-{seed}{what}.png", species.name);

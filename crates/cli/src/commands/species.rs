@@ -1,7 +1,7 @@
 //! `pleach species`: what is known, or one species as a file.
 
 use crate::{input, output};
-use pleach_tree::species::{Form, Key};
+use pleach_tree::species::{Form, Key, appearance_keys};
 use pleach_tree::{Foliage, Species};
 use serde_json::json;
 
@@ -65,7 +65,7 @@ fn all_values(species: &Species) -> serde_json::Value {
             (param.name.to_string(), if values.len() == 1 { json!(values[0]) } else { json!(values) })
         })
         .collect();
-    let looks: serde_json::Map<_, _> = species.appearance.said().into_iter().map(look).collect();
+    let looks: serde_json::Map<_, _> = appearance_keys(&species.appearance).into_iter().map(look).collect();
     json!({
         "species": species.name, "generator": species.generator.family(), "parameters": values,
         "description": species.description, "tree_seed": species.tree_seed, "bare": species.foliage == Foliage::None, "appearance": looks,

@@ -38,7 +38,7 @@ impl GoalHeight {
 }
 
 /// Metres from the ground to the highest knot or, with leaves, middle line of a leaf: the height to a
-/// pixel or two, at a fraction of the price of [`pleach_tree::stats::Bounds`].
+/// pixel or two, at a fraction of the price of [`pleach_tree::Bounds`].
 pub(crate) fn height_of(tree: &Tree, foliage: Foliage) -> f64 {
     let knots = tree.knots.iter().map(|knot| knot.point.z).fold(0.0, f64::max);
     if foliage == Foliage::None {

@@ -247,7 +247,7 @@ fn mark(shown: &Shown<'_>, attempt: &Try, side: u32) -> u64 {
     let views = views(shown.models.evaluator(attempt.candidate), attempt);
     let FitSettings { robust, limits, .. } = shown.settings;
     let Genome { values, tree_seed, .. } = &attempt.genome;
-    Fnv::of(format!("{model} {values:?} {tree_seed} {robust} {limits:?} {views:?} {side}").as_bytes())
+    Fnv::hash(format!("{model} {values:?} {tree_seed} {robust} {limits:?} {views:?} {side}").as_bytes())
 }
 
 /// How the trees of `attempt` look, from drawings that are there or grown; none if one of them does not grow.

@@ -1,6 +1,6 @@
 //! The draws that were chosen so far.
 
-use pleach_tree::{Draw, Individual, individual::StemPath};
+use pleach_tree::{Draw, Individual, StemPath};
 use std::collections::BTreeMap;
 use std::ops::Bound;
 

@@ -11,7 +11,7 @@ use crate::error::FitError;
 use crate::evaluator::{Evaluator, PreparedView};
 use crate::objective::Objective;
 use pleach_silhouette::Layer;
-use pleach_tree::individual::Trial;
+use pleach_tree::Trial;
 use pleach_tree::{Draw, Spread};
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;

@@ -5,7 +5,7 @@ use super::hand::{DETAIL, Hand, Scene};
 use super::units::{Unit, Units};
 use crate::evaluator::Comparisons;
 use pleach_silhouette::{Bitmap, Layer, Stack};
-use pleach_tree::{Address, Draw, Spread, individual::StemPath};
+use pleach_tree::{Address, Draw, Spread, StemPath};
 
 /// What all draws together cost at most, if every stem of a generation lay at the edge of its spread.
 const PRICE: f64 = 0.02;

@@ -48,7 +48,7 @@ fn trees_of_other_seeds_and_sizes_are_named() {
         let species = pleach_generators::preset(name).unwrap();
         let params = species.generator.space().check(found.nearest[0].values.clone()).unwrap();
         let tree = pleach_tree::Species { params, ..species }.grow(1).unwrap();
-        let height = pleach_tree::stats::Bounds::new(&tree, Parts::LEAFY).unwrap().max.z;
+        let height = pleach_tree::Bounds::new(&tree, Parts::LEAFY).unwrap().max.z;
         assert!((height / goal_height - 1.0).abs() < 0.02, "{name}: {height} m, the goal {goal_height} m");
     }
 }

@@ -1,8 +1,8 @@
 //! A second family of generators: a pole of two numbers.
 
 use glam::DVec3;
+use pleach_tree::Appearance;
 use pleach_tree::param::Effect;
-use pleach_tree::species::Appearance;
 use pleach_tree::{
     CheckedParams, Foliage, Generator, GrowError, Growth, Kind, Knot, Param, ParamSpace, Species, Stem,
     StemKind, Tree, Unit, Workspace,

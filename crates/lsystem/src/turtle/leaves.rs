@@ -4,7 +4,7 @@ use crate::header::Header;
 use crate::syntax::SettingKey;
 use glam::DVec3;
 use pleach_tree::leaf_shape::LeafShape;
-use pleach_tree::plant::piece;
+use pleach_tree::piece;
 use pleach_tree::turtle::Turtle;
 use pleach_tree::{Leaf, Tree};
 use std::sync::Arc;

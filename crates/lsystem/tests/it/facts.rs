@@ -1,7 +1,7 @@
 //! Counts and sizes of the papers' trees: exact where they are exact, else the means of 100 seeds.
 
 use pleach_lsystem::{Derivation, LSystem, LSystemFamily};
-use pleach_tree::stats::Bounds;
+use pleach_tree::Bounds;
 use pleach_tree::{Foliage, Limits, Parts, Tree};
 
 /// The grammar of a species that comes with pleach.

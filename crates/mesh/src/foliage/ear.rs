@@ -58,7 +58,7 @@ fn quality(outline: &[Point], ear: [u32; 3]) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pleach_tree::leaf_shape::LeafShape;
+    use pleach_plant::leaf_shape::LeafShape;
 
     #[test]
     fn triangles_fill_every_leaf_exactly() {

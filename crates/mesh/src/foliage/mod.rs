@@ -6,10 +6,10 @@ use crate::block::{Block, Vertex};
 use crate::part::Count;
 use crate::settings::LeafStyle;
 use glam::{Vec2, Vec3, vec3};
-use pleach_tree::Leaf;
-use pleach_tree::leaf_shape::{BlossomShape, Outline};
+use pleach_plant::Leaf;
+use pleach_plant::leaf_shape::{BlossomShape, Outline};
 
-/// A unit shape as triangles, in the coordinates of [`pleach_tree::plant::Leaf`].
+/// A unit shape as triangles, in the coordinates of [`pleach_plant::Leaf`].
 #[derive(Clone, Debug, Default)]
 pub(crate) struct UnitMesh {
     corners: Vec<Corner>,
@@ -238,7 +238,7 @@ fn centroid_height(corners: &[[f32; 2]], area: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pleach_tree::leaf_shape::LeafShape;
+    use pleach_plant::leaf_shape::LeafShape;
 
     fn area(mesh: &UnitMesh) -> f32 {
         let corner = |i: u32| mesh.corners[i as usize].at;

@@ -22,7 +22,7 @@ use crate::part::Count;
 use crate::settings::MeshSettings;
 use glam::vec2;
 use path::Ring;
-use pleach_tree::trig::sin_cos;
+use pleach_plant::trig::sin_cos;
 use rings::{End, Run};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -1,7 +1,7 @@
 //! A stem's axis as points that stand close enough, and where it turns sharply.
 
 use glam::DVec3;
-use pleach_tree::{Stem, Tree};
+use pleach_plant::{Stem, Tree};
 
 /// No ring is narrower, in metres: beads of periodic taper meet in points, and single precision
 /// thirty metres from the origin ends at two micrometres.

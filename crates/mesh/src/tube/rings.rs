@@ -7,8 +7,8 @@
 use super::frame::{perpendicular, transport};
 use super::path::{Corner, Path, Ring};
 use glam::DVec3;
-use pleach_tree::turtle::rotate;
-use pleach_tree::{Stem, StemKind, Tree};
+use pleach_plant::turtle::rotate;
+use pleach_plant::{Stem, StemKind, Tree};
 
 /// Rings are at least this far apart, in metres.
 const MIN_STEP: f64 = 1e-4;
@@ -43,7 +43,7 @@ pub(crate) struct Run<'a> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rings {
     path: Path,
-    /// All runs, one after the other; none if the stem is too short to be drawn.
+    /// All runs, one after the other; `None` if the stem is too short to be drawn.
     rings: Vec<Ring>,
     /// The end of each run in `rings`.
     ends: Vec<usize>,
@@ -254,7 +254,7 @@ impl Run<'_> {
 
 /// Whether the tube between two rings has all its faces outside.
 ///
-/// A face turns inside out when a corner of one ring comes to lie behind the plane of the other. A
+/// A face turns inside out when a vertex of one ring comes to lie behind the plane of the other. A
 /// corner strays from its ring's centre along the other's tangent by at most its radius times the
 /// sine of the angle between the planes.
 fn apart(a: &Ring, b: &Ring) -> bool {

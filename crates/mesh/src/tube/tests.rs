@@ -2,7 +2,7 @@
 
 use super::*;
 use glam::{DVec3, dvec3};
-use pleach_tree::{Knot, Stem, StemKind, Tree};
+use pleach_plant::{Knot, Stem, StemKind, Tree};
 use proptest::prelude::*;
 use std::collections::HashMap;
 

@@ -1,7 +1,7 @@
 //! How far a point is from a piece of stem: two spheres and everything between them.
 
 use glam::DVec3;
-use pleach_tree::math;
+use pleach_plant::math;
 
 /// A unit vector, and how far along it the plane lies, in metres.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +24,7 @@ pub(super) struct Cone {
     length: f64,
     /// By how much the radius grows per metre along the axis.
     taper: f64,
-    /// The nearest sphere stands so many metres farther back per metre aside of the axis; none where one
+    /// The nearest sphere stands this many metres farther back per metre aside of the axis; `None` where one
     /// sphere holds the other.
     slant: Option<f64>,
 }

@@ -3,7 +3,7 @@
 use super::WeldError;
 use super::nearby::{Nearby, Room, Stems};
 use glam::{DVec3, IVec3, ivec3};
-use pleach_tree::math;
+use pleach_plant::math;
 use rayon::prelude::*;
 
 /// Cells along a brick: two eights.
@@ -16,7 +16,7 @@ pub(super) const MAX_ALONG: i32 = 1 << 20;
 const MAX_CELLS: f64 = 12_000_000.0;
 /// Cells around the surface that count as near to it.
 const BAND: f64 = 2.0;
-/// A brick knows what matters so many cells around it: grid points give way by less.
+/// A brick knows what matters this many cells around it: grid points give way by less.
 const AROUND: f64 = 0.3;
 
 /// Where the grid lies.
@@ -56,7 +56,7 @@ impl Grid {
         if along.is_nan() || along >= f64::from(MAX_ALONG) {
             return Err(WeldError::TooFine { cell });
         }
-        // Told before the work, not after: a grid too fine would take minutes to overflow.
+        // Refused before the work, not after: a grid too fine would take minutes to overflow.
         let volume: f64 = stems.cones.iter().map(|cone| cone.volume_around(BAND * cell)).sum();
         if volume / math::powi(cell, 3) > MAX_CELLS {
             return Err(WeldError::TooFine { cell });

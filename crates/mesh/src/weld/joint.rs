@@ -5,7 +5,7 @@
 
 use super::cone::Cone;
 use glam::DVec3;
-use pleach_tree::Tree;
+use pleach_plant::Tree;
 use std::ops::Range;
 
 /// Two stems that meet.
@@ -21,7 +21,7 @@ pub(super) struct Joint {
     pub(super) stems: [Range<usize>; 2],
     /// Where two distances differ by less than this many metres, the corner is filled; positive.
     pub(super) width: f64,
-    /// Within so many metres of `at` the fillet is whole, and at twice as many there is none.
+    /// Within this distance of `at`, in metres, the fillet is whole; at twice the distance it has ended.
     reach: f64,
 }
 

@@ -16,7 +16,7 @@ pub(super) struct Local {
     joints: Vec<(Joint, [Range<u32>; 2])>,
     /// The cones of the joints' sides, in rising order.
     sides: Vec<u32>,
-    /// How far each cone is from the point in question, NaN where nobody has asked.
+    /// How far each cone is from the point in question, NaN where it is not known yet.
     known: Vec<f64>,
 }
 

@@ -20,8 +20,8 @@ use glam::{Vec3, vec2};
 use grid::Grid;
 use joint::Joint;
 use nearby::Stems;
-use pleach_tree::stats::Bounds;
-use pleach_tree::{Parts, StemKind, Tree};
+use pleach_plant::Bounds;
+use pleach_plant::{Parts, StemKind, Tree};
 use std::ops::Range;
 use stitch::Surface;
 

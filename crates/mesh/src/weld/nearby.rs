@@ -1,6 +1,6 @@
 //! Which stems and fillets can matter to distances in a ball.
 //!
-//! A distance changes by at most a metre per metre. What is known at a ball's centre therefore tells which
+//! A distance changes by at most a metre per metre. The distance at a ball's centre therefore shows which
 //! stems may be nearest anywhere in it, exactly: inside the ball the few that are kept give the same
 //! numbers, to the last bit, as all of them.
 
@@ -9,7 +9,7 @@ use super::joint::Joint;
 use glam::DVec3;
 use std::ops::Range;
 
-/// Distances are compared with so many metres of slack, for rounding.
+/// Slack of comparisons of distances in metres, for rounding.
 pub(super) const SLACK: f64 = 1e-9;
 
 /// Stems in pieces, and where they flow into each other.

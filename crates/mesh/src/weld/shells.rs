@@ -4,7 +4,7 @@ use super::stitch::Surface;
 use glam::{DVec3, Vec3};
 
 impl Surface {
-    /// Without the walls of hollows: where twigs close around some air, nobody sees it, and a printer would
+    /// Without the walls of hollows: where twigs close around some air, it is invisible, and a printer would
     /// have to.
     pub(super) fn without_hollows(self) -> Self {
         let shells = Shells::new(self.corners.len(), &self.triangles);
@@ -61,7 +61,7 @@ impl Shells {
         Self { of }
     }
 
-    /// How many shells there are; a corner without a face is one.
+    /// Number of shells; a vertex without a face is one.
     pub(super) fn count(&self) -> usize {
         self.of.iter().enumerate().filter(|(i, first)| **first == *i as u32).count()
     }

@@ -17,7 +17,7 @@ use glam::{DVec3, IVec3, Vec3, ivec3};
 
 /// Corners stay this part of an edge away from its ends, so that no face shrinks to nothing.
 pub(super) const MARGIN: f64 = 0.1;
-/// Grid points that are nearer to the surface than so many cells give way, to so far from it.
+/// Grid points nearer to the surface than this, in cells, are moved to this distance from it.
 ///
 /// Neighbours that give way towards each other leave a tetrahedron its size up to 0.35 cells, half its
 /// least height.
@@ -88,7 +88,7 @@ fn grid_points(side: i32) -> impl Iterator<Item = IVec3> {
 }
 
 impl Piece {
-    /// The surface in `brick`; none where it does not come there.
+    /// The surface in `brick`; `None` where it does not enter it.
     pub(super) fn new(grid: &Grid, stems: &Stems, brick: &Brick) -> Option<Self> {
         let mut points = Points::new(grid, stems, brick);
         let inside = points.distances.map(|distance| distance < 0.0);

@@ -1,4 +1,4 @@
-//! Numbers as text with so many decimals. The standard formatter took four fifths of an OBJ's time.
+//! Numbers as text with a given number of decimals. The standard formatter took four fifths of an OBJ's time.
 
 /// Appends `number` with `decimals` digits after the point; never −0.
 pub(super) fn push(text: &mut Vec<u8>, number: f32, decimals: usize) {

@@ -4,7 +4,7 @@
 //! | --- | --- | --- |
 //! | [`glb`] | +y | everything: materials, levels of detail, instances, wind, joints and their sway |
 //! | [`obj`] | +y | one mesh, materials in a file beside it |
-//! | [`ply`] | +z | one mesh, one colour a corner, wind |
+//! | [`ply`] | +z | one mesh, one colour per vertex, wind |
 //! | [`stl`] | +z | triangles alone |
 //! | [`usda`] | +z | one mesh, materials, leaves as instances |
 

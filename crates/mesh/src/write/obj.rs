@@ -108,7 +108,7 @@ impl<W: Write> Sink for Obj<W> {
     }
 }
 
-/// A keyword and numbers with so many decimals.
+/// A keyword and numbers with a given number of decimals.
 fn line(text: &mut Vec<u8>, keyword: &[u8], numbers: &[f32], decimals: usize) {
     text.extend_from_slice(keyword);
     for &number in numbers {

@@ -22,7 +22,7 @@ fn grow(name: &str) -> (Species, Tree) {
 fn scene<'a>(species: &Species, _: &Tree, levels: usize) -> Scene<'a> {
     Scene {
         name: species.name.clone(),
-        palette: Palette::new(species, None),
+        palette: Palette::new(&species.appearance, None),
         extras: serde_json::json!({"species": species.name, "seed": 1}),
         placed: vec![Placed::at_origin(&species.name, levels)],
         rig: None,
@@ -321,7 +321,7 @@ fn the_usd_library_finds_nothing_wrong() {
     let dir = tempfile::tempdir().unwrap();
     for (name, leaves) in [("acer", LeafStyle::Outline), ("apple", LeafStyle::CrossedCards)] {
         let (species, tree) = grow(name);
-        let palette = Palette::new(&species, None);
+        let palette = Palette::new(&species.appearance, None);
         let mesher = Mesher::new(&tree, MeshSettings { leaves, ..MeshSettings::default() });
         let mesher = if name == "acer" { mesher } else { mesher.with_instanced_leaves() };
         let count = mesher.count();
@@ -362,7 +362,7 @@ fn ply_holds_what_its_head_promises() {
     for wind in [false, true] {
         let mesher = Mesher::new(&tree, MeshSettings { wind, ..MeshSettings::default() });
         let count = mesher.count();
-        let palette = Palette::new(&species, None);
+        let palette = Palette::new(&species.appearance, None);
         let mut bytes = Vec::new();
         send(&[mesher], &mut ply::Ply::new(&mut bytes, palette)).unwrap();
         let end = b"end_header\n";
@@ -394,7 +394,7 @@ fn obj_counts_corners_from_one_and_names_its_materials() {
     assert!(text.contains("mtllib palm.mtl") && text.contains("o a_palm") && text.contains("usemtl leaves"));
     let highest = text.lines().filter(|l| l.starts_with("f ")).flat_map(|l| l.split([' ', '/']).skip(1));
     assert_eq!(highest.map(|n| n.parse::<u64>().unwrap()).max(), Some(count.vertices));
-    let materials = obj::materials(&Palette::new(&species, None), &[]);
+    let materials = obj::materials(&Palette::new(&species.appearance, None), &[]);
     assert_eq!(materials.matches("newmtl").count(), 3);
 }
 
@@ -405,7 +405,7 @@ fn usda_arrays_have_their_lengths() {
     let mesher = Mesher::new(&tree, MeshSettings::default()).with_instanced_leaves();
     let parts = mesher.parts(0);
     let notes = usda::Notes { name: "1 hill cherry".into(), ..usda::Notes::default() };
-    let palette = Palette::new(&species, None);
+    let palette = Palette::new(&species.appearance, None);
     let mut bytes = Vec::new();
     send(&[mesher], &mut usda::Usda::new(&mut bytes, &notes, palette)).unwrap();
     let text = String::from_utf8(bytes).unwrap();

@@ -13,7 +13,7 @@ use pleach_fit::{
 use pleach_silhouette::Bitmap;
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::score::{ScoreCard, SizeMismatch};
-use pleach_tree::dendrometry::Dendrometry;
+use pleach_tree::Dendrometry;
 use pleach_tree::param::SlotError;
 use pleach_tree::{Foliage, GrowError, Species, Tree};
 use serde::Serialize;

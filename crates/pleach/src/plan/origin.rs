@@ -4,8 +4,8 @@ use pleach_fit::{
     Candidate, FitSettings, GoalSettings, GuessSettings, Guessing, SpaceError, Start, check_freedom,
 };
 use pleach_generators::GeneratorChoice;
+use pleach_tree::Appearance;
 use pleach_tree::Species;
-use pleach_tree::species::Appearance;
 
 /// Where a fit begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

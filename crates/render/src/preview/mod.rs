@@ -19,7 +19,7 @@ use crate::picture::Picture;
 pub(crate) use flat::Frame;
 use glam::Vec3;
 use pleach_mesh::Palette;
-use pleach_tree::{Parts, Tree};
+use pleach_plant::{Parts, Tree};
 use scene::Scene;
 pub use settings::{Background, Ground, PreviewSettings};
 
@@ -39,7 +39,7 @@ pub fn render(tree: &Tree, palette: &Palette, size: u32) -> Picture {
 ///
 /// let species = pleach_generators::species("palm")?;
 /// let tree = species.grow(1)?;
-/// let preview = Preview::new(&tree, &Palette::new(&species, None), 48);
+/// let preview = Preview::new(&tree, &Palette::new(&species.appearance, None), 48);
 /// let small = PreviewSettings { width: 48, height: 48, ..PreviewSettings::default() };
 /// let [front, side] = [0.0, 90.0].map(|degrees: f64| {
 ///     preview.picture(&PreviewSettings { azimuth: degrees.to_radians(), ..small })

@@ -7,8 +7,8 @@ use pleach_mesh::{
     Block, Count, LeafStyle, Material, MeshError, MeshSettings, Mesher, Palette, Part, Sink, Source as _,
     Vertex, send,
 };
-use pleach_tree::stats::Bounds;
-use pleach_tree::{Parts, Tree};
+use pleach_plant::Bounds;
+use pleach_plant::{Parts, Tree};
 use std::ops::Range;
 
 /// A tree about to be looked at. Its triangles are made again for each pass over them, block by block: all of them
@@ -78,7 +78,7 @@ impl<'a> Scene<'a> {
         if !tree.leaves.is_empty() {
             let n = tree.leaves.len() as f32;
             scene.heart = tree.leaves.iter().map(|l| l.position).sum::<Vec3>() / n;
-            let distance = |l: &pleach_tree::Leaf| l.position.distance(scene.heart);
+            let distance = |l: &pleach_plant::Leaf| l.position.distance(scene.heart);
             scene.reach = (tree.leaves.iter().map(distance).sum::<f32>() / n).max(1e-3);
         }
         scene
@@ -195,7 +195,7 @@ fn stems(tree: &Tree, mesher: &Mesher<'_>) -> Vec<(u32, f32, u16)> {
 
 /// Where area hangs: leaves and blossoms at their middles, stems along their knots.
 fn areas(tree: &Tree) -> impl Iterator<Item = (Vec3, f32)> {
-    let leaf = |l: &pleach_tree::Leaf, unit: f32| (l.position + l.along * 0.5, l.unit_area() * unit);
+    let leaf = |l: &pleach_plant::Leaf, unit: f32| (l.position + l.along * 0.5, l.unit_area() * unit);
     let leaves = tree.leaves.iter().map(move |l| leaf(l, tree.outline_of(l).area()));
     let blossoms = tree.blossoms.iter().map(move |l| leaf(l, 1.5));
     let pieces = tree.stems.iter().flat_map(|stem| tree.knots_of(stem).windows(2)).map(|pair| {
@@ -222,7 +222,7 @@ mod tests {
         };
         let mesh = Mesher::new(&tree, MeshSettings::default());
         for size in [64, 512] {
-            let scene = Scene::new(&tree, &Palette::new(&species, None), size, Parts::LEAFY);
+            let scene = Scene::new(&tree, &Palette::new(&species.appearance, None), size, Parts::LEAFY);
             assert_eq!(
                 triangles(&scene.mesher, Material::Blossom),
                 triangles(&mesh, Material::Blossom),

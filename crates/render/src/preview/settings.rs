@@ -1,6 +1,6 @@
 //! How a picture is taken.
 
-use pleach_tree::species::Color;
+use pleach_plant::Color;
 
 /// What is behind the tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

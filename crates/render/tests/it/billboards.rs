@@ -13,7 +13,7 @@ fn billboards_show_the_silhouette_of_their_tree() {
     for name in SPECIES {
         let species = pleach_generators::preset(name).unwrap();
         let tree = species.grow(1).unwrap();
-        let palette = Palette::new(&species, None);
+        let palette = Palette::new(&species.appearance, None);
         let Billboards { picture, cards } = Billboards::paint(&[&tree], &palette, 2);
         assert_eq!(cards[0].len(), 2);
         for (card, view) in cards[0].iter().zip([View::FRONT, View::degrees(90.0, 0.0)]) {
@@ -46,7 +46,7 @@ fn billboards_show_the_silhouette_of_their_tree() {
 fn what_is_not_seen_has_no_card() {
     let species = pleach_generators::preset("acer").unwrap();
     let (tree, nothing) = (species.grow(1).unwrap(), pleach_tree::Tree::default());
-    let palette = Palette::new(&species, None);
+    let palette = Palette::new(&species.appearance, None);
     let billboards = Billboards::paint(&[&nothing, &tree], &palette, 2);
     assert_eq!(billboards.cards.iter().map(Vec::len).collect::<Vec<_>>(), [0, 2]);
     assert!(!billboards.is_empty() && Billboards::paint(&[&nothing], &palette, 3).is_empty());

@@ -4,12 +4,12 @@ use pleach_mesh::Palette;
 use pleach_render::preview::{Background, Ground};
 use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_tree::Tree;
-use pleach_tree::species::{Color, Season};
+use pleach_tree::{Color, Season};
 
 fn grown(name: &str, season: Option<Season>) -> (Tree, Palette) {
     let species = pleach_generators::preset(name).unwrap();
     let mut tree = species.grow(1).unwrap();
-    let palette = Palette::new(&species, season);
+    let palette = Palette::new(&species.appearance, season);
     palette.apply_season(&mut tree);
     (tree, palette)
 }

@@ -107,7 +107,7 @@ fn clumps(support: &[u32], least: u32) -> Vec<(f64, f64)> {
     found
 }
 
-/// Mean column by support; none without any.
+/// Mean column by support; `None` without support.
 fn weighted_middle(support: &[u32]) -> Option<f64> {
     let total: f64 = support.iter().map(|&s| f64::from(s)).sum();
     let moment: f64 = support.iter().zip(0..).map(|(&s, x)| f64::from(s) * (f64::from(x) + 0.5)).sum();

@@ -53,7 +53,7 @@ enum Side {
     Bottom,
 }
 
-/// The frame around a picture of these brightnesses, row by row; none if there is none.
+/// The frame around a picture of these brightnesses, row by row; `None` if there is no frame.
 ///
 /// A lone band at the bottom is the ground that a tree stands on, and stays.
 pub(crate) fn frame(light: &[u8], width: u32, height: u32) -> Option<FrameWidths> {
@@ -68,7 +68,7 @@ pub(crate) fn frame(light: &[u8], width: u32, height: u32) -> Option<FrameWidths
         };
         let mut wider = found;
         for &(side, lines, _) in bands.iter().filter(is_frame) {
-            *wider.of(side) += lines;
+            *wider.side_mut(side) += lines;
         }
         if wider == found {
             break;
@@ -79,7 +79,7 @@ pub(crate) fn frame(light: &[u8], width: u32, height: u32) -> Option<FrameWidths
 }
 
 impl FrameWidths {
-    fn of(&mut self, side: Side) -> &mut u32 {
+    fn side_mut(&mut self, side: Side) -> &mut u32 {
         match side {
             Side::Left => &mut self.left,
             Side::Top => &mut self.top,

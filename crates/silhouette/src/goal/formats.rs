@@ -1,4 +1,4 @@
-//! Pictures that are not read, told by how they begin, and what turns them into such that are.
+//! Formats that are not read, recognised by their first bytes, and what converts them.
 
 /// Bytes at a file's start that [`foreign`] looks at.
 pub(super) const HEAD: usize = 16;
@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn formats_are_told_by_how_they_begin() {
+    fn formats_are_known_by_their_first_bytes() {
         for (head, name) in [
             (&b"\0\0\0\x18ftypheic\0\0\0\0"[..], Some("HEIC")),
             (b"\0\0\0\x20ftypavif\0\0\0\0", Some("AVIF")),

@@ -18,7 +18,7 @@ pub enum Polarity {
     LightTree,
 }
 
-/// How the tree was told from the paper.
+/// How tree and paper were separated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Split {
     /// The tree is what is at least half opaque, or the hole in it.
@@ -30,7 +30,7 @@ pub enum Split {
         /// Whether the dark part is the tree.
         dark_tree: bool,
     },
-    /// The tree is what differs from the paper in colour, since brightness did not tell.
+    /// By colour, since brightness was not enough.
     Color,
     /// The picture was one-bit already.
     None,
@@ -62,7 +62,7 @@ pub(crate) struct LowContrast {
     pub(crate) lightest: u8,
 }
 
-/// The tree in a picture, and how it was told from the paper. What is not of the picture, such as a frame,
+/// The tree in a picture, and how it was separated from the paper. What is not of the picture, such as a frame,
 /// gets the tones of what is next to it.
 pub(crate) fn ink_of(tones: &mut Tones, polarity: Polarity) -> Result<Reading, LowContrast> {
     let mut warnings = Vec::new();
@@ -140,7 +140,7 @@ fn bitmap(tones: &Tones, ink: impl Fn(usize) -> bool) -> Bitmap {
     Bitmap::from_fn(tones.width, tones.height, |x, y| ink(y as usize * width + x as usize))
 }
 
-/// The brightness that best splits a histogram in two: the greatest of the dark part; none if all is
+/// The brightness that best splits a histogram in two: the greatest of the dark part; `None` if all is
 /// of about one brightness.
 ///
 /// Otsu, "A threshold selection method from gray-level histograms" (1979): the split with the
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn either_polarity_is_told_by_the_edge() {
+    fn the_edge_decides_the_polarity() {
         let expected = Bitmap::from_fn(20, 20, tree);
         for (on, off, dark_tree) in [
             (10, 240, true),
@@ -241,11 +241,11 @@ mod tests {
     }
 
     #[test]
-    fn opacity_goes_before_brightness_unless_told_otherwise() {
+    fn opacity_goes_before_brightness_unless_set_by_hand() {
         // A white tree on transparent black.
         let t = tones(20, 20, |x, y| if tree(x, y) { (255, 255) } else { (0, 0) });
         assert_eq!(read(t, Polarity::Auto), (Bitmap::from_fn(20, 20, tree), Split::Opacity));
-        // A black tree on white paper with one transparent corner, told to be dark.
+        // A black tree on white paper with one transparent corner, set to be dark.
         let t = tones(20, 20, |x, y| (if tree(x, y) { 0 } else { 255 }, if x + y < 3 { 0 } else { 255 }));
         assert_eq!(read(t, Polarity::DarkTree).0, Bitmap::from_fn(20, 20, tree));
     }

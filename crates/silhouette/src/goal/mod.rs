@@ -2,11 +2,11 @@
 //!
 //! 1. The file is read to its end and its structure checked; then it is decoded within limits: at most
 //!    [`MAX_SIDE`] pixels wide and high and [`MAX_BYTES`]. Of an animation or of pages, the first is taken.
-//! 2. A frame around the picture is left out. What is tree is told by opacity where that cuts something out,
+//! 2. A frame around the picture is left out. The tree is found by opacity where that cuts something out,
 //!    else by Otsu's threshold on brightness, or between two values if there are no more; or a mask file says.
 //!    Where brightness makes a doubtful tree, what differs from the paper around it is tried.
 //! 3. Ground row and axis column are read off the ink, unless set by hand.
-//! 4. What is not as in a silhouette of a tree is told: [`GoalWarning`].
+//! 4. What is unusual for a silhouette of a tree is reported: [`GoalWarning`].
 //! 5. On request the picture is replaced by the tree and a margin: [`Crop`].
 //! 6. On request it is reduced to a working size, black from half coverage.
 //!
@@ -82,7 +82,7 @@ pub struct Detection {
     /// Longer side of the tree in pixels of the original, where the picture was [cropped](Crop::ToTree) to it: this is
     /// what [`GoalOptions::max_side`] bounds, and not the picture's longer side.
     pub tree_side: Option<f64>,
-    /// How the tree was told from the paper.
+    /// How tree and paper were separated.
     pub split: Split,
     /// Whether a mask file said what is tree.
     pub masked: bool,
@@ -110,7 +110,7 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// Reads a goal image: PNG, JPEG, WebP or TIFF, told by content, not by name.
+    /// Reads a goal image: PNG, JPEG, WebP or TIFF, recognised by content, not by name.
     ///
     /// ```
     /// use pleach_silhouette::{Goal, GoalOptions};

@@ -1,7 +1,7 @@
 //! Whether a picture that was split by brightness is a photograph rather than a silhouette.
 
 use super::read::Tones;
-use pleach_tree::math;
+use pleach_plant::math;
 
 /// Levels of 255 within which a pixel has its side's tone.
 const LIKE: i32 = 40;
@@ -16,8 +16,8 @@ const MIN_EVEN: f64 = 0.5;
 /// Sides with less than this part of the picture say nothing.
 const MIN_SIDE: f64 = 0.005;
 
-/// Whether the pixels on either side of the brightness `threshold` have so many tones, or colours, that
-/// brightness does not tell the tree from its background; `dark_tree` says which side is the tree.
+/// Whether the pixels on either side of the brightness `threshold` have too many tones, or colours, for
+/// brightness to separate the tree from its background; `dark_tree` says which side is the tree.
 pub(super) fn is_photograph(tones: &Tones, threshold: u8, dark_tree: bool) -> bool {
     let mut heaps = [[0_u64; 256]; 2];
     for &light in &tones.light {

@@ -8,7 +8,7 @@ use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
-/// Most pixels whose colours are looked at to tell a photograph from a silhouette.
+/// Most pixels that are sampled to distinguish photographs from silhouettes.
 const MAX_SAMPLES: usize = 1 << 17;
 
 /// A decoded picture: per pixel how bright and how opaque it is, 0 to 255, row by row.
@@ -56,8 +56,8 @@ fn colors(picture: &DynamicImage, stride: usize) -> Vec<[u8; 3]> {
     }
 }
 
-/// Decodes a picture and turns it upright; of several in a file, the first. Its size and the size that its
-/// header claims are checked before any pixel is. Tells whether there are several.
+/// Decodes a picture and turns it upright; of several in a file, the first. The sizes of
+/// the file and of its header are checked before any pixel is decoded. Also whether there are several.
 pub(crate) fn picture(source: &Encoded) -> Result<(DynamicImage, bool), GoalError> {
     let (mut decoder, several) = open(source)?;
     let bytes = decoder.total_bytes();
@@ -70,7 +70,7 @@ pub(crate) fn picture(source: &Encoded) -> Result<(DynamicImage, bool), GoalErro
     limits.max_image_height = Some(MAX_SIDE);
     limits.max_alloc = Some(2 * MAX_BYTES);
     decoder.set_limits(limits).map_err(damaged)?;
-    // Photographs lie on their side more often than not; a picture without a note stands as it is.
+    // Apply the EXIF orientation, if any.
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
     picture.apply_orientation(orientation);

@@ -54,7 +54,7 @@ const TALL: f64 = 0.1;
 /// What is to be said of a silhouette.
 pub(crate) fn warnings(ink: &Bitmap) -> Vec<GoalWarning> {
     let mut found = Vec::new();
-    let Some(shape) = Shape::of(ink) else { return found };
+    let Some(shape) = Shape::new(ink) else { return found };
     let ground = shape.ground();
     let touches = shape.touches(ground.unwrap_or(ink.height()));
     if touches != Touches::default() {
@@ -90,9 +90,9 @@ pub(crate) fn warnings(ink: &Bitmap) -> Vec<GoalWarning> {
     found
 }
 
-/// Ink per area of its convex hull, in 0..=1; none is not solid.
+/// Ink per area of its convex hull, in 0..=1; below this it is not solid.
 pub(crate) fn solidity(ink: &Bitmap) -> f64 {
-    Shape::of(ink).map_or(0.0, |shape| shape.solidity())
+    Shape::new(ink).map_or(0.0, |shape| shape.solidity())
 }
 
 /// Pixels of ink that touch none.
@@ -115,7 +115,7 @@ struct Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    fn of(ink: &'a Bitmap) -> Option<Self> {
+    fn new(ink: &'a Bitmap) -> Option<Self> {
         let (left, top, right, bottom) = ink.ink_box()?;
         Some(Self { ink, left, top, right, bottom })
     }

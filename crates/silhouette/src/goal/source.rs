@@ -19,7 +19,7 @@ pub struct Encoded {
 }
 
 impl Encoded {
-    /// Bytes at hand; `name` is what errors call them. Whether they are a picture is told when they are
+    /// Bytes at hand; `name` is what errors call them. Whether they are a picture is checked when they are
     /// decoded.
     #[must_use]
     pub fn new(name: impl Into<PathBuf>, bytes: Vec<u8>) -> Self {
@@ -55,7 +55,7 @@ impl Encoded {
             if format(&bytes).is_none() {
                 return Ok(false);
             }
-            // One byte more tells whether there is too much.
+            // One byte more, to notice that there is too much.
             from.take(MAX_BYTES + 1 - HEAD as u64).read_to_end(&mut bytes)?;
             Ok(true)
         })();
@@ -81,7 +81,7 @@ impl Encoded {
         &self.bytes
     }
 
-    /// The format, told by how it begins; none if it is not one of those that are read.
+    /// The format, by its first bytes; `None` if it is not one that is read.
     pub(super) fn format(&self) -> Option<ImageFormat> {
         format(&self.bytes)
     }

@@ -1,13 +1,13 @@
-//! What a picture shows beside its tree: wrong pixels all over it, and a few that lie far off.
+//! Noise: isolated pixels anywhere, and small pieces far from the tree.
 
 use crate::bitmap::Bitmap;
 use crate::pieces::{widened, without_specks};
 
-/// Of the eight pixels around one, as many of its own kind as a wrong pixel has at most.
+/// Isolated: at most this many of the 8 neighbors have the same value.
 const ALONE: usize = 1;
-/// Three wrong pixels side by side have neighbors: pieces are wrong too that cover fewer pixels than a line of five
-/// does, once they are widened by one pixel. Pieces that then touch are one, such as those of a hairline with holes.
-const LEAST_PIECE: u64 = 20;
+/// Smallest piece that is kept, in pixels after widening by [`REACH`]: a line of five pixels has 21. Pieces that touch
+/// after widening count as one, such as those of a hairline with holes.
+const MIN_PIECE: u64 = 20;
 const REACH: u32 = 1;
 /// Rows without ink between a tree and what is not of it, as a part of the tree's height.
 const GAP: f64 = 0.04;
@@ -19,7 +19,7 @@ const STRAY: f64 = 0.001;
 /// pixel.
 pub(super) fn cleaned(ink: &Bitmap) -> Bitmap {
     let ink = without_lone_pixels(ink);
-    let tree = without_specks(&widened(&ink, REACH), LEAST_PIECE);
+    let tree = without_specks(&widened(&ink, REACH), MIN_PIECE);
     Bitmap::from_fn(ink.width(), ink.height(), |x, y| ink.get(x, y) && tree.get(x, y))
 }
 

@@ -1,4 +1,4 @@
-//! What can be told of an encoded picture without decoding it: its size, whether it is all there, and
+//! What is known of an encoded picture before it is decoded: its size, whether it is all there, and
 //! whether it holds more pictures than one.
 //!
 //! Decoders trust lengths and sizes that a file claims, and some take what is missing for grey. So the
@@ -9,7 +9,7 @@ use image::ImageFormat;
 /// What the structure of a file says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Structure {
-    /// Width and height in pixels, where they are told before decoding.
+    /// Width and height in pixels, where they are known before decoding.
     pub(super) size: Option<(u32, u32)>,
     /// Whether it holds further pictures: an animation, or pages.
     pub(super) several: bool,
@@ -61,7 +61,7 @@ fn is_animated_png(bytes: &[u8]) -> bool {
     false
 }
 
-/// Where a JPEG ends, behind its end marker; none if it breaks off before.
+/// Where a JPEG ends, behind its end marker; `None` if it breaks off before.
 ///
 /// ITU-T T.81, annex B: segments with a length, and after a start of scan coded data in which 0xFF is
 /// followed by 0 or a restart marker. Pictures within a segment (thumbnails) are stepped over with it, and
@@ -91,7 +91,7 @@ fn jpeg_end(bytes: &[u8]) -> Option<usize> {
     }
 }
 
-/// Size of a TIFF's first page, and whether it has another (TIFF 6.0, section 2); none if it breaks off.
+/// Size of a TIFF's first page, and whether it has another (TIFF 6.0, section 2); `None` if it breaks off.
 fn tiff(bytes: &[u8]) -> Option<(Option<(u32, u32)>, bool)> {
     const WIDTH: u64 = 256;
     const HEIGHT: u64 = 257;
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn pages_and_sizes_are_told_in_either_order_of_bytes() {
+    fn pages_and_sizes_are_read_in_either_order_of_bytes() {
         for (next, several) in [(0, false), (200, true)] {
             let entries =
                 [[0, 1, 3, 0, 1, 0, 0, 0, 44, 1, 9, 9], [1, 1, 4, 0, 1, 0, 0, 0, 7, 0, 1, 0]].concat();

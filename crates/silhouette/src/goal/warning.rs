@@ -1,4 +1,4 @@
-//! What about a goal is not as a fit expects, so that its user may look again.
+//! Warnings: what is unusual about a goal, so that its user may look again.
 
 use super::border::FrameWidths;
 use crate::touches::Touches;
@@ -6,8 +6,7 @@ use serde::Serialize;
 use serde::ser::{SerializeStruct, Serializer};
 use std::fmt;
 
-/// Something about a picture, or about a mask made of one, that makes a bad goal. It can be fitted all the
-/// same.
+/// Something about a picture, or about a mask made of one, that makes a bad goal. It can still be fitted.
 ///
 /// `Display` says what was seen and what to do about it; as JSON it is `{"kind": …, "message": …}`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,15 +18,15 @@ pub enum GoalWarning {
     SeveralPictures,
     /// A frame around the picture, as of a print or a scanner, that was left out.
     Frame(FrameWidths),
-    /// The transparent part is no background, as where a picture was turned; it was left out, and the tree
-    /// was told by its tone or colour.
+    /// The transparent part is not the background, as where a picture was turned; it was left out, and the tree
+    /// was found by tone or colour.
     AlphaIgnored {
         /// Share of the picture that is transparent, in 0..=1.
         transparent: f64,
     },
     /// The tree is the transparent part, a hole in what is around it.
     TransparentTree,
-    /// Brightness did not tell the tree from its paper, and colour did, as in a photograph.
+    /// Tree and paper were separated by colour, not by brightness, as in a photograph.
     ByColor {
         /// See [`Mask::confidence`](crate::mask::Mask::confidence).
         confidence: f64,
@@ -126,8 +125,8 @@ impl fmt::Display for GoalWarning {
             ),
             Self::ByColor { confidence } => write!(
                 f,
-                "brightness did not tell the tree from the paper, as where light is uneven, and the tree was \
-                 told by what differs from the paper around it, as `pleach mask --background plain` does \
+                "brightness did not separate the tree from the paper, as where light is uneven; the tree is what \
+                 differs in colour from the paper around it, as with `pleach mask --background plain` \
                  (confidence {confidence:.2} of 1); `pleach fit --tree dark` or `--tree light` splits by \
                  brightness all the same"
             ),

@@ -7,7 +7,7 @@
 //! "Robust Regression and Outlier Detection", 1987, chapter 1: a robust fit first, then a reweighted one).
 //! A bent surface in the first step would rather bend into a crown than leave it out.
 //!
-//! How far a colour is from the background is told in units of the background's own spread
+//! Distances from the background are in units of the background's own spread
 //! (Mahalanobis, "On the generalised distance in statistics", 1936): a cloudy sky varies from blue to
 //! white, and so a white pixel is near, and a green one as different from it is far.
 
@@ -42,7 +42,7 @@ fn terms([x, y]: [f64; 2]) -> [f64; TERMS] {
 }
 
 impl Backdrop {
-    /// The background of these samples; none if there are too few to tell.
+    /// The background of these samples; `None` if there are too few.
     pub(super) fn fit(samples: &[Sample]) -> Option<Self> {
         if samples.len() < 2 * TERMS {
             return None;

@@ -13,7 +13,7 @@ use super::backdrop::Backdrop;
 use super::mixture::Mixture;
 use super::oklab::Oklab;
 use super::photo::Photo;
-use super::score::{Foreground, Frame, MIN_DISTANCE, less};
+use super::score::{Foreground, MIN_DISTANCE, PhotoFrame, less};
 use crate::bitmap::Bitmap;
 use crate::pieces;
 
@@ -48,7 +48,7 @@ const MARGIN: f64 = 1.5;
 
 /// What has other colours than the picture's edges; `None` if nothing has.
 pub(super) fn foreground(photo: &Photo) -> Option<Foreground> {
-    let frame = &Frame::new(photo);
+    let frame = &PhotoFrame::new(photo);
     let small = Small::new(frame);
     let sky = Sky::new(frame);
     let (tree, rest, field) = small.separate(frame, &sky)?;
@@ -88,7 +88,7 @@ fn out([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
 struct Sky(Option<Backdrop>);
 
 impl Sky {
-    fn new(frame: &Frame<'_>) -> Self {
+    fn new(frame: &PhotoFrame<'_>) -> Self {
         let (samples, _) = frame.samples(None);
         let upper: Vec<_> = samples.into_iter().filter(|(at, _)| at[1] < 2.0 * UPPER - 1.0).collect();
         Self(Backdrop::fit(&upper))
@@ -112,7 +112,7 @@ struct Small {
 }
 
 impl Small {
-    fn new(frame: &Frame<'_>) -> Self {
+    fn new(frame: &PhotoFrame<'_>) -> Self {
         let (photo, longer) = (frame.photo, frame.photo.width().max(frame.photo.height()));
         let scaled = |side: u32| if longer > SIDE { (side * SIDE).div_ceil(longer).max(1) } else { side };
         let (width, height) = (scaled(photo.width()), scaled(photo.height()));
@@ -143,7 +143,7 @@ impl Small {
     }
 
     /// The colours of the tree, those of the rest, and how much what is around a pixel is tree, from −1 to 1.
-    fn separate(&self, frame: &Frame<'_>, sky: &Sky) -> Option<(Mixture, Mixture, Vec<f64>)> {
+    fn separate(&self, frame: &PhotoFrame<'_>, sky: &Sky) -> Option<(Mixture, Mixture, Vec<f64>)> {
         let edge = (frame.width * self.width).div_ceil(frame.photo.width()).max(2);
         let (width, height) = (self.width, self.height);
         let is_edge = |i: usize| {

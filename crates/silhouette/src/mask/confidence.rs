@@ -33,7 +33,7 @@ pub(super) const LOOSE_OPACITY: u8 = 64;
 
 impl Evidence {
     /// What there is of a mask that was made of `foreground`.
-    pub(super) fn of(mask: &Bitmap, foreground: &Foreground) -> Self {
+    pub(super) fn new(mask: &Bitmap, foreground: &Foreground) -> Self {
         let (width, height) = (mask.width(), mask.height());
         let part = |a: u64, b: u64| if b == 0 { 0.0 } else { a as f64 / b as f64 };
         let side = |x| (0..height).filter(|&y| mask.get(x, y)).count();

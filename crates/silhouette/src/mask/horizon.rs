@@ -95,7 +95,7 @@ impl Sums {
 }
 
 /// The row before which two straight courses of colour, one above and one below, leave the least
-/// of the squares; none if there is no clear step of colour there.
+/// of the squares; `None` if there is no clear step of colour there.
 fn step(rows: &[Oklab], clear: StepThreshold) -> Option<f64> {
     let mut below = vec![Sums::default(); rows.len() + 1];
     for (y, &color) in rows.iter().enumerate().rev() {

@@ -5,7 +5,7 @@
 //! Kolmogorov and Blake, "GrabCut" (2004), section 3.
 
 use super::oklab::Oklab;
-use pleach_tree::math;
+use pleach_plant::math;
 
 /// Colours that a mixture is fitted to; more do not change it.
 const MAX_SAMPLES: usize = 4_000;
@@ -30,7 +30,7 @@ struct Component {
 }
 
 impl Mixture {
-    /// The mixture of up to `components` distributions for some colours; none if there are too few.
+    /// The mixture of up to `components` distributions for some colours; `None` if there are too few.
     pub(super) fn fit(colors: &[Oklab], components: usize) -> Option<Self> {
         let stride = colors.len().div_ceil(MAX_SAMPLES).max(1);
         let colors: Vec<[f64; 3]> = colors.iter().step_by(stride).map(|c| c.map(f64::from)).collect();

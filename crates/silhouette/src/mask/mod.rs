@@ -57,7 +57,7 @@ pub enum Background {
 /// What an alpha channel is taken for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum AlphaUse {
-    /// The mask, unless what is transparent is no background: corners of a picture that was turned, say.
+    /// The mask, unless what is transparent is not the background: corners of a picture that was turned, say.
     #[default]
     Auto,
     /// Nothing. The colours of what is transparent are looked at as all others are.
@@ -78,7 +78,7 @@ pub struct MaskOptions {
     pub fill_holes: Option<u64>,
 }
 
-/// How the tree was told from the background.
+/// How tree and background were separated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Segmentation {
     /// The tree is what is at least half opaque, or the hole in it.
@@ -101,7 +101,7 @@ pub enum Segmentation {
 pub struct Mask {
     /// The tree as ink, of the photograph's size.
     pub bitmap: Bitmap,
-    /// How it was told.
+    /// How tree and background were separated.
     pub segmentation: Segmentation,
     /// Pixels that stood out and were not taken for tree.
     pub dropped: u64,
@@ -158,8 +158,8 @@ impl Mask {
             return Err(MaskError::SeedOutside { x, y, width, height });
         }
         let prepared = Prepared::new(photo, options.alpha);
-        let mut made = match prepared.told {
-            Some(foreground) => Self::of_told(foreground)?,
+        let mut made = match prepared.foreground {
+            Some(foreground) => Self::from_foreground(foreground)?,
             None => Self::most_confident(&prepared.photo, options)?,
         };
         let said = said(&made.bitmap, photo, prepared.warnings, made.confidence);
@@ -172,12 +172,12 @@ impl Mask {
         Ok(made)
     }
 
-    /// A mask that the picture itself tells.
-    fn of_told(foreground: Foreground) -> Result<Self, MaskError> {
+    /// A mask that the picture itself has.
+    fn from_foreground(foreground: Foreground) -> Result<Self, MaskError> {
         if foreground.segmentation == Segmentation::TwoTones {
             check(&foreground.ink)?;
         }
-        let evidence = Evidence::of(&foreground.ink, &foreground);
+        let evidence = Evidence::new(&foreground.ink, &foreground);
         Ok(Self {
             touches: touches(&foreground.ink),
             warnings: Vec::new(),
@@ -231,7 +231,7 @@ impl Mask {
         check(&bitmap)?;
         let largest = options.fill_holes.unwrap_or(bitmap.area() / HOLE);
         let filled = pieces::fill_holes(&mut bitmap, largest);
-        let confidence = Evidence::of(&bitmap, foreground).confidence();
+        let confidence = Evidence::new(&bitmap, foreground).confidence();
         Ok(Self {
             touches: touches(&bitmap),
             warnings: Vec::new(),
@@ -288,7 +288,7 @@ fn check(ink: &Bitmap) -> Result<(), MaskError> {
 /// Masks of less confidence are called doubtful.
 const DOUBTFUL: f64 = 0.45;
 
-/// Of masks by other colours than the edges', this part of the confidence is told: they are seldom wholly right.
+/// Of masks by other colours than the edges', this part of the confidence is reported: they are seldom wholly right.
 const BY_COLORS: f64 = 0.5;
 /// Where no other way finds a tree, they need more than this; before an empty lawn they have nothing.
 const LEAST: f64 = 0.05;

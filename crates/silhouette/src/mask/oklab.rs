@@ -4,7 +4,7 @@
 //! about even to the eye: 0.02 can just be told apart, black and white are 1 apart. It keeps the hue of
 //! blues steady while they fade, as skies do.
 
-use pleach_tree::math;
+use pleach_plant::math;
 
 /// Lightness 0 to 1, green to red, blue to yellow.
 pub(super) type Oklab = [f32; 3];

@@ -1,4 +1,4 @@
-//! What a picture tells without a look at its background, and what of it is not of the picture.
+//! What is known without a look at the background: opacity, and what is not part of the picture.
 
 use super::confidence::{FIRM_OPACITY, LOOSE_OPACITY};
 use super::photo::Photo;
@@ -18,22 +18,22 @@ pub(super) struct Prepared<'a> {
     pub(super) photo: Cow<'a, Photo>,
     /// The pixels that are of the picture; all if there is none.
     pub(super) inside: Option<Bitmap>,
-    /// What is tree, where the picture itself tells.
-    pub(super) told: Option<Foreground>,
+    /// The tree, where the picture itself marks it.
+    pub(super) foreground: Option<Foreground>,
     pub(super) warnings: Vec<GoalWarning>,
 }
 
 impl<'a> Prepared<'a> {
     pub(super) fn new(photo: &'a Photo, use_of_alpha: AlphaUse) -> Self {
         let mut prepared =
-            Self { photo: Cow::Borrowed(photo), inside: None, told: None, warnings: Vec::new() };
+            Self { photo: Cow::Borrowed(photo), inside: None, foreground: None, warnings: Vec::new() };
         let (least, most) = photo.opacities();
         if most.saturating_sub(least) >= MIN_ALPHA_RANGE {
             prepared.look_at_alpha(photo, use_of_alpha);
         }
-        if prepared.told.is_none() {
+        if prepared.foreground.is_none() {
             prepared.leave_out_frame();
-            prepared.told = two_tones(&prepared.photo);
+            prepared.foreground = two_tones(&prepared.photo);
         }
         prepared
     }
@@ -42,7 +42,7 @@ impl<'a> Prepared<'a> {
         let (width, height) = (photo.width(), photo.height());
         let beyond = |least: u8| Bitmap::from_fn(width, height, |x, y| photo.opacity(x, y) >= least);
         let below = |most: u8| Bitmap::from_fn(width, height, |x, y| photo.opacity(x, y) < most);
-        let told = |ink, firm, loose| Foreground::told(Segmentation::Opacity, ink, firm, loose);
+        let given = |ink, firm, loose| Foreground::given(Segmentation::Opacity, ink, firm, loose);
         let opaque = beyond(OPAQUE);
         match (alpha::role(&opaque, |x, y| photo.light(x, y)), use_of_alpha) {
             (Alpha::Picture, _) => {
@@ -57,11 +57,11 @@ impl<'a> Prepared<'a> {
                 self.photo = Cow::Owned(photo.clone().opaque());
             }
             (Alpha::Tree, AlphaUse::Auto) => {
-                self.told = Some(told(opaque, beyond(FIRM_OPACITY), beyond(LOOSE_OPACITY)));
+                self.foreground = Some(given(opaque, beyond(FIRM_OPACITY), beyond(LOOSE_OPACITY)));
             }
             (Alpha::Around, AlphaUse::Auto) => {
                 self.warnings.push(GoalWarning::TransparentTree);
-                self.told = Some(told(below(OPAQUE), below(LOOSE_OPACITY), below(FIRM_OPACITY)));
+                self.foreground = Some(given(below(OPAQUE), below(LOOSE_OPACITY), below(FIRM_OPACITY)));
             }
         }
     }
@@ -103,5 +103,5 @@ fn two_tones(photo: &Photo) -> Option<Foreground> {
     // Of one tone, there is no tree.
     let reading = (seen.len() == 2).then(|| ink::ink_of(&mut tones, Polarity::Auto).ok()).flatten()?;
     let ink = reading.ink;
-    Some(Foreground::told(Segmentation::TwoTones, ink.clone(), ink.clone(), ink))
+    Some(Foreground::given(Segmentation::TwoTones, ink.clone(), ink.clone(), ink))
 }

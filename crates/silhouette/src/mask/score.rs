@@ -17,7 +17,7 @@ const MAX_SAMPLES: usize = 20_000;
 const HAZE: f64 = 0.01;
 /// Nothing nearer to the background than this, in spreads, is tree.
 pub(super) const MIN_DISTANCE: f64 = 3.5;
-/// Side of the parts of a picture in which tree is told by its own tone, as a part of the shorter side.
+/// Side of the parts of a picture in which the tree has a threshold of its own, as a part of the shorter side.
 const TILE: f64 = 0.05;
 /// What is half way between background and tree, as a part of the mean level of what stands out: a
 /// little more than half, since pixels that are part tree count there too.
@@ -35,7 +35,7 @@ const MAX_LEVEL: u8 = 254;
 pub(super) struct Foreground {
     pub(super) ink: Bitmap,
     pub(super) horizon: Option<Horizon>,
-    /// How it was told.
+    /// How tree and background were separated.
     pub(super) segmentation: Segmentation,
     /// What stands out even if the least distance is half as far again.
     pub(super) firm: Bitmap,
@@ -45,18 +45,18 @@ pub(super) struct Foreground {
 
 impl Foreground {
     /// What the picture itself says: its ink, and what is firmly and loosely so.
-    pub(super) const fn told(segmentation: Segmentation, ink: Bitmap, firm: Bitmap, loose: Bitmap) -> Self {
+    pub(super) const fn given(segmentation: Segmentation, ink: Bitmap, firm: Bitmap, loose: Bitmap) -> Self {
         Self { ink, horizon: None, segmentation, firm, loose }
     }
 }
 
-/// Tells what stands out from the background, for each way in which that may be seen, the clearest horizon
+/// Finds what stands out from the background, for each possible horizon, the clearest
 /// first and none last.
 pub(super) fn foregrounds(
     photo: &Photo,
     background: Background,
 ) -> impl Iterator<Item = Result<Foreground, MaskError>> + '_ {
-    let frame = Frame::new(photo);
+    let frame = PhotoFrame::new(photo);
     let (left, right) = (frame.side(0), frame.side(photo.width() - frame.width));
     let detect = |clear| Horizon::detect(&left, &right, clear);
     let mut horizons = match background {
@@ -72,8 +72,8 @@ pub(super) fn foregrounds(
     horizons.into_iter().map(move |horizon| foreground(&frame, horizon))
 }
 
-/// Tells what stands out from the background above and below a horizon, or from one background.
-fn foreground(frame: &Frame<'_>, horizon: Option<Horizon>) -> Result<Foreground, MaskError> {
+/// Finds what stands out from the background above and below a horizon, or from one background.
+fn foreground(frame: &PhotoFrame<'_>, horizon: Option<Horizon>) -> Result<Foreground, MaskError> {
     let photo = frame.photo;
     let (width, height) = (photo.width(), photo.height());
     let (above, below) = frame.samples(horizon);
@@ -139,14 +139,14 @@ fn between(above: &Backdrop, below: &Backdrop, at: [f64; 2], color: Oklab) -> f6
 }
 
 /// The pixels along the picture's edges.
-pub(super) struct Frame<'a> {
+pub(super) struct PhotoFrame<'a> {
     pub(super) photo: &'a Photo,
     pub(super) converter: Converter,
     /// In pixels.
     pub(super) width: u32,
 }
 
-impl<'a> Frame<'a> {
+impl<'a> PhotoFrame<'a> {
     pub(super) fn new(photo: &'a Photo) -> Self {
         let side = photo.width().min(photo.height());
         let width = ((f64::from(side) * FRAME).round() as u32).clamp(1, side);

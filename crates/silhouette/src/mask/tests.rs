@@ -1,7 +1,7 @@
 use super::*;
 use crate::raster::Rasterizer;
 use crate::view::{Frame, View};
-use pleach_tree::Parts;
+use pleach_plant::Parts;
 
 /// A number from 0 to 1 for a place, without order: what noise looks like.
 pub(super) fn chance(x: u32, y: u32, salt: u32) -> f64 {
@@ -194,7 +194,7 @@ fn the_seed_point_chooses_the_tree() {
 }
 
 #[test]
-fn a_crown_that_touches_the_frame_is_told() {
+fn a_crown_that_touches_the_frame_is_reported() {
     let photo = Photo::from_fn(120, 100, |x, y| {
         let crown = x < 50 && (20..60).contains(&y);
         let trunk = (25..32).contains(&x) && y >= 60;

@@ -3,7 +3,7 @@
 //! Shapes set the samples whose centres they cover, which keeps the mean coverage of anything, be it
 //! however thin. A pixel is black where at least half its samples are.
 //!
-//! A byte of a row is a pixel: counting its bits, and comparing with a half, is done for eight pixels
+//! Each byte of a row is a pixel: counting its bits, and comparing with a half, is done for eight pixels
 //! at once in the bytes of a word.
 
 mod fill;
@@ -12,7 +12,7 @@ mod wide;
 use crate::bitmap::Bitmap;
 use std::ops::Range;
 
-/// Samples across a pixel, one byte of them.
+/// Samples across each pixel, one byte of them.
 pub(crate) const ACROSS: u32 = 8;
 
 /// Columns of words: a word is eight pixels across, and those below it follow it in memory, so that small shapes stay
@@ -22,7 +22,7 @@ pub(crate) struct Grid {
     /// Pixels across and down.
     width: u32,
     height: u32,
-    /// Samples down a pixel.
+    /// Samples down each pixel.
     down: u32,
     words_per_row: usize,
     /// Rows of samples.
@@ -37,7 +37,7 @@ pub(crate) struct Grid {
 pub(crate) type Corner = [f32; 2];
 
 impl Grid {
-    /// Clears the grid for a picture of this size with `down` samples down a pixel.
+    /// Clears the grid for a picture of this size with `down` samples down each pixel.
     pub(crate) fn reset(&mut self, width: u32, height: u32, down: u32) {
         self.width = width;
         self.height = height;
@@ -61,7 +61,7 @@ impl Grid {
     /// Reduces the samples to pixels: black from half of them on, ties alternately.
     pub(crate) fn resolve(&self, out: &mut Bitmap) {
         out.reset(self.width, self.height);
-        let half = Half::of(self.down);
+        let half = Half::new(self.down);
         for word in 0..self.words_per_row {
             self.resolve_column(word, half, out);
         }
@@ -107,7 +107,7 @@ impl Grid {
     /// Sets all samples of the pixels that are black already, and marks them in `black`.
     pub(super) fn sweep(&mut self, black: &mut Bitmap) {
         black.reset(self.width, self.height);
-        let half = Half::of(self.down);
+        let half = Half::new(self.down);
         for word in 0..self.words_per_row {
             let column = self.words[word * self.rows..][..self.rows].chunks_exact_mut(self.down as usize);
             for (y, samples) in (0..self.height).zip(column) {
@@ -149,13 +149,13 @@ impl Grid {
     }
 }
 
-/// Tells pixels that are black from counts of their samples.
+/// Finds black pixels by the counts of their samples.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Half([u64; 2]);
 
 impl Half {
     /// Half of the samples of a pixel with `down` rows of them.
-    pub(super) fn of(down: u32) -> Self {
+    pub(super) fn new(down: u32) -> Self {
         // Adding this to a byte carries into its top bit where it is at least half of the samples, or
         // more than half for every other pixel: ties go to ink and paper alternately: with so few
         // samples they are many, and thin twigs would come out thicker by a twentieth.

@@ -10,8 +10,8 @@ use super::{ACROSS, Detail, Rasterizer};
 use crate::bitmap::Bitmap;
 use crate::view::{Camera, Frame, View};
 use glam::DVec3;
-use pleach_tree::math;
-use pleach_tree::{Leaf, Parts, Tree};
+use pleach_plant::math;
+use pleach_plant::{Leaf, Parts, Tree};
 use std::ops::Range;
 
 /// What a part of a tree covers: the samples in a box of a picture.
@@ -21,7 +21,7 @@ pub struct Layer {
     across: Range<usize>,
     /// Rows of pixels.
     rows: Range<u32>,
-    /// Samples down a pixel.
+    /// Samples down each pixel.
     down: u32,
     words: Vec<u64>,
 }
@@ -202,7 +202,7 @@ impl Stack {
         let words_per_row = (width as usize * ACROSS as usize).div_ceil(64);
         let words = words_per_row * (height * down) as usize;
         let (any, twice) = (vec![0; words], vec![0; words]);
-        Self { width, height, down, words_per_row, half: Half::of(down), planes: Vec::new(), any, twice }
+        Self { width, height, down, words_per_row, half: Half::new(down), planes: Vec::new(), any, twice }
     }
 
     /// Lays `layer` on.

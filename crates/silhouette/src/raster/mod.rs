@@ -18,8 +18,8 @@ use grid::{ACROSS, Corner, Grid};
 pub use layer::{Layer, LayerPainter, Stack};
 use occlusion::Occlusion;
 use outline::{Blade, Outlines};
-use pleach_tree::leaf_shape::Outline;
-use pleach_tree::{Leaf, Parts, Tree};
+use pleach_plant::leaf_shape::Outline;
+use pleach_plant::{Leaf, Parts, Tree};
 
 /// How finely pixels are sampled: always eight samples across.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -34,7 +34,7 @@ pub enum Detail {
 }
 
 /// Leaves thinner than this, in pixels, are sampled twice as finely at [`Detail::Full`]: a crown of
-/// needles is grey all over, and a grey pixel needs many samples to be told black or white.
+/// needles is grey all over, and a grey pixel needs many samples to decide between black and white.
 const THIN: f32 = 1.0 / 12.0;
 
 impl Detail {
@@ -62,7 +62,7 @@ pub fn silhouette(tree: &Tree, view: View, size: u32) -> Bitmap {
 ///
 /// ```
 /// use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
-/// use pleach_tree::Parts;
+/// use pleach_plant::Parts;
 ///
 /// let species = pleach_generators::species("palm")?;
 /// let view = View::degrees(30.0, 10.0);
@@ -105,7 +105,7 @@ impl Rasterizer {
         Self { detail, ..Self::default() }
     }
 
-    /// A rasteriser for the many pictures of a search, of which nobody asks the coverage.
+    /// A rasteriser for the many pictures of a search, whose coverage is not asked for.
     #[must_use]
     pub fn for_searches(detail: Detail) -> Self {
         Self { detail, saturates: true, flattens: true, ..Self::default() }
@@ -279,12 +279,12 @@ impl Rasterizer {
     }
 }
 
-/// A crown is drawn in so many passes if it has more than one leaf for so many pixels.
+/// Passes of a dense crown, and its density: more than one leaf per this many pixels.
 const PASSES: usize = 8;
 const LEAVES_TO_SWEEP: usize = 16;
-/// Pieces of stems are hidden if there is more than one knot for so many pixels.
+/// Pieces of stems are hidden if there is more than one knot per this many pixels.
 const KNOTS_TO_HIDE: usize = 16;
-/// Black pixels are looked for once a shape was drawn for so many pixels: after a pass, or after a stem.
+/// Black pixels are looked for after a pass, or after a stem, once there is a shape per this many pixels.
 const PIXELS_FOR_A_LEAF: usize = 100;
 const PIXELS_FOR_A_PIECE: usize = 64;
 
@@ -325,7 +325,7 @@ impl<'a> Placer<'a> {
         }
     }
 
-    /// Position and the two axes of a leaf in samples; none behind the camera. Under perspective a
+    /// Position and the two axes of a leaf in samples; `None` behind the camera. Under perspective a
     /// leaf is drawn at the magnification of its base.
     fn place(&self, leaf: &Leaf) -> Option<[Corner; 3]> {
         let (across, along) = (self.flat(leaf.across), self.flat(leaf.along));
@@ -340,7 +340,7 @@ impl<'a> Placer<'a> {
         Some([[x as f32 * self.scale.x, y as f32 * self.scale.y], grown(across), grown(along)])
     }
 
-    /// A point in samples; none behind the camera.
+    /// A point in samples; `None` behind the camera.
     fn point(&self, point: Vec3) -> Option<Corner> {
         if self.orthographic {
             let at = self.flat(point);

@@ -38,7 +38,7 @@ impl Occlusion {
     }
 
     /// Whether all pixels of a box are known to be black; never of one that is wider than 63 pixels or across an edge.
-    /// The box is in samples, of which there are 1 / `row` down a pixel.
+    /// The box is in samples, of which there are 1 / `row` down each pixel.
     #[inline]
     pub(super) fn hides(&self, [left, right]: [f32; 2], [top, bottom]: [f32; 2], row: f32) -> bool {
         const COLUMN: f32 = 1.0 / ACROSS as f32;

@@ -1,8 +1,8 @@
 //! Leaf outlines with no more corners than can be seen.
 
-use pleach_tree::Leaf;
-use pleach_tree::leaf_shape::Outline;
-use pleach_tree::math;
+use pleach_plant::Leaf;
+use pleach_plant::leaf_shape::Outline;
+use pleach_plant::math;
 
 /// Removes corners of a closed outline while the new edge passes within `tolerance` of the removed
 /// corner, then scales what is left about its centroid so that its area stays the same.
@@ -137,7 +137,7 @@ impl Outlines {
 mod tests {
     use super::*;
     use glam::Vec3;
-    use pleach_tree::leaf_shape::LeafShape;
+    use pleach_plant::leaf_shape::LeafShape;
 
     #[test]
     fn small_leaves_have_few_corners_and_the_same_area() {

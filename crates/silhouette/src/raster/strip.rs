@@ -5,9 +5,9 @@ pub(super) mod flat;
 use super::grid::{Corner, Grid};
 use crate::view::Camera;
 use glam::{DVec3, Vec2};
-use pleach_tree::math;
-use pleach_tree::spline::Cubic;
-use pleach_tree::{Knot, Stem, Tree};
+use pleach_plant::math;
+use pleach_plant::spline::Cubic;
+use pleach_plant::{Knot, Stem, Tree};
 
 /// Farthest that a chord may stray from the curve, in pixels.
 const TOLERANCE: f64 = 0.1;
@@ -65,7 +65,7 @@ fn is_sharp([before, here, after]: [&Knot; 3]) -> bool {
     arrives.zip(leaves).is_some_and(|(arrives, leaves)| arrives.dot(leaves) < SHARP)
 }
 
-/// The rib at `t`; none behind a perspective camera. `fallback` is the way of a curve that stands
+/// The rib at `t`; `None` behind a perspective camera. `fallback` is the way of a curve that stands
 /// still there.
 fn rib(camera: &Camera, piece: &Cubic, t: f64, radius: f64, fallback: DVec3) -> Option<Rib> {
     let point = piece.at(t);

@@ -3,7 +3,7 @@
 //! IoU flatters blobs. A fit that does not beat one ellipse has found no tree, whatever its IoU.
 
 use crate::bitmap::Bitmap;
-use pleach_tree::math;
+use pleach_plant::math;
 
 /// Columns or rows of the picture in which ellipses are tried.
 const SIDE: u32 = 128;
@@ -33,11 +33,11 @@ pub fn best_ellipse(goal: &Bitmap) -> Bitmap {
     })
 }
 
-/// The best ellipse and its intersection over union; none without ink.
+/// The best ellipse and its intersection over union; `None` without ink.
 ///
 /// Searched at 128 pixels by steps along each number, halved when none helps, from the moments of the
-/// whole picture and of its upper parts; then polished on the picture itself. Where an ellipse that can be
-/// told without a search is clearly better, that is polished instead. Deterministic.
+/// whole picture and of its upper parts; then polished on the picture itself. Where an ellipse that is
+/// known without a search is clearly better, that is polished instead. Deterministic.
 fn search(goal: &Bitmap) -> Option<(f64, Ellipse)> {
     let reduction = (goal.width().max(goal.height())).div_ceil(SIDE).max(1);
     let small = Rows::new(goal, reduction);
@@ -211,7 +211,7 @@ impl Rows {
         f64::from(row[i]) * (1.0 - part) + f64::from(row[i + 1]) * part
     }
 
-    /// `found`, or the best of the ellipses that can be told without a search, polished, if the search has
+    /// `found`, or the best of the ellipses that are known without a search, polished, if the search has
     /// missed one that is clearly better: that of the ink's moments, or a band across the picture.
     fn at_least_plain(&self, found: (f64, Ellipse), least: f64) -> (f64, Ellipse) {
         let plain = self.plain().into_iter().map(|ellipse| (self.iou(&ellipse), ellipse));

@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Vec3, dvec3, vec3};
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
+use pleach_tree::Bounds;
 use pleach_tree::leaf_shape::{LeafShape, Outline};
-use pleach_tree::stats::Bounds;
 use pleach_tree::{Blob, Knot, Leaf, Parts, Stem, StemKind, Tree};
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -197,7 +197,7 @@ proptest! {
     /// Ink stays where the tree is.
     #[test]
     fn ink_stays_within_the_bounds(tree in any_tree(15.0)) {
-        let bounds = pleach_tree::stats::Bounds::new(&tree, Parts::LEAFY).unwrap();
+        let bounds = pleach_tree::Bounds::new(&tree, Parts::LEAFY).unwrap();
         let frame = Frame { axis_column: 32.0, ground_row: 32.0, ..frame(64, 64) };
         if let Some((left, top, right, bottom)) = drawn(&tree, &View::FRONT, &frame).ink_box() {
             let slack = 6.5; // the caps of stems reach a radius beyond their ends

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use pleach_tree::Knot;
-use pleach_tree::plant::piece;
+use pleach_tree::piece;
 
 /// Chords of a piece between two knots.
 const CHORDS: u32 = 8;

@@ -2,14 +2,14 @@
 
 use crate::generator::Generator;
 use crate::grow_error::{Blame, Conflict, GrowError};
-use crate::growth::{Foliage, Growth, Workspace};
-use crate::leaf_shape::LeafShape;
+use crate::growth::{Growth, Workspace};
 use crate::param::{CheckedParams, Effect, Kind, Param, ParamSpace, Scale, Slot, Unit};
-use crate::plant::{Knot, Leaf, Stem, StemKind, Tree};
-use crate::random::Key as Draws;
 use crate::species::Family;
 use crate::species::{Form, Issue, Key, SpeciesDoc};
-use glam::{DVec3, Vec3, dvec3};
+use pleach_plant::Key as Draws;
+use pleach_plant::glam::{DVec3, Vec3, dvec3};
+use pleach_plant::leaf_shape::LeafShape;
+use pleach_plant::{Foliage, Knot, Leaf, Stem, StemKind, Tree};
 use std::sync::{Arc, OnceLock};
 
 #[derive(Debug)]
@@ -109,7 +109,7 @@ impl Generator for Bush {
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
         let (value, min) = (values[HIGHEST], values[LOWEST]);
         let (slot, other) = ("highest".to_owned(), "lowest".to_owned());
-        // Where no twig is, none is between.
+        // Without twigs there is nothing between them.
         if values[TWIGS] > 0.0 && value < min {
             Err(Conflict::TooSmall { slot, value, other, min })
         } else {

@@ -21,7 +21,7 @@ pub fn files_name_their_family(family: &dyn Family) {
     }
 }
 
-/// What is wrong in a file is told once, with its place, together with all other mistakes.
+/// A mistake in a file is reported once, with its place, together with all other mistakes.
 ///
 /// # Panics
 /// If the promise is broken.
@@ -34,7 +34,7 @@ pub fn one_mistake_is_one_issue(family: &dyn Family) {
     }
 }
 
-/// Names that are known to be wrong name nothing, and are told with what would be right.
+/// Names that are known to be wrong are not parameters, and the error says what would be right.
 ///
 /// # Panics
 /// If the promise is broken.

@@ -4,9 +4,9 @@ use super::{SEED, all};
 use crate::grow_error::GrowError;
 use crate::growth::{Growth, Limits, Workspace};
 use crate::param::{ForeignParams, Kind, Param, ParamSpace};
-use crate::plant::Tree;
 use crate::species::Family;
 use crate::species::Species;
+use pleach_plant::Tree;
 use std::sync::Arc;
 
 fn grown(species: &Species) -> Tree {

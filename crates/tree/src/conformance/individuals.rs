@@ -2,10 +2,10 @@
 
 use super::{SEED, all, read};
 use crate::growth::Growth;
-use crate::individual::{Draw, Individual, StemPath};
 use crate::param::Problem;
-use crate::plant::{Knot, Leaf, Tree};
 use crate::species::{Family, Species, SpeciesDoc};
+use pleach_plant::{Draw, Individual, StemPath};
+use pleach_plant::{Knot, Leaf, Tree};
 use std::collections::BTreeMap;
 
 /// Another draw of everything.

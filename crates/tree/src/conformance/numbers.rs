@@ -3,12 +3,12 @@
 use super::{SEED, all};
 use crate::grow_error::GrowError;
 use crate::growth::{Growth, Limits};
-use crate::math;
 use crate::param::{CheckedParams, ParamSpace, Slot};
-use crate::plant::Tree;
-use crate::random::Key;
 use crate::species::Family;
 use crate::species::Species;
+use pleach_plant::Key;
+use pleach_plant::Tree;
+use pleach_plant::math;
 use std::sync::Arc;
 
 /// Random lists that are tried with each species.

@@ -6,9 +6,9 @@ use crate::grow_error::{Blame, Conflict, GrowError};
 use crate::growth::{Growth, Limits, Workspace};
 use crate::model::ModelId;
 use crate::param::{CheckedParams, ParamSpace, Slot};
-use crate::plant::Tree;
 use crate::species::Family;
 use crate::species::{Issue, Key, SpeciesDoc};
+use pleach_plant::Tree;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 

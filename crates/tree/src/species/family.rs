@@ -31,7 +31,7 @@ pub trait Family: Send + Sync + fmt::Debug {
     /// [`SpeciesDoc::species`] reads for all families.
     ///
     /// What is wrong joins `issues`, with line and column. Where the numbers can be checked all the
-    /// same, there is a generator nevertheless, so that all mistakes of a file are told at once.
+    /// same, there is a generator nevertheless, so that all mistakes of a file are reported at once.
     fn read(&self, doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Option<Arc<dyn Generator>>;
 
     /// A species file whose structure is as small as can be: where a search over structures begins that

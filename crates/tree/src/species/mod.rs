@@ -25,7 +25,7 @@ mod quoted;
 mod read;
 mod write;
 
-pub use appearance::{Appearance, BarkPattern, Color, Look, Season};
+pub use appearance::appearance_keys;
 pub use doc::{Entry, Node, SpeciesDoc, Value};
 pub use error::{Issue, SpeciesError};
 pub use family::Family;
@@ -35,9 +35,9 @@ pub use name::{MAX_NAME_BYTES, MAX_NAME_CHARS, NameError, check_name, safe_name}
 
 use crate::generator::Generator;
 use crate::grow_error::GrowError;
-use crate::growth::{Foliage, Growth, Workspace};
+use crate::growth::{Growth, Workspace};
 use crate::param::CheckedParams;
-use crate::plant::Tree;
+use pleach_plant::{Appearance, Foliage, Tree};
 use std::sync::Arc;
 
 /// A species: a generator and the numbers that make it grow this kind of tree.

@@ -1,7 +1,7 @@
 //! From a parsed file to a species: what is the same for every family.
 
 use super::Species;
-use super::appearance::Appearance;
+use super::appearance;
 use super::doc::{Node, SpeciesDoc, Value};
 use super::error::{Issue, SpeciesError};
 use super::family::Family;
@@ -9,8 +9,8 @@ use super::individual;
 use super::key::{Form, Key, MAX_SEED};
 use super::keys::KEYS;
 use super::name::check_name;
-use crate::growth::Foliage;
 use crate::param::{Kind, ParamSpace, Problem, Shape, Slot, is_hidden, nearest};
+use pleach_plant::Foliage;
 
 /// Names that are wrong at the top level of every file, and what would be right.
 const MISPLACED: [(&str, &str); 2] =
@@ -35,7 +35,7 @@ impl SpeciesDoc {
         let tree_seed = kept(self.said_tree_seed(), &mut issues).flatten();
         let is_bare = kept(self.said_bare(), &mut issues).flatten().unwrap_or(false);
         let foliage = if is_bare { Foliage::None } else { Foliage::All };
-        let appearance = Appearance::read(self, &mut issues);
+        let appearance = appearance::read(self, &mut issues);
         let individual = individual::read(self, &mut issues);
         if let (Some(node), None) = (self.get("individual"), tree_seed) {
             let message =

@@ -8,7 +8,7 @@ fn read(text: &str) -> Result<Species, SpeciesError> {
     SpeciesDoc::parse("t", text)?.species(&Bushes)
 }
 
-/// What is told of `text`, without the name of the file.
+/// The issues of `text`, without the name of the file.
 fn told(text: &str) -> String {
     let error = read(text).unwrap_err().to_string();
     error.lines().map(|line| line.strip_prefix("t:").unwrap()).collect::<Vec<_>>().join("\n")

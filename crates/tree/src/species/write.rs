@@ -1,9 +1,10 @@
 //! Species as text.
 
 use super::Species;
+use super::appearance;
 use super::name::safe_name;
-use crate::growth::Foliage;
 use crate::param::{Kind, Shape, is_hidden};
+use pleach_plant::Foliage;
 use std::fmt::Write as _;
 
 pub(super) fn species(species: &Species, comments: &[String]) -> String {
@@ -37,7 +38,7 @@ pub(super) fn species(species: &Species, comments: &[String]) -> String {
         text.push_str(&structure);
     }
     // A table ends where the next begins, so it comes last.
-    text.push_str(&species.appearance.to_toml());
+    text.push_str(&appearance::to_toml(&species.appearance));
     text
 }
 

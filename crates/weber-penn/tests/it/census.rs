@@ -2,8 +2,8 @@
 
 use pleach_tree::conformance::list_within;
 use pleach_tree::{
-    CheckedParams, Draw, Foliage, Generator as _, GrowError, Growth, Individual, Limits, Tree, Workspace,
-    individual::StemPath,
+    CheckedParams, Draw, Foliage, Generator as _, GrowError, Growth, Individual, Limits, StemPath, Tree,
+    Workspace,
 };
 use pleach_weber_penn::{HEWITT_2017, WeberPenn, preset, space};
 

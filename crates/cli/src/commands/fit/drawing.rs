@@ -66,7 +66,7 @@ pub(super) fn write_render(
     size: u32,
 ) -> anyhow::Result<()> {
     let tree = drawing.grow(species)?;
-    let palette = Palette::new(species, None);
+    let palette = Palette::new(&species.appearance, None);
     let tree = palette.dressed(&tree);
     let settings = PreviewSettings { width: size, height: size, ..PreviewSettings::default() };
     let picture = Preview::new(&tree, &palette, size).picture(&settings);

@@ -72,7 +72,7 @@ proptest! {
 
 /// A cross: a stem up and one aside from its middle.
 fn cross() -> Tree {
-    let stem = |parent: Option<u32>, first_knot: u32| pleach_tree::Stem {
+    let stem = |parent: Option<u32>, first_knot: u32| pleach_plant::Stem {
         parent,
         level: parent.map_or(0, |p| p as u16 + 1),
         kind: if parent.is_some() { StemKind::Branch } else { StemKind::Trunk },
@@ -83,7 +83,7 @@ fn cross() -> Tree {
     };
     let knot = |x: f64, z: f64, along: glam::DVec3| {
         let point = glam::dvec3(x, 0.0, z);
-        pleach_tree::Knot { point, handle_in: point - along, handle_out: point + along, radius: 0.2 }
+        pleach_plant::Knot { point, handle_in: point - along, handle_out: point + along, radius: 0.2 }
     };
     let (up, aside) = (glam::DVec3::Z * 0.6, glam::DVec3::X * 0.3);
     Tree {
@@ -118,7 +118,7 @@ fn a_fillet_fills_the_corner_and_nothing_else() {
 fn a_trunk_without_a_height_is_a_ball_that_holds_its_branches() {
     let mut tree = cross();
     let point = glam::dvec3(0.0, 0.0, 1.3);
-    tree.knots[..2].fill(pleach_tree::Knot { point, handle_in: point, handle_out: point, radius: 0.5 });
+    tree.knots[..2].fill(pleach_plant::Knot { point, handle_in: point, handle_out: point, radius: 0.5 });
     let block = surface(&tree, &WeldSettings::new(0.05)).unwrap();
     check_sound(&block, 0.05);
     assert_eq!(pieces(&block), 1);

@@ -8,7 +8,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use rayon::prelude::*;
 
-/// Calls `check` with a number and what `strategy` draws for it, on all threads, for each of so many.
+/// Calls `check` with a number and what `strategy` draws for it, on all threads, `count` times.
 fn for_each<S: Strategy + Sync>(cases: u64, strategy: &S, check: impl Fn(u64, S::Value) + Sync) {
     (0..cases).into_par_iter().for_each(|case| {
         let mut seed = [0; 32];
@@ -42,7 +42,7 @@ fn stylised(drawn: &[(u32, f64)], seed: u64) -> Tree {
     pleach_tree::Species { params, ..species }.grow_bare(seed).unwrap()
 }
 
-/// Welds `tree` with all of its roots in so many `cells` along its longest side.
+/// Welds `tree` with all of its roots with this many `cells` along its longest side.
 fn check_stylised(tree: &Tree, fillet: f64, cells: f64, case: u64) {
     let extent = Bounds::new(tree, Parts::ALL).map_or(0.0, |b| (b.max - b.min).max_element());
     let cell = (extent / cells).max(1e-3);
@@ -84,7 +84,7 @@ fn skins_of_crosses_are_sound() {
         for (i, &(x, y, z, thickness, kind)) in ends.iter().enumerate() {
             let parent = (i > 0).then_some(0);
             let to = if kind == 0 { DVec3::ZERO } else { dvec3(x, y, z) };
-            tree.stems.push(pleach_tree::Stem {
+            tree.stems.push(pleach_plant::Stem {
                 parent,
                 level: u16::from(i > 0),
                 kind: if i == 0 { StemKind::Trunk } else { StemKind::Branch },
@@ -96,7 +96,7 @@ fn skins_of_crosses_are_sound() {
             for (point, radius) in [(DVec3::ZERO, 0.01), (to, 0.5 * 10_f64.powf(thickness))] {
                 let third = (to - point) / 3.0;
                 let knot =
-                    pleach_tree::Knot { point, handle_in: point - third, handle_out: point + third, radius };
+                    pleach_plant::Knot { point, handle_in: point - third, handle_out: point + third, radius };
                 tree.knots.push(knot);
             }
         }

@@ -7,7 +7,7 @@
 use super::*;
 use glam::DVec3;
 
-/// Heights of faces are at least so many cells.
+/// Least height of a face, in cells.
 const MIN_HEIGHT: f64 = 0.02;
 /// The cosine of the angle between the normals of neighbours is more than this: none is folded back onto
 /// the other. Where a gap between two stems closes, or one ends in a point, faces do meet in sharp angles;

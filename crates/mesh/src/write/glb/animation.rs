@@ -7,7 +7,7 @@
 use super::upright;
 use crate::rig::{Joint, Rig};
 use glam::{Quat, Vec3};
-use pleach_tree::trig::sin_cos;
+use pleach_plant::trig::sin_cos;
 use std::f64::consts::TAU;
 
 /// Length of the loop in seconds.

@@ -5,7 +5,7 @@ use super::{Placed, Scene, animation, upright};
 use crate::palette::linear;
 use crate::part::Material;
 use glam::Vec3;
-use pleach_tree::math;
+use pleach_plant::math;
 use serde_json::{Map, Value, json};
 
 const ARRAY_BUFFER: u32 = 34_962;

@@ -5,7 +5,7 @@ use crate::block::{Block, Placement};
 use crate::part::Part;
 use glam::Vec3;
 
-/// Bytes of a corner's joint numbers and weights.
+/// Bytes of a vertex' joint numbers and weights.
 pub(super) const SKIN_BYTES: u64 = 12;
 
 /// Offsets of a part's data in the binary chunk; those of data that it does not have are unused.
@@ -57,7 +57,7 @@ pub(super) struct Layout {
     pub(super) bind_matrices: u64,
     pub(super) times: u64,
     pub(super) rotations: u64,
-    /// Offset of each of the scene's pictures; none for one that no part shows.
+    /// Offset of each of the scene's pictures; `None` for a picture that no part shows.
     pub(super) pictures: Vec<Option<u64>>,
     /// Size of the whole, a multiple of 4.
     pub(super) bytes: u64,

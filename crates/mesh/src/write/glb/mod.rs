@@ -13,11 +13,8 @@
 //! | sway | a skin of rigid joints with one looping animation |
 
 mod animation;
-mod extras;
 mod json;
 mod layout;
-
-pub use extras::extras;
 
 use crate::block::{Block, Vertex, Wind};
 use crate::mesher::Mesher;
@@ -28,7 +25,7 @@ use crate::settings::MeshSettings;
 use crate::stream::send;
 use glam::{Quat, Vec3, vec3};
 use layout::Layout;
-use pleach_tree::Tree;
+use pleach_plant::Tree;
 use std::io::{Seek, SeekFrom, Write};
 
 /// Where a tree stands in a scene.

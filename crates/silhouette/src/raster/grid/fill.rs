@@ -279,7 +279,7 @@ pub(super) fn is_monotone(corners: &[Corner]) -> bool {
 /// Rows whose crossings are found at a time.
 const STEP: usize = 8;
 
-/// Left, right, top and bottom of `corners`; none unless all are finite.
+/// Left, right, top and bottom of `corners`; `None` unless all are finite.
 #[inline]
 fn bounds(corners: &[Corner]) -> Option<[f32; 4]> {
     // Two corners at a time, which are the four lanes of a register.

@@ -2,7 +2,7 @@ use super::*;
 use crate::view::Projection;
 use pleach_tree::{Growth, Stem};
 
-/// Half of the stems of a tree with what they bear, by turns.
+/// Every other stem of a tree, with its leaves.
 fn halves(tree: &Tree) -> [Tree; 2] {
     [0, 1].map(|half| {
         let is_in = |stem: u32| stem % 2 == half;

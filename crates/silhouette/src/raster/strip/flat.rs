@@ -8,8 +8,8 @@ use crate::raster::grid::Grid;
 use crate::raster::occlusion::Occlusion;
 use crate::view::Camera;
 use glam::{DVec3, Vec2};
-use pleach_tree::plant::piece;
-use pleach_tree::{Knot, Stem, Tree};
+use pleach_plant::piece;
+use pleach_plant::{Knot, Stem, Tree};
 
 /// Bends below the root of this, in pixels, are one chord: a little less than 4/3 of [`TOLERANCE`].
 const STRAIGHT: f32 = 0.99 * (TOLERANCE / 0.75 * TOLERANCE / 0.75) as f32;
@@ -88,7 +88,7 @@ pub(in crate::raster) fn draw(
         // As `Cubic::chords`, of the bend that can be seen.
         let (bend, bend_after) = (a - b * 2.0 + c, b - c * 2.0 + d);
         let squared = bend.length_squared().max(bend_after.length_squared());
-        // Most are as good as straight, and need no roots to be told so.
+        // Most are nearly straight, which is known without a square root.
         let chords = if squared < STRAIGHT {
             1.0
         } else {

@@ -133,7 +133,7 @@ impl Descriptor {
     pub fn new(picture: &Bitmap, scratch: &mut Scratch) -> Self {
         let Scratch { transposed, columns, runs } = scratch;
         transpose::transpose(picture, transposed);
-        let [strokes, gaps] = runs.of(picture, transposed);
+        let [strokes, gaps] = runs.amounts(picture, transposed);
         Self {
             empty: picture.ink() == 0,
             mass: mass::amounts(picture, columns),

@@ -8,9 +8,9 @@
 
 use super::LANES;
 use crate::bitmap::Bitmap;
-use pleach_tree::math;
+use pleach_plant::math;
 
-/// Lengths that are told apart: 1, 2, 4, … 128 parts in 256 of S. What lies between two counts for
+/// Lengths that are distinguished: 1, 2, 4, … 128 parts in 256 of S. What lies between two counts for
 /// both, in proportion on a logarithmic scale: a run that grows by a pixel moves little.
 const LENGTHS: usize = 8;
 
@@ -31,7 +31,7 @@ pub(super) struct Counts {
 impl Counts {
     /// Strokes and gaps of a picture: ink in runs of ink and paper in runs between ink, by length,
     /// along rows and then along columns, in units of the picture's ink.
-    pub(super) fn of(&mut self, picture: &Bitmap, transposed: &Bitmap) -> [[f32; AMOUNTS]; 2] {
+    pub(super) fn amounts(&mut self, picture: &Bitmap, transposed: &Bitmap) -> [[f32; AMOUNTS]; 2] {
         let side = picture.width().max(picture.height()) as usize;
         let per_ink = 1.0 / picture.ink().max(1) as f32;
         let (mut strokes, mut gaps) = ([0.0; AMOUNTS], [0.0; AMOUNTS]);
@@ -99,7 +99,7 @@ mod tests {
     fn runs(picture: &Bitmap) -> [[f32; AMOUNTS]; 2] {
         let mut transposed = Bitmap::default();
         transpose(picture, &mut transposed);
-        Counts::default().of(picture, &transposed)
+        Counts::default().amounts(picture, &transposed)
     }
 
     #[test]

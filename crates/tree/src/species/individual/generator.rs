@@ -4,10 +4,10 @@ use super::table::to_toml;
 use crate::generator::{Generator, Variation};
 use crate::grow_error::{Conflict, GrowError};
 use crate::growth::{Growth, Workspace};
-use crate::individual::{Draws, Individual, Spread};
 use crate::leafless::Leafless;
 use crate::param::{CheckedParams, ParamSpace, Slot};
-use crate::plant::Tree;
+use pleach_plant::Tree;
+use pleach_plant::{Draws, Individual, Spread};
 use std::sync::Arc;
 
 /// The generator of a kind, whose tree of one seed is an individual and whose other trees are of the kind.

@@ -7,8 +7,8 @@ pub(super) use table::{KEYS, read};
 
 use super::Species;
 use crate::generator::Generator;
-use crate::individual::Individual;
 use generator::WithIndividual;
+use pleach_plant::Individual;
 use std::sync::Arc;
 
 impl Species {

@@ -9,11 +9,11 @@
 //! ]
 //! ```
 
-use crate::individual::{BadStemPath, Draw, Individual, StemPath, rounded};
 use crate::param::{Problem, nearest};
 use crate::species::doc::{Node, SpeciesDoc, Value};
 use crate::species::error::Issue;
 use crate::species::key::{Form, Key};
+use pleach_plant::{BadStemPath, Draw, Individual, StemPath};
 use std::fmt::Write as _;
 
 /// The keys of the table.
@@ -36,8 +36,9 @@ pub(super) fn to_toml(individual: &Individual) -> String {
         "\n[individual]\n# stem, seed of its draws, azimuth and pitch in degrees, factor of its length\n\
                     stems = [\n"
             .to_owned();
-    for (path, Draw { seed, azimuth, pitch, length }) in individual.stems() {
-        let (azimuth, pitch) = (rounded(azimuth.to_degrees()), rounded(pitch.to_degrees()));
+    for (path, draw) in individual.stems() {
+        let Draw { seed, length, .. } = draw;
+        let (azimuth, pitch) = draw.degrees();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  [\"{path}\", {seed}, {azimuth:?}, {pitch:?}, {length:?}],");
     }

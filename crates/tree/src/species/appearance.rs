@@ -14,68 +14,11 @@
 //! Every key is optional. What is missing takes one plain look, [`Look::PLAIN`], whatever the species is
 //! called. Generators never read it.
 
-mod blend;
-mod color;
-mod words;
-
-pub use color::Color;
-pub use words::{BarkPattern, Season};
-
 use super::doc::{Node, SpeciesDoc, Value};
 use super::error::Issue;
 use super::key::{Form, Key};
 use crate::param::{Problem, nearest, shown};
-
-/// The table `[appearance]` of a species file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Appearance {
-    /// Colour of the bark.
-    pub bark: Option<Color>,
-    /// How bark is marked.
-    pub bark_pattern: Option<BarkPattern>,
-    /// Colour of leaves in summer.
-    pub leaf: Option<Color>,
-    /// Colour of leaves in autumn.
-    pub autumn: Option<Color>,
-    /// Colour of blossoms.
-    pub blossom: Option<Color>,
-    /// Whether leaves stay on, and green, all year.
-    pub evergreen: Option<bool>,
-    /// When the tree is shown.
-    pub season: Option<Season>,
-}
-
-/// An [`Appearance`] with nothing left open.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Look {
-    /// Colour of the bark.
-    pub bark: Color,
-    /// How bark is marked.
-    pub bark_pattern: BarkPattern,
-    /// Colour of leaves in summer.
-    pub leaf: Color,
-    /// Colour of leaves in autumn.
-    pub autumn: Color,
-    /// Colour of blossoms.
-    pub blossom: Color,
-    /// Whether leaves stay on, and green, all year.
-    pub evergreen: bool,
-    /// When the tree is shown; `None` for full leaf with whatever blossom the model gives it.
-    pub season: Option<Season>,
-}
-
-impl Look {
-    /// What a species looks like that says nothing.
-    pub const PLAIN: Self = Self {
-        bark: Color::from_hex(0x6b_5c_4c),
-        bark_pattern: BarkPattern::Furrowed,
-        leaf: Color::from_hex(0x5c_83_36),
-        autumn: Color::from_hex(0xd0_96_2c),
-        blossom: Color::from_hex(0xf4_e3_e6),
-        evergreen: false,
-        season: None,
-    };
-}
+use pleach_plant::{Appearance, BarkPattern, Color, Season};
 
 /// A key of the table: its declaration, and how to write and to read it.
 struct Field {
@@ -213,98 +156,77 @@ impl Said<'_> {
     }
 }
 
-impl Appearance {
-    /// Reads the table of `doc`; what is wrong in it joins `issues` and is left out.
-    #[must_use]
-    pub fn read(doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Self {
-        let mut appearance = Self::default();
-        let Some(node) = doc.get("appearance") else { return appearance };
-        let Value::Table(entries) = &node.value else {
-            let problem = Problem::WrongType { expected: "a table", found: node.value.type_name() };
-            issues.push(doc.issue(node.span.clone(), "appearance", problem));
-            return appearance;
-        };
-        for entry in entries {
-            let name = format!("appearance.{}", entry.key);
-            let field = FIELDS.iter().find(|field| field.key.name == entry.key);
-            let result = match field {
-                Some(field) => (field.read)(&mut appearance, &Said { doc, name: &name, node: &entry.node }),
-                None => {
-                    let nearest = nearest(&entry.key, KEYS.iter().map(|key| key.name));
-                    Err(doc.issue(entry.span.clone(), &name, Problem::UnknownName { nearest }))
-                }
-            };
-            if let Err(issue) = result {
-                issues.push(issue);
+/// Reads the table of `doc`; what is wrong in it joins `issues` and is left out.
+pub(super) fn read(doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Appearance {
+    let mut appearance = Appearance::default();
+    let Some(node) = doc.get("appearance") else { return appearance };
+    let Value::Table(entries) = &node.value else {
+        let problem = Problem::WrongType { expected: "a table", found: node.value.type_name() };
+        issues.push(doc.issue(node.span.clone(), "appearance", problem));
+        return appearance;
+    };
+    for entry in entries {
+        let name = format!("appearance.{}", entry.key);
+        let field = FIELDS.iter().find(|field| field.key.name == entry.key);
+        let result = match field {
+            Some(field) => (field.read)(&mut appearance, &Said { doc, name: &name, node: &entry.node }),
+            None => {
+                let nearest = nearest(&entry.key, KEYS.iter().map(|key| key.name));
+                Err(doc.issue(entry.span.clone(), &name, Problem::UnknownName { nearest }))
             }
-        }
-        appearance
-    }
-
-    /// How the species is drawn: what the table says, and the plain look where it is silent. What never
-    /// turns has its summer's colour in autumn too.
-    #[must_use]
-    pub fn look(&self) -> Look {
-        let plain = Look::PLAIN;
-        let leaf = self.leaf.unwrap_or(plain.leaf);
-        let evergreen = self.evergreen.unwrap_or(plain.evergreen);
-        Look {
-            bark: self.bark.unwrap_or(plain.bark),
-            bark_pattern: self.bark_pattern.unwrap_or(plain.bark_pattern),
-            leaf,
-            autumn: if evergreen { leaf } else { self.autumn.unwrap_or(plain.autumn) },
-            blossom: self.blossom.unwrap_or(plain.blossom),
-            evergreen,
-            season: self.season,
-        }
-    }
-
-    /// The keys that are said, with their values as they stand in a file, without quotes.
-    #[must_use]
-    pub fn said(&self) -> Vec<(Key, String)> {
-        FIELDS.iter().filter_map(|field| Some((field.key, (field.written)(self)?))).collect()
-    }
-
-    /// The table as TOML, empty where nothing is said.
-    #[must_use]
-    pub fn to_toml(&self) -> String {
-        let line = |(key, value): (Key, String)| match key.form {
-            Form::Switch => format!("{} = {value}\n", key.name),
-            _ => format!("{} = \"{value}\"\n", key.name),
         };
-        let lines: String = self.said().into_iter().map(line).collect();
-        if lines.is_empty() { lines } else { format!("\n[appearance]\n{lines}") }
+        if let Err(issue) = result {
+            issues.push(issue);
+        }
     }
+    appearance
+}
+
+/// The keys of the table that `appearance` says, with their values as they stand in a file, without quotes.
+#[must_use]
+pub fn appearance_keys(appearance: &Appearance) -> Vec<(Key, String)> {
+    FIELDS.iter().filter_map(|field| Some((field.key, (field.written)(appearance)?))).collect()
+}
+
+/// The table as TOML, empty where nothing is said.
+pub(super) fn to_toml(appearance: &Appearance) -> String {
+    let line = |(key, value): (Key, String)| match key.form {
+        Form::Switch => format!("{} = {value}\n", key.name),
+        _ => format!("{} = \"{value}\"\n", key.name),
+    };
+    let lines: String = appearance_keys(appearance).into_iter().map(line).collect();
+    if lines.is_empty() { lines } else { format!("\n[appearance]\n{lines}") }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pleach_plant::Look;
 
-    fn read(text: &str) -> (Appearance, Vec<String>) {
+    fn table(text: &str) -> (Appearance, Vec<String>) {
         let doc = SpeciesDoc::parse("t.toml", text).unwrap();
         let mut issues = Vec::new();
-        let appearance = Appearance::read(&doc, &mut issues);
+        let appearance = read(&doc, &mut issues);
         (appearance, issues.iter().map(Issue::to_string).collect())
     }
 
     #[test]
     fn a_table_survives_the_file() {
         let text = "\n[appearance]\nbark = \"#6b5b4a\"\nautumn = \"#d9a520\"\nseason = \"winter\"\n";
-        let (appearance, issues) = read(text);
+        let (appearance, issues) = table(text);
         assert_eq!(issues, Vec::<String>::new());
         assert_eq!(appearance.bark, Some(Color([0x6b, 0x5b, 0x4a])));
         assert_eq!((appearance.leaf, appearance.season), (None, Some(Season::Winter)));
-        assert_eq!(appearance.to_toml(), text);
-        assert_eq!(read("").0.to_toml(), "");
+        assert_eq!(to_toml(&appearance), text);
+        assert_eq!(to_toml(&table("").0), "");
     }
 
     #[test]
     fn every_key_survives_the_file() {
         let text = "\n[appearance]\nbark = \"#000001\"\nbark_pattern = \"banded\"\nleaf = \"#000002\"\n\
                     autumn = \"#000003\"\nblossom = \"#000004\"\nevergreen = true\nseason = \"spring\"\n";
-        let (appearance, issues) = read(text);
-        assert_eq!((issues, appearance.to_toml().as_str()), (Vec::new(), text));
+        let (appearance, issues) = table(text);
+        assert_eq!((issues, to_toml(&appearance).as_str()), (Vec::new(), text));
         assert_eq!(text.lines().count(), 2 + KEYS.len(), "every key is in this test");
     }
 
@@ -325,7 +247,7 @@ mod tests {
     #[test]
     fn mistakes_are_named_with_their_place() {
         let (_, issues) =
-            read("[appearance]\nbark = \"brown\"\nleef = \"#000000\"\nseason = \"sumer\"\nleaf = 3");
+            table("[appearance]\nbark = \"brown\"\nleef = \"#000000\"\nseason = \"sumer\"\nleaf = 3");
         assert_eq!(issues.len(), 4, "{issues:?}");
         let said = |issues: &[String], words: [&str; 2]| {
             assert!(issues.iter().any(|i| words.iter().all(|w| i.contains(w))), "{words:?} in {issues:?}");
@@ -335,8 +257,8 @@ mod tests {
         {
             said(&issues, words);
         }
-        assert!(read("appearance = 3").1[0].contains("a table"));
-        let (_, issues) = read("[appearance]\nevergreen = \"yes\"\nbark_pattern = \"bandd\"\nbark = true");
+        assert!(table("appearance = 3").1[0].contains("a table"));
+        let (_, issues) = table("[appearance]\nevergreen = \"yes\"\nbark_pattern = \"bandd\"\nbark = true");
         assert_eq!(issues.len(), 3, "{issues:?}");
         said(&issues, ["t.toml:2:13", "is a string, expected true or false"]);
         said(

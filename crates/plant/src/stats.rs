@@ -1,6 +1,6 @@
 //! Measurements of a tree, under names that scripts rely on.
 
-use crate::plant::{Leaf, Parts, Tree};
+use crate::tree::{Leaf, Parts, Tree};
 use glam::{DVec3, Vec3};
 use serde::Serialize;
 

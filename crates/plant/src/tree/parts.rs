@@ -1,8 +1,17 @@
 //! Which parts of a tree a picture, a mesh or a measurement takes in.
 
 use super::StemKind;
-use crate::growth::Foliage;
 use std::ops::BitOr;
+
+/// Which leaves are made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Foliage {
+    /// Every leaf and blossom.
+    #[default]
+    All,
+    /// Stems only.
+    None,
+}
 
 /// A set of kinds of parts: `Parts::STEMS | Parts::LEAVES`.
 ///

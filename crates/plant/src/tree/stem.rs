@@ -26,8 +26,8 @@ pub struct Stem {
     pub level: u16,
     /// How it came to be.
     pub kind: StemKind,
-    /// Which of the stems of its kind on its parent, or on the ground, it is: the same whatever other stems do. 0
-    /// where stems have no addresses ([`Generator::spreads`](crate::Generator::spreads)).
+    /// Its number among the stems of its kind on its parent or on the ground, whatever other stems do. 0 where stems
+    /// have no addresses.
     pub number: u32,
     /// Metres along the parent, from its base, at which this stem starts. 0 for trunks.
     pub offset: f64,

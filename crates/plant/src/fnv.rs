@@ -13,7 +13,7 @@ impl Default for Fnv {
 impl Fnv {
     /// The hash of `bytes`.
     #[must_use]
-    pub fn of(bytes: &[u8]) -> u64 {
+    pub fn hash(bytes: &[u8]) -> u64 {
         Self::default().with(bytes).value()
     }
 
@@ -41,9 +41,9 @@ mod tests {
     #[test]
     fn the_hash_is_the_published_one() {
         // Test vectors of the FNV page by L. C. Noll.
-        assert_eq!(Fnv::of(b""), 0xcbf2_9ce4_8422_2325);
-        assert_eq!(Fnv::of(b"a"), 0xaf63_dc4c_8601_ec8c);
-        assert_eq!(Fnv::of(b"foobar"), 0x8594_4171_f739_67e8);
-        assert_eq!(Fnv::default().with(b"foo").with(b"bar").value(), Fnv::of(b"foobar"));
+        assert_eq!(Fnv::hash(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(Fnv::hash(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(Fnv::hash(b"foobar"), 0x8594_4171_f739_67e8);
+        assert_eq!(Fnv::default().with(b"foo").with(b"bar").value(), Fnv::hash(b"foobar"));
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Hewitt 2017, Appendix C, `leaf_shape` and `blossom_shape`. Coordinates are (u, v) for leaves, u
 //! across and v along the blade, base at the origin and tip at v = 1, and (u, v, w) for blossoms,
-//! w at right angles to both. See [`crate::plant::Leaf`] for how a unit shape is placed.
+//! w at right angles to both. See [`crate::Leaf`] for how a unit shape is placed.
 
 mod blossom;
 mod leaf;

@@ -10,7 +10,7 @@ mod stem;
 pub use blob::Blob;
 pub use check::MalformedTree;
 pub use leaf::Leaf;
-pub use parts::Parts;
+pub use parts::{Foliage, Parts};
 pub use stem::{Stem, StemKind};
 
 use crate::individual::{StemPath, Step};

@@ -1,41 +1,46 @@
-//! What one stem has drawn in place of its own draws.
+//! Draws of one stem that replace its own.
 
 use crate::math;
 use crate::random::{Key, Purpose};
 
-/// What draws of one stem are for.
+/// The purpose of the key that follows from a new seed.
 const RESEED: Purpose = Purpose::MAX;
 
 /// Degrees and factors of lengths have this many decimal places: as many as files write.
 const PLACES: f64 = 1e4;
 
 /// `value` to the places that files write.
-#[must_use]
-pub fn rounded(value: f64) -> f64 {
+fn rounded(value: f64) -> f64 {
     (value * PLACES).round() / PLACES
 }
 
 /// Other draws of one stem.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
-    /// Which draws it and what it carries have in place of their own; 0 for their own.
+    /// Seed of the new draws of the stem and of what it carries; 0: their own.
     pub seed: u32,
-    /// Radians by which it is turned about its parent.
+    /// Turn about the parent, radians.
     pub azimuth: f64,
-    /// Radians by which it leans away from its parent's tip.
+    /// Lean away from the parent's tip, radians.
     pub pitch: f64,
-    /// What its length is multiplied by. That of a fork is its parent's.
+    /// Factor of the length. A fork has its parent's length.
     pub length: f64,
 }
 
 impl Draw {
-    /// Nothing else than it has drawn itself.
+    /// The stem's own draws.
     pub const OWN: Self = Self { seed: 0, azimuth: 0.0, pitch: 0.0, length: 1.0 };
 
     /// The key that its draws follow from, where `own` is its own.
     #[must_use]
     pub fn key(&self, own: Key) -> Key {
         if self.seed == 0 { own } else { own.child(RESEED, self.seed) }
+    }
+
+    /// Azimuth and pitch in degrees, to the places that files write.
+    #[must_use]
+    pub fn degrees(&self) -> (f64, f64) {
+        (rounded(self.azimuth.to_degrees()), rounded(self.pitch.to_degrees()))
     }
 
     /// The same with numbers as short as a file has them, so that a tree is the one that its file grows.
@@ -61,25 +66,25 @@ impl Draw {
     }
 }
 
-/// How far from their own the draws of stems of one level may be: what the species itself leaves open, and a
-/// little where it leaves nothing open.
+/// How far the draws of stems of one level may be from their own: a share of the species' own variation, and a
+/// little where the species has none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spread {
     /// Largest turn about the parent, radians.
     pub azimuth: f64,
     /// Largest lean, radians.
     pub pitch: f64,
-    /// Largest part by which a stem is longer or shorter.
+    /// Largest relative change of the length.
     pub length: f64,
 }
 
-/// Degrees and parts of a length that stems differ by in nature where a species says that they do not.
+/// Least spread, degrees and relative length: stems differ by about this much in nature.
 const NATURAL: (f64, f64, f64) = (10.0, 4.0, 0.06);
-/// The part of a species' own variation that is given on top of what its stems have drawn.
+/// Share of the species' own variation.
 const SHARE: f64 = 0.5;
-/// Degrees that a trunk may lean from where it stands; what it does about its axis is free.
+/// Degrees that a trunk may lean; its turn about its axis is free.
 const LEAN: f64 = 2.0;
-/// Bounds of what a species may ask for, radians and a part of the length.
+/// Upper bounds of the spread, radians and relative length.
 const MAX_PITCH: f64 = 0.35;
 const MAX_LENGTH: f64 = 0.25;
 
@@ -90,16 +95,16 @@ impl Spread {
         Self { azimuth: azimuth.to_radians(), pitch: pitch.to_radians(), length }
     }
 
-    /// Of trunks: turned freely, hardly leaning. A picture shows the height of a tree, so a trunk has no other
+    /// The spread of trunks: turned freely, hardly leaning. A picture shows the height of a tree, so a trunk has no other
     /// length.
     #[must_use]
-    pub fn of_trunks() -> Self {
+    pub fn for_trunks() -> Self {
         Self::from_degrees(180.0, LEAN, 0.0)
     }
 
-    /// Of stems that a species varies by `varied`: half of that, and a little where it varies nothing.
+    /// The spread of stems that a species varies by `varied`: half of that, and a little where it varies nothing.
     #[must_use]
-    pub fn of_stems(varied: Self) -> Self {
+    pub fn for_stems(varied: Self) -> Self {
         let (azimuth, pitch, length) = NATURAL;
         let part = |varied: f64, least: f64| (SHARE * varied.abs()).max(least);
         Self {
@@ -109,9 +114,9 @@ impl Spread {
         }
     }
 
-    /// The draw in the middle of `self` that `key` deals, of a stem whose own are `from`: `reach` is the part of the
-    /// spread that it may lie away from them.
-    pub(super) fn deal(&self, key: Key, from: &Draw, reach: f64) -> Draw {
+    /// A draw near `from`, within the spread: `key` chooses it, and it is at most the part `reach` of the spread
+    /// away.
+    pub(super) fn sample(&self, key: Key, from: &Draw, reach: f64) -> Draw {
         let near = |from: f64, most: f64, index: u32| {
             (from + reach * most * key.signed(0, index)).clamp(-most, most)
         };

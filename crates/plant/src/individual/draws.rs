@@ -1,4 +1,4 @@
-//! What a generator asks of each stem: which draws it has.
+//! The draws of all stems, as a generator asks for them.
 
 use super::{Address, Draw, Spread};
 use crate::random::Key;
@@ -16,11 +16,11 @@ pub struct Draws {
 pub struct Trial {
     /// The [generation](Address::generation) of the stems.
     pub generation: u16,
-    /// Which trial: others deal other draws.
+    /// Which trial: each has other draws.
     pub number: u32,
     /// The part of the spread by which turns and lengths lie away from those of the individual.
     pub reach: f64,
-    /// Whether stems, with all that they carry, are dealt anew and not only turned.
+    /// Whether stems, with all that they carry, get new draws, and are not only turned.
     pub reseeds: bool,
     /// How far draws may be from a stem's own, level by level; the last holds for all deeper ones.
     pub spreads: Vec<Spread>,
@@ -36,7 +36,7 @@ impl Trial {
             spread.length = 0.0;
         }
         let from = if self.reseeds { Draw { seed: seed(key), ..*kept } } else { *kept };
-        spread.deal(key, &from, self.reach)
+        spread.sample(key, &from, self.reach)
     }
 }
 
@@ -61,7 +61,7 @@ impl Draws {
         Self { trial: Some(trial), ..self }
     }
 
-    /// What the stem at `address`, of `level`, has drawn.
+    /// The draw of the stem at `address`, of `level`.
     #[must_use]
     pub fn at(&self, address: Address, level: usize) -> Draw {
         match &self.trial {
@@ -96,13 +96,13 @@ mod tests {
         let draw = Draw { seed: 7, azimuth: 0.1, pitch: -0.05, length: 1.02 };
         let draws = Draws::new([(one, draw), (one.fork(0), draw)]);
         assert_eq!((draws.at(one, 1), draws.at(other, 1)), (draw, Draw::OWN));
-        // A trial deals all of a generation, and forgets what they carried only if it deals them anew.
+        // A trial changes a whole generation. What its stems carried is forgotten only if they are reseeded.
         let turned = draws.clone().with_trial(trial(1, false));
         assert_eq!((turned.at(one, 1).seed, turned.at(one.fork(0), 1)), (7, draw));
-        let anew = draws.with_trial(trial(1, true));
-        assert!(![0, 7].contains(&anew.at(one, 1).seed));
-        assert_eq!((anew.at(one.fork(0), 1), anew.at(Address::trunk(0), 0)), (Draw::OWN, Draw::OWN));
-        assert_ne!(anew.at(one, 1), anew.at(other, 1));
+        let reseeded = draws.with_trial(trial(1, true));
+        assert!(![0, 7].contains(&reseeded.at(one, 1).seed));
+        assert_eq!((reseeded.at(one.fork(0), 1), reseeded.at(Address::trunk(0), 0)), (Draw::OWN, Draw::OWN));
+        assert_ne!(reseeded.at(one, 1), reseeded.at(other, 1));
     }
 
     #[test]

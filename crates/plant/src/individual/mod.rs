@@ -8,7 +8,7 @@
 //! | --- | --- |
 //! | [`StemPath`] | where a stem is, as people write it: `0/12/f1` |
 //! | [`Address`] | the same while a tree grows: a few bytes, made from the parent's |
-//! | [`Draw`] | what one stem has drawn instead |
+//! | [`Draw`] | draws of one stem that replace its own |
 //! | [`Spread`] | how far draws of a level may lie from a stem's own |
 //! | [`Draws`] | what a generator asks, stem by stem |
 //! | [`Individual`] | all draws of a tree, as they stand in a file |
@@ -18,7 +18,7 @@ mod draw;
 mod draws;
 
 pub use address::{Address, BadStemPath, StemPath, Step};
-pub use draw::{Draw, Spread, rounded};
+pub use draw::{Draw, Spread};
 pub use draws::{Draws, Trial};
 
 use std::collections::BTreeMap;
@@ -47,7 +47,7 @@ impl Individual {
         self.stems.is_empty()
     }
 
-    /// What `stem` has drawn instead, if anything.
+    /// The draw that replaces `stem`'s own, if there is one.
     #[must_use]
     pub fn get(&self, stem: &StemPath) -> Option<&Draw> {
         self.stems.get(stem)

@@ -4,7 +4,7 @@ use super::{Leaf, StemKind, Tree};
 use crate::fnv::Fnv;
 
 impl Tree {
-    /// A hash of all bits of stems, knots, leaves, blossoms and blobs, to tell whether two trees are the same.
+    /// A hash of all bits of stems, knots, leaves, blossoms and blobs, equal for equal trees.
     #[must_use]
     pub fn digest(&self) -> u64 {
         let mut hash = Fnv::default();

@@ -18,7 +18,7 @@ pub enum Step {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct StemPath(Vec<Step>);
 
-/// A text that is no path of a stem.
+/// A text that is not the path of a stem.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected numbers from the trunk up, such as \"0/12/f1\"")]
 pub struct BadStemPath;
@@ -82,7 +82,7 @@ impl FromStr for StemPath {
 
     fn from_str(text: &str) -> Result<Self, BadStemPath> {
         let number = |digits: &str| {
-            // What a number can also be written as would make two names of one stem.
+            // Other spellings of a number would give a stem two names.
             let number: u32 = digits.parse().map_err(|_| BadStemPath)?;
             if number.to_string() == digits { Ok(number) } else { Err(BadStemPath) }
         };
@@ -155,7 +155,7 @@ impl Address {
         self.is_fork
     }
 
-    /// A number that no other stem of the tree has, as good as surely.
+    /// A number that, but for collisions of 64 bits, no other stem of the tree has.
     #[must_use]
     pub fn bits(self) -> u64 {
         self.hash.bits(3, 0)

@@ -1,7 +1,7 @@
 //! What foresters measure of a tree.
 
-use crate::plant::{Parts, Stem, StemKind, Tree};
 use crate::stats::Bounds;
+use crate::tree::{Parts, Stem, StemKind, Tree};
 use serde::Serialize;
 
 /// Height above the ground at which the diameter of a trunk is measured, in metres.
@@ -76,7 +76,7 @@ fn crown_base(tree: &Tree) -> f64 {
 mod tests {
     use super::*;
     use crate::leaf_shape::LeafShape;
-    use crate::plant::{Knot, Leaf};
+    use crate::tree::{Knot, Leaf};
     use glam::{DVec3, Vec3, dvec3, vec3};
     use std::sync::Arc;
 
