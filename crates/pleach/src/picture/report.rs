@@ -336,7 +336,7 @@ impl Prepared {
             individuals,
             references: fitted.references().cloned(),
             verdict: fitted.verdict(&kind.scores),
-            determined: judged.map(|judged| IdentifiabilityCounts::new(judged)),
+            determined: judged.map(IdentifiabilityCounts::new),
             parameters: parameters(&fitted, &kind.species),
             evaluations: outcome.evaluations,
             generations: outcome.generations,

@@ -3,7 +3,7 @@
 //! At 256² the referee has 16 × 16 samples per pixel, at 512² 11 × 11.
 
 #[path = "../support/referee.rs"]
-mod referee;
+mod support;
 
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::{Parts, Tree};
@@ -26,7 +26,7 @@ fn compare(name: &str, tree: &Tree, parts: Parts, size: u32, fineness: u32) -> C
     rasterizer.draw(tree, &View::FRONT, &frame, parts, &mut ours);
     rasterizer.coverage(&mut samples);
     let covered = samples.iter().map(|&s| f64::from(s)).sum::<f64>() / f64::from(rasterizer.samples());
-    let verdict = referee::draw(tree, &View::FRONT, &frame, parts, fineness).unwrap();
+    let verdict = support::draw(tree, &View::FRONT, &frame, parts, fineness).unwrap();
     let both = ours.intersection(&verdict.bitmap) as f64;
     let union = (ours.ink() + verdict.bitmap.ink()) as f64 - both;
     let leafy = parts == Parts::LEAFY;
