@@ -84,11 +84,23 @@ test("a fit finds the palm, and its file grows the same tree in the program", as
     execFileSync(process.env.PLEACH, ["silhouette", file, "-o", picture, "--size", "256", "--quiet"]);
     assert.deepEqual(await inkOf(readFileSync(picture)), await silhouetteOf(toml));
   }
-  // A reload keeps the goal and the result.
+  // It is this very tree, with draws of its own; its kind is beside it.
+  assert.match(toml, /^\[individual\]/m);
+  const shown = () => page.getByTestId("overlay").evaluate((canvas) => canvas.toDataURL());
+  const own = await shown();
+  await page.getByRole("radio", { name: "Its kind" }).check();
+  assert.doesNotMatch(await saved(page, "TOML"), /\[individual\]/);
+  await page.waitForFunction(
+    (before) => document.querySelector('[data-testid="overlay"]').toDataURL() !== before,
+    own,
+  );
+  assert.notEqual(Number(await page.locator(".score .big").textContent()), likeness);
+  // A reload keeps the goal and both trees.
   await page.waitForTimeout(1500);
   await page.reload();
   await page.getByTestId("score").waitFor();
   assert.equal(Number(await page.locator(".score .big").textContent()), likeness);
+  assert.equal(await shown(), own);
   assert.deepEqual(problems, []);
   await context.close();
 });
@@ -99,6 +111,16 @@ test("the family can be the one that the goal looks like", async () => {
   await page.getByLabel("Family").selectOption("auto");
   const { likeness } = await fitted(page);
   assert.ok(likeness >= 0.6, `likeness ${likeness}`);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("without this very tree there is only the kind", async () => {
+  const { page, problems, context } = await fit();
+  await page.getByLabel("Look for this very tree too").uncheck();
+  await fitted(page);
+  assert.equal(await page.getByRole("radio", { name: "Its kind" }).count(), 0);
+  assert.doesNotMatch(await saved(page, "TOML"), /\[individual\]/);
   assert.deepEqual(problems, []);
   await context.close();
 });

@@ -62,10 +62,11 @@ impl Palette {
         }
     }
 
-    /// `tree` as it is in this season; itself where it wears all that it has grown.
+    /// `tree` as it is in this season; itself where there is nothing to take off.
     #[must_use]
     pub fn dressed<'a>(&self, tree: &'a Tree) -> Cow<'a, Tree> {
-        if self.leaves && self.blossoms {
+        let wears_leaves = !tree.leaves.is_empty() || !tree.blobs.is_empty();
+        if (self.leaves || !wears_leaves) && (self.blossoms || tree.blossoms.is_empty()) {
             return Cow::Borrowed(tree);
         }
         let mut dressed = tree.clone();

@@ -67,18 +67,18 @@
 //!
 //! # Make a mesh, and a shaded picture
 //!
-//! [`write_glb`] writes one tree; [`send`] streams any [`Mesher`]s to a file of any format, or into
-//! a [`Mesh`].
+//! [`Export`] says what a mesh file is to hold, and writes it; [`send`] streams any [`Mesher`]s to a file of any
+//! format, or into a [`Mesh`].
 //!
 //! ```
-//! use pleach::Palette;
+//! use pleach::{Export, MeshFormat};
 //!
 //! let species = pleach::species("acer")?;
 //! let tree = species.grow(1)?;
-//! let palette = Palette::new(&species.appearance, None);
+//! let export = Export { lod: 3, ..Export::default() };
 //! let mut glb = std::io::Cursor::new(Vec::new());
-//! pleach::write_glb(&mut glb, "acer", &tree, &palette)?;
-//! let picture = pleach::render(&tree, &palette, 128);
+//! export.write(MeshFormat::Glb, &species, 1, &tree, None, &mut glb)?;
+//! let picture = pleach::render(&tree, &export.palette(&species), 128);
 //! picture.write_png(&mut std::io::sink())?;
 //! # assert!(glb.into_inner().starts_with(b"glTF"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -117,11 +117,6 @@ pub use pleach_tree::{param, random, species};
 #[cfg(test)]
 mod shared;
 
-#[cfg(feature = "mesh")]
-mod extras;
-#[cfg(feature = "mesh")]
-pub use extras::extras;
-
 #[cfg(feature = "fit")]
 mod at_full_size;
 #[cfg(feature = "fit")]
@@ -144,9 +139,9 @@ mod picture;
 pub use picture::{
     Direction, Effort, FitDrawing, FitOptions, FitReport, FitSource, FitStart, FittedTree, FurtherPicture,
     FurtherView, GoalPair, IdentifiabilityCounts, IndividualReport, KnownFrame, Leaves, LooksLike, MaskFrom,
-    OptionError, ParameterReport, PictureError, PictureSource, PrepareError, Prepared, ReportError,
-    RulesReport, SearchReport, SettingError, SideTree, SidesReport, Spent, StartFrom, TIME_KEYS, Tone,
-    ViewReport, VolumeFrom, best_of_each_family, fit_picture, optimizer_with, parse_duration, settings_of,
+    ParameterReport, PictureError, PictureSource, PrepareError, Prepared, ReportError, RulesReport,
+    SearchReport, SettingError, SideTree, SidesReport, Spent, StartFrom, TIME_KEYS, Tone, ViewReport,
+    VolumeFrom, best_of_each_family, fit_picture, optimizer_with, parse_duration, settings_of,
 };
 
 #[cfg(feature = "fit")]
@@ -155,6 +150,18 @@ pub mod plan;
 #[cfg(feature = "blend")]
 pub use pleach_blend::{Blend, BlendError, BlendMap, Point, Settings as MapSettings, Weights, mix};
 
+#[cfg(feature = "options")]
+mod option_error;
+#[cfg(feature = "options")]
+pub use option_error::OptionError;
+
+#[cfg(feature = "render")]
+mod export;
+#[cfg(feature = "render")]
+pub use export::{Beside, Export, ExportError, ExportedFile, Forest, LeafForm};
+
+#[cfg(feature = "mesh")]
+pub use pleach_mesh::write::{Feature as MeshFeature, Format as MeshFormat};
 #[cfg(feature = "mesh")]
 pub use pleach_mesh::{
     LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Sink, Source, send, write::glb::Glb,

@@ -3,11 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach::plan::{Origin, library, plan, usual_start};
-use pleach::{
-    Bitmap, BlendMap, Budget, Control, Crop, FitProblem, FitSettings, GeneratorChoice, Goal, GoalOptions,
-    GoalView, MapSettings, Point, View, fit_goal_with,
-};
+use pleach::{Bitmap, BlendMap, Control, Effort, FitOptions, MapSettings, Point, View, fit_picture};
 use pleach_tree::Fnv;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -42,19 +38,12 @@ fn bits(root: &Path) -> String {
 
 /// The species file that a fit of 300 trees finds.
 fn fitted(root: &Path) -> String {
-    let options = GoalOptions { max_side: Some(256), crop: Crop::ToTree, ..GoalOptions::default() };
-    let goal = Goal::load(root.join("targets/palm.png"), &options).unwrap();
-    let generator = GeneratorChoice::default();
-    let start = usual_start(generator).unwrap();
-    let view = GoalView::from_picture(goal.bitmap.clone(), View::FRONT, goal.frame(14.0));
-    let problem = FitProblem::new(start, view);
-    let search = FitSettings { budget: Budget::evaluations(300), ..FitSettings::default() };
-    let guess = Origin::Guess { detect_leaves: true };
-    let settings = plan(guess, generator, &problem.start, search).unwrap();
+    let options =
+        FitOptions { height: 14.0, evaluations: Some(300), individual: Effort::Off, ..FitOptions::default() };
     let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
-    let fitted = fit_goal_with(&problem, &settings, &mut library(), Control::new(&clock, &stop)).unwrap();
-    let species = fitted.species().unwrap();
-    pleach::Species { name: "palm".to_owned(), description: String::new(), ..species }.to_toml(&[])
+    let palm = root.join("targets/palm.png");
+    let report = fit_picture(palm.as_path(), &options, Control::new(&clock, &stop)).unwrap();
+    report.best().species.to_toml(&[])
 }
 
 /// If what they are of has changed, `PLEACH_BLESS=1 cargo test -p pleach --test bits` writes them anew.

@@ -6,7 +6,7 @@ use numpy::PyArray2;
 use pleach::{BlendMap, MapSettings, Point};
 use pyo3::prelude::*;
 
-/// The species that is so much of each of `species`.
+/// The blend of `species` by `shares`.
 #[pyfunction]
 pub(crate) fn mix(species: Vec<Species>, shares: Vec<f64>, name: &str) -> PyResult<Species> {
     let species = species.iter().map(|one| (*one.inner).clone()).collect();

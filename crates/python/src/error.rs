@@ -6,7 +6,7 @@ use std::fmt::Display;
 
 create_exception!(pleach, PleachError, PyException, "Whatever pleach refuses; what is below says what of.");
 create_exception!(pleach, SpeciesError, PleachError, "A species or a parameter that cannot be.");
-create_exception!(pleach, GoalError, PleachError, "A picture or an array that is no goal.");
+create_exception!(pleach, GoalError, PleachError, "A picture or an array that is not a goal.");
 create_exception!(pleach, GrowError, PleachError, "A tree that does not grow: too large, or broken rules.");
 create_exception!(pleach, FitError, PleachError, "A fit that cannot begin, or has found nothing.");
 
@@ -28,4 +28,9 @@ pub(crate) fn of_growth(error: impl Display) -> PyErr {
 /// The message of `error` as a [`FitError`].
 pub(crate) fn of_fit(error: impl Display) -> PyErr {
     FitError::new_err(error.to_string())
+}
+
+/// The message of `error` as a [`PleachError`].
+pub(crate) fn of_export(error: impl Display) -> PyErr {
+    PleachError::new_err(error.to_string())
 }

@@ -2,10 +2,10 @@
 
 use crate::arrays::{numbers, of_ink, whole};
 use crate::error::{FitError, GoalError, of_fit, of_goal};
+use crate::event::{Event, EventSender};
 use crate::goal::Source;
 use crate::score::of_card;
 use crate::species::Species;
-use crate::told::{Teller, Told};
 use crate::{json, pool};
 use numpy::PyArray2;
 use pleach::plan::library;
@@ -83,12 +83,12 @@ fn watched(
     threads: Option<usize>,
     progress: Option<&Py<PyAny>>,
 ) -> PyResult<(Result<Fitted, pleach::FitError>, Option<PyErr>)> {
-    let (sender, told) = channel::<Told>();
+    let (sender, events) = channel::<Event>();
     let stop = &AtomicBool::new(false);
     let pool = pool::of(threads)?;
     let run = |sender| {
         // Its own, so that the channel closes when the fit has ended.
-        let mut teller = Teller(sender);
+        let mut teller = EventSender(sender);
         let clock = || started.elapsed();
         let control = Control { observers: vec![&mut teller], ..Control::new(&clock, stop) };
         prepared.fit(&mut library().for_one_goal(), control)
@@ -98,7 +98,7 @@ fn watched(
             let running = scope.spawn(|| pool.install(move || run(sender)));
             let mut raised = None;
             loop {
-                let step = told.recv_timeout(LOOK);
+                let step = events.recv_timeout(LOOK);
                 if step == Err(RecvTimeoutError::Disconnected) {
                     break;
                 }
@@ -114,7 +114,7 @@ fn watched(
 }
 
 /// Hands a step of a fit to Python, and lets it handle its signals.
-fn listen(py: Python<'_>, step: Option<&Told>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+fn listen(py: Python<'_>, step: Option<&Event>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
     if let (Some(step), Some(progress)) = (step, progress) {
         progress.call1(py, (step.to_dict(py)?,))?;
     }

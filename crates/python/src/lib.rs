@@ -6,6 +6,7 @@
 mod arrays;
 mod blend;
 mod error;
+mod event;
 mod fit;
 mod frame;
 mod goal;
@@ -16,7 +17,7 @@ mod problem;
 mod score;
 mod seed;
 mod species;
-mod told;
+
 mod tree;
 mod view;
 
@@ -41,7 +42,7 @@ mod native {
     #[pymodule_export]
     use crate::tree::Tree;
 
-    /// The version, and: a species is a mapping to whoever asks.
+    /// The version, and: registers a species as a mapping.
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;

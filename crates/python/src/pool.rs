@@ -16,7 +16,7 @@ pub(crate) fn on<T: Send>(
     py.detach(|| Ok(of(threads)?.install(work)))
 }
 
-/// So many threads; as many as the machine has cores, or `RAYON_NUM_THREADS` says, if that is none.
+/// This number of threads; `None`: as many as the machine has cores, or as `RAYON_NUM_THREADS` says.
 ///
 /// They end with the pool: a process that forks afterwards has none that its child would wait for.
 pub(crate) fn of(threads: Option<usize>) -> PyResult<ThreadPool> {

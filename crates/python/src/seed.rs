@@ -8,13 +8,6 @@ use pyo3::types::PyBool;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seed(pub(crate) u64);
 
-impl Seed {
-    /// The seed that `given` is.
-    pub(crate) fn read(given: &Py<PyAny>) -> PyResult<Self> {
-        Python::attach(|py| given.bind(py).extract())
-    }
-}
-
 impl<'py> FromPyObject<'_, 'py> for Seed {
     type Error = PyErr;
 

@@ -1,16 +1,19 @@
 //! Species, as mappings of their parameters.
 
 use crate::arrays;
-use crate::error::{of_growth, of_species};
+use crate::error::{of_export, of_growth, of_species};
 use crate::params;
 use crate::seed::Seed;
 use crate::tree::Tree;
+use crate::{json, pool};
 use numpy::{PyArray1, PyReadonlyArray1};
-use pleach::{Foliage, Growth, ParamSpace};
+use pleach::{Export, Foliage, Forest, Growth, ParamSpace};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+use std::io::Cursor;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A kind of tree: a generator and the numbers that make it grow this kind.
@@ -217,6 +220,38 @@ impl Species {
         let foliage = if leaves { Foliage::All } else { Foliage::None };
         let grown = py.detach(|| self.inner.grow_with(&Growth { foliage, ..Growth::seed(seed) }));
         Ok(Tree { species: self.clone(), seed, leaves, inner: grown.map_err(of_growth)? })
+    }
+
+    /// Writes a forest of trees of this species to a GLB file, `width` × `depth` metres with a tree every `spacing`
+    /// metres, and returns how many trees stand there. They share `variants` meshes, the trees of `seed` and of those
+    /// after it; `seed` is by default that of `grow`. Options are those of `Tree.export`.
+    ///
+    /// >>> import pleach, tempfile, pathlib
+    /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "wood.glb"
+    /// >>> pleach.species("palm").export_forest(file, 40, 30, spacing=10, variants=2, leaves="simple") > 5
+    /// True
+    #[pyo3(signature = (path, width, depth, *, spacing = 6.0, variants = 4, seed = None, **options))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords")]
+    fn export_forest(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        width: f64,
+        depth: f64,
+        spacing: f64,
+        variants: u32,
+        seed: Option<Seed>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<usize> {
+        let seed = seed.map(|Seed(seed)| seed).or(self.inner.tree_seed).unwrap_or(1);
+        let export = Export::from_json(&json::from_dict(options)?).map_err(of_export)?;
+        let forest = Forest { width, depth, spacing, variants };
+        let grow = |seed| self.inner.grow_with(&Growth { foliage: self.inner.foliage, ..Growth::seed(seed) });
+        let mut glb = Cursor::new(Vec::new());
+        let planted = pool::on(py, None, || export.write_forest(&forest, &self.inner, seed, grow, &mut glb))?;
+        let trees = planted.map_err(of_export)?;
+        std::fs::write(path, glb.into_inner())?;
+        Ok(trees)
     }
 
     /// The names of all parameters.

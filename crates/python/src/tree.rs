@@ -1,17 +1,19 @@
 //! Grown trees: their parts as arrays, their pictures and meshes.
 
 use crate::arrays::{self, column, of_ink, triples};
-use crate::error::{PleachError, of_growth};
+use crate::error::{PleachError, of_export, of_growth};
 use crate::seed::Seed;
 use crate::species::Species;
 use crate::view::{self, Direction};
 use crate::{json, pool};
 use numpy::ndarray::Array3;
 use numpy::{IntoPyArray as _, PyArray1, PyArray2, PyArray3};
-use pleach::{Bounds, Palette, Parts, Preview, PreviewSettings, StemKind, TreeStats};
+use pleach::{
+    Bounds, Export, ExportedFile, MeshFormat, Palette, Parts, Preview, PreviewSettings, StemKind, TreeStats,
+};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyTuple};
-use std::io::Cursor;
+use pyo3::types::{PyBytes, PyDict, PyTuple};
+use std::path::PathBuf;
 
 /// A grown tree: stems of knots, and leaves, in metres, z up, the ground at 0.
 ///
@@ -194,16 +196,52 @@ impl Tree {
         Ok(pixels.into_pyarray(py))
     }
 
-    /// The mesh as the bytes of a GLB file: metres, y up, the foot at the origin.
-    fn to_glb<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let species = &self.species.inner;
-        let glb = pool::on(py, None, || {
-            let palette = Palette::new(&species.appearance, None);
-            let tree = palette.dressed(&self.inner);
-            let mut glb = Cursor::new(Vec::new());
-            pleach::write_glb(&mut glb, &species.name, &tree, &palette).map(|_| glb.into_inner())
+    /// Writes the tree to a mesh file, and returns the files that were written: the mesh, and the materials and
+    /// pictures that it names. The suffix of `path` says the format: glb, obj, ply, stl or usda.
+    ///
+    /// Options are those of `pleach grow`: `lod` (levels of detail, 1 to 6), `billboard` (a last level of this many cards,
+    /// 1 to 8), `tolerance` (how far bark may stray, in millimetres), `leaves` (outline, simple, cards, instances, none),
+    /// `season` (spring, summer, autumn, winter), `weld` (one surface on a grid with cells of this many millimetres) and
+    /// `fillet`, `roots`, `wind`, `sway`. A format that cannot hold an option refuses it with `PleachError`.
+    ///
+    /// >>> import pleach, tempfile, pathlib
+    /// >>> folder = pathlib.Path(tempfile.mkdtemp())
+    /// >>> files = pleach.species("acer").grow().export(folder / "acer.obj", leaves="cards", season="autumn")
+    /// >>> [file.name for file in files]
+    /// ['acer.obj', 'acer-leaves.png', 'acer.mtl']
+    #[pyo3(signature = (path, /, **options))]
+    fn export(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Vec<PathBuf>> {
+        let suffix = path.extension().unwrap_or_default().to_string_lossy();
+        let format = MeshFormat::from_suffix(&suffix).ok_or_else(|| {
+            let known = MeshFormat::ALL.map(MeshFormat::suffix).join(", .");
+            PleachError::new_err(format!("cannot write `.{suffix}` files, known are .{known}"))
         })?;
-        Ok(PyBytes::new(py, &glb.map_err(of_growth)?))
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let file = self.mesh(py, format, &stem, options)?;
+        std::fs::write(&path, &file.bytes)?;
+        let mut written = vec![path.clone()];
+        for beside in file.beside {
+            let path = path.with_file_name(&beside.name);
+            std::fs::write(&path, &beside.bytes)?;
+            written.push(path);
+        }
+        Ok(written)
+    }
+
+    /// The mesh as the bytes of a GLB file: metres, y up, the foot at the origin. Options are those of `export`.
+    #[pyo3(signature = (**options))]
+    fn to_glb<'py>(
+        &self,
+        py: Python<'py>,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let file = self.mesh(py, MeshFormat::Glb, &self.species.inner.name, options)?;
+        Ok(PyBytes::new(py, &file.bytes))
     }
 
     fn __repr__(&self) -> String {
@@ -234,6 +272,19 @@ impl Tree {
 }
 
 impl Tree {
+    fn mesh(
+        &self,
+        py: Python<'_>,
+        format: MeshFormat,
+        stem: &str,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<ExportedFile> {
+        let export = Export::from_json(&json::from_dict(options)?).map_err(of_export)?;
+        let made =
+            pool::on(py, None, || export.to_file(format, &self.species.inner, self.seed, &self.inner, stem))?;
+        made.map_err(of_export)
+    }
+
     fn painted(
         &self,
         py: Python<'_>,

@@ -31,7 +31,7 @@ pub struct Fit {
     stage: Stage,
     /// Individuals of the last batch, piece by piece.
     pieces: Vec<usize>,
-    /// The time of the search that the page has told last.
+    /// The latest time of the search that the page gave.
     elapsed: Duration,
 }
 
@@ -75,8 +75,8 @@ impl Fit {
             return Err(thrown("the first guess has been made"));
         };
         let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
-        let mut told = Told(progress);
-        let control = Control { observers: vec![&mut told], ..Control::new(&clock, &stop) };
+        let mut callback = Callback(progress);
+        let control = Control { observers: vec![&mut callback], ..Control::new(&clock, &stop) };
         let Prepared { problem, settings, .. } = &self.prepared;
         let fit = Stepwise::begin(problem, settings, *library, control).map_err(thrown)?;
         let begun = fit.begun();
@@ -145,7 +145,7 @@ impl Fit {
         .to_string())
     }
 
-    /// The best tree so far over the goal: one byte a pixel, 1 for tree; empty before there is one.
+    /// The best tree so far over the goal: one byte per pixel, 1 for tree; empty before there is one.
     pub fn best_silhouette(&self) -> Result<Vec<u8>, JsError> {
         let search = self.search()?;
         let Some(best) = search.best().filter(|best| best.score.cost.is_finite()) else {
@@ -174,8 +174,8 @@ impl Fit {
         let before = self.elapsed;
         let clock = || before + Duration::from_secs_f64((js_sys::Date::now() - started).max(0.0) / 1000.0);
         let stop = AtomicBool::new(false);
-        let mut told = Told(progress);
-        let control = Control { observers: vec![&mut told], ..Control::new(&clock, &stop) };
+        let mut callback = Callback(progress);
+        let control = Control { observers: vec![&mut callback], ..Control::new(&clock, &stop) };
         let fitted = search.finish(control).map_err(thrown)?;
         let found = self.prepared.report(fitted).map_err(thrown)?;
         let said = report::of(&found)?;
@@ -183,12 +183,12 @@ impl Fit {
         Ok(said)
     }
 
-    /// A tree that was found over the goal: one byte a pixel, 1 for tree. 0 is the tree of the kind, others are the
+    /// A tree that was found over the goal: one byte per pixel, 1 for tree. 0 is the tree of the kind, others are the
     /// goal's own, the best first.
     pub fn found_silhouette(&self, which: usize) -> Result<Vec<u8>, JsError> {
         let Stage::Done(report) = &self.stage else { return Err(thrown("the fit has not ended")) };
         let tree = std::iter::once(&report.kind).chain(&report.trees).nth(which);
-        Ok(ink(tree.ok_or_else(|| thrown("there are not so many trees"))?.over_file()))
+        Ok(ink(tree.ok_or_else(|| thrown("there is no such tree"))?.over_file()))
     }
 }
 
@@ -214,11 +214,11 @@ fn seconds(elapsed: f64) -> Result<Duration, JsError> {
 }
 
 /// Calls a function of the page.
-struct Told<'a>(&'a Function);
+struct Callback<'a>(&'a Function);
 
-impl Observer for Told<'_> {
+impl Observer for Callback<'_> {
     fn guessing(&mut self, done: usize, all: usize) {
-        // What the page makes of it is its own affair.
+        // An error in the page's function does not end the fit.
         let _ = self.0.call2(&JsValue::NULL, &JsValue::from_f64(done as f64), &JsValue::from_f64(all as f64));
     }
 

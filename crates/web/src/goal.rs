@@ -97,7 +97,7 @@ impl Goal {
         })
     }
 
-    /// A goal from ink at hand: one byte a pixel, row by row, 0 for paper.
+    /// A goal from ink at hand: one byte per pixel, row by row, 0 for paper.
     pub fn from_pixels(name: &str, width: u32, height: u32, pixels: &[u8]) -> Result<Self, JsError> {
         let painted = bitmap(width, height, pixels)?;
         Ok(Self {
@@ -137,13 +137,13 @@ impl Goal {
         .to_string()
     }
 
-    /// One byte a pixel, 1 for tree.
+    /// One byte per pixel, 1 for tree.
     #[must_use]
     pub fn pixels(&self) -> Vec<u8> {
         ink(&self.full.bitmap)
     }
 
-    /// The picture itself in four bytes a pixel, for a backdrop; empty where there is none, or a very large one.
+    /// The picture itself in four bytes per pixel, for a backdrop; empty if there is none, or a very large one.
     #[must_use]
     pub fn photo(&self) -> Vec<u8> {
         let Some(photo) = &self.photo else { return Vec::new() };

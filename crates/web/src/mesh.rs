@@ -1,17 +1,12 @@
-//! Triangles for the screen and for files.
+//! Triangles for the screen.
 
 use crate::error::thrown;
 use glam::Vec3;
-use pleach::extras;
 use pleach::{LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Season, Tree, send};
 use pleach_mesh::block::{Block, Wind};
 use pleach_mesh::lod;
 use pleach_mesh::palette::linear;
-use pleach_mesh::write::glb::{Glb, Placed, Scene};
-use pleach_mesh::write::{obj, ply, stl, usda};
-use pleach_render::{leaf_picture, png_file};
 use serde_json::json;
-use std::io::Cursor;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -20,7 +15,7 @@ pub(crate) fn season_named(name: &str) -> Result<Option<Season>, JsError> {
     if name.is_empty() {
         return Ok(None);
     }
-    let known = || thrown(format!("there is no season `{name}`, expected {}", Season::NAMES.join(", ")));
+    let known = || thrown(format!("`{name}` is not a season, expected {}", Season::NAMES.join(", ")));
     Season::from_name(name).map(Some).ok_or_else(known)
 }
 
@@ -34,7 +29,7 @@ pub(crate) fn leaf_style(name: &str) -> Result<LeafStyle, JsError> {
     })
 }
 
-/// Corners and triangles as a graphics card takes them: metres, y up.
+/// Vertices and triangles as a graphics card takes them: metres, y up.
 #[wasm_bindgen]
 pub struct MeshBuffers {
     parts: String,
@@ -52,19 +47,19 @@ impl MeshBuffers {
         self.parts.clone()
     }
 
-    /// Three numbers a corner.
+    /// Three numbers per vertex.
     #[must_use]
     pub fn positions(&self) -> Vec<f32> {
         self.positions.clone()
     }
 
-    /// Three numbers a corner, of length 1.
+    /// Three numbers per vertex, of length 1.
     #[must_use]
     pub fn normals(&self) -> Vec<f32> {
         self.normals.clone()
     }
 
-    /// Four numbers a corner: how far it sways (0 at the foot, 1 at the top), the phase of its stem in turns, how far
+    /// Four numbers per vertex: how far it sways (0 at the foot, 1 at the top), the phase of its stem in turns, how far
     /// it flutters (leaves), and the level of its stem.
     #[must_use]
     pub fn wind(&self) -> Vec<f32> {
@@ -77,19 +72,19 @@ impl MeshBuffers {
         Vec::new()
     }
 
-    /// Three corners a triangle.
+    /// Three vertices per triangle.
     #[must_use]
     pub fn indices(&self) -> Vec<u32> {
         self.indices.clone()
     }
 
-    /// How many triangles.
+    /// The number of triangles.
     #[must_use]
     pub fn triangles(&self) -> u32 {
         (self.indices.len() / 3) as u32
     }
 
-    /// How many corners.
+    /// The number of vertices.
     #[must_use]
     pub fn vertices(&self) -> u32 {
         (self.positions.len() / 3) as u32
@@ -155,78 +150,5 @@ impl MeshBuffers {
             self.wind.extend([sway * sway, *phase, flutter, *level]);
         }
         self.indices.extend(block.triangles.iter().flatten().map(|corner| first + corner));
-    }
-}
-
-/// A tree, dressed for its season, on its way into a file.
-pub(crate) struct File<'a> {
-    pub(crate) species: &'a pleach::Species,
-    pub(crate) seed: u64,
-    pub(crate) tree: &'a Tree,
-    pub(crate) palette: Palette,
-    pub(crate) levels: u32,
-    pub(crate) style: LeafStyle,
-    pub(crate) wind: bool,
-}
-
-impl File<'_> {
-    pub(crate) fn bytes(&self, format: &str) -> Result<Vec<u8>, JsError> {
-        let Self { species, tree, palette, style, wind, .. } = *self;
-        let settings = MeshSettings { tolerance: TOLERANCE, leaves: style, wind, ..MeshSettings::default() };
-        let meshers = || [Mesher::new(tree, settings)];
-        let materials = format!("{}.mtl", species.name);
-        let mut out = Cursor::new(Vec::new());
-        match format {
-            "glb" => self.write_glb(settings, &mut out)?,
-            "obj" => {
-                send(&meshers(), &mut obj::Obj::new(&mut out, &species.name, &materials)).map_err(thrown)?
-            }
-            "mtl" => return Ok(obj::materials(&palette, &[]).into_bytes()),
-            "ply" => send(&meshers(), &mut ply::Ply::new(&mut out, palette)).map_err(thrown)?,
-            "stl" => send(&meshers(), &mut stl::Stl::new(&mut out)).map_err(thrown)?,
-            "usda" => {
-                let about = [
-                    ("generator", species.generator.family().to_owned()),
-                    ("seed", self.seed.to_string()),
-                    ("species", species.name.clone()),
-                ];
-                let notes = usda::Notes {
-                    name: species.name.clone(),
-                    about: about.map(|(name, value)| (name.to_owned(), value)).into(),
-                    pictures: Vec::new(),
-                };
-                let [mesher] = meshers();
-                let sources = [mesher.with_instanced_leaves()];
-                send(&sources, &mut usda::Usda::new(&mut out, &notes, palette)).map_err(thrown)?;
-            }
-            _ => {
-                return Err(thrown(format!(
-                    "the format is `{format}`, expected glb, obj, mtl, ply, stl or usda"
-                )));
-            }
-        }
-        Ok(out.into_inner())
-    }
-
-    fn write_glb(&self, settings: MeshSettings, out: &mut Cursor<Vec<u8>>) -> Result<(), JsError> {
-        let Self { species, tree, palette, .. } = *self;
-        let levels = lod::levels(tree, settings, self.levels.clamp(1, lod::MAX_LEVELS));
-        let sources: Vec<Mesher<'_>> =
-            levels.iter().map(|one| Mesher::new(&one.tree, one.settings)).collect();
-        let mut pictures = Vec::new();
-        if self.style == LeafStyle::CrossedCards {
-            for (material, picture) in leaf_picture::of(tree, &palette) {
-                pictures.push((material, png_file::bytes(&picture).map_err(thrown)?));
-            }
-        }
-        let scene = Scene {
-            name: species.name.clone(),
-            palette,
-            extras: extras(species, json!(self.seed)),
-            placed: vec![Placed::at_origin(&species.name, sources.len())],
-            rig: None,
-            pictures,
-        };
-        send(&sources, &mut Glb::new(out, &scene)).map_err(thrown)
     }
 }

@@ -2,14 +2,16 @@
 
 use crate::error::thrown;
 use crate::mesh::{self, MeshBuffers, leaf_style, season_named};
+use js_sys::{Array, Uint8Array};
 use pleach::{
-    Bounds, Detail, Frame, Leaf, Palette, Parts, Preview, PreviewSettings, Rasterizer, TreeStats, View,
+    Bounds, Detail, Export, Frame, Leaf, MeshFormat, Palette, Parts, Preview, PreviewSettings, Rasterizer,
+    TreeStats, View,
 };
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::sync::Arc;
-use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
+use wasm_bindgen::{JsError, JsValue};
 
 /// The tree of a species and a seed.
 #[wasm_bindgen]
@@ -31,7 +33,7 @@ fn check_side(size: u32) -> Result<(), JsError> {
     Err(thrown(format!("the size is {size} pixels, expected from 1 to {MAX_SIDE}")))
 }
 
-/// One byte a pixel, 1 where there is ink.
+/// One byte per pixel, 1 where there is ink.
 pub(crate) fn ink(picture: &pleach::Bitmap) -> Vec<u8> {
     let rows = 0..picture.height();
     rows.flat_map(|y| (0..picture.width()).map(move |x| u8::from(picture.get(x, y)))).collect()
@@ -80,7 +82,7 @@ impl Tree {
         format!("{:016x}", self.inner.digest())
     }
 
-    /// The binary picture from a direction in degrees: one byte a pixel, row by row, 1 for tree.
+    /// The binary picture from a direction in degrees: one byte per pixel, row by row, 1 for tree.
     pub fn silhouette(&self, size: u32, azimuth: f64, elevation: f64) -> Result<Vec<u8>, JsError> {
         check_side(size)?;
         let view = View::degrees(azimuth, elevation);
@@ -110,23 +112,23 @@ impl Tree {
         mesh::buffers(&tree, &palette, leaf_style(leaves)?, level)
     }
 
-    /// A mesh file: `glb`, `obj` with the `mtl` that it names, `ply`, `stl` or `usda`.
-    pub fn export(
-        &self,
-        format: &str,
-        season: &str,
-        leaves: &str,
-        levels: u32,
-        wind: bool,
-    ) -> Result<Vec<u8>, JsError> {
-        let (palette, tree) = self.dressed(season)?;
-        let style = leaf_style(leaves)?;
-        let file =
-            mesh::File { species: &self.species, seed: self.seed, tree: &tree, palette, levels, style, wind };
-        file.bytes(format)
+    /// A mesh file, and the files that it names: pairs of a name and bytes, the mesh file first. `format` is a suffix
+    /// such as `glb`, `stem` the name without it, and `options` those of `pleach::Export` as JSON.
+    pub fn export(&self, format: &str, stem: &str, options: &str) -> Result<Array, JsError> {
+        let known = || {
+            let known = MeshFormat::ALL.map(MeshFormat::suffix).join(", ");
+            thrown(format!("the format is `{format}`, expected {known}"))
+        };
+        let format = MeshFormat::from_suffix(format).ok_or_else(known)?;
+        let export = Export::from_json(options).map_err(thrown)?;
+        let file = export.to_file(format, &self.species, self.seed, &self.inner, stem).map_err(thrown)?;
+        let pair = |name: &str, bytes: &[u8]| Array::of2(&JsValue::from_str(name), &Uint8Array::from(bytes));
+        let name = format!("{stem}.{}", format.suffix());
+        let beside = file.beside.iter().map(|beside| pair(&beside.name, &beside.bytes));
+        Ok(std::iter::once(pair(&name, &file.bytes)).chain(beside).collect())
     }
 
-    /// The shaded picture from a direction in degrees: four bytes a pixel, row by row.
+    /// The shaded picture from a direction in degrees: four bytes per pixel, row by row.
     pub fn picture(&self, size: u32, season: &str, azimuth: f64, elevation: f64) -> Result<Vec<u8>, JsError> {
         check_side(size)?;
         let (palette, tree) = self.dressed(season)?;

@@ -2,7 +2,7 @@
 import { wasmModule } from "./module";
 import type { FromWorker, Op, Ops, Progress, ToWorker } from "./protocol";
 
-/** The call was given up on purpose: nothing to tell the user. */
+/** The call was cancelled on purpose: not an error to show. */
 export class Cancelled extends Error {
   constructor() {
     super("cancelled");

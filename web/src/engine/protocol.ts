@@ -114,28 +114,35 @@ export interface GoalPixels extends Ink {
   ground: number | null;
   axis: number | null;
 }
+/** Scores of a tree against the goal: keys of the library's score card. */
 export interface Card {
   likeness: number;
   likeness_parts: { mass: number; rim: number; strokes: number; gaps: number };
   iou: number;
-  ellipse_iou: number;
+  best_ellipse_iou: number;
   pixel_accuracy: number;
   empty_accuracy: number;
   dice: number;
   boundary_f: number;
 }
+/** Options of a fit: keys and words of the library's `FitOptions`. What is left out has its default. */
 export interface FitOptions {
-  height: number;
-  generator: string;
-  seconds: number | null;
-  evaluations: number | null;
-  seed: number;
-  tree_seed: number | null;
-  leaves: boolean | null;
-  start: string;
+  height?: number;
+  generator?: string;
+  /** Seconds for the whole fit. */
+  timeout?: number;
+  evaluations?: number;
+  seed?: number;
+  leaves?: "auto" | "on" | "off";
+  /** How long this very tree is looked for, after its kind. */
+  individual?: "auto" | "off";
+}
+export interface LooksLike {
+  species: string;
+  confidence: number;
 }
 export interface Guess {
-  looks_like: [string, number][];
+  looks_like: LooksLike[];
   leaves: boolean;
   species: string;
 }
@@ -156,20 +163,40 @@ export interface FitStep {
   best: { ink: Uint8Array<ArrayBuffer>; toml: string } | null;
 }
 export type Seen = "determined" | "loosely" | "not-seen" | "not-tried";
-export interface FitResult {
-  toml: string;
-  name: string;
-  looks_like: [string, number][];
-  evaluations: number;
-  generations: number;
-  seconds: number;
-  stop: string;
-  card: Card;
-  verdict: string | null;
-  fresh: { likeness: { mean: number; sd: number }; iou: { mean: number; sd: number }; count: number } | null;
-  references: { what: string; likeness: number; iou: number }[] | null;
+interface Spread {
+  mean: number;
+  sd: number;
+}
+export interface Reference {
+  likeness: number;
+  iou: number;
+}
+export interface References {
+  species: string | null;
+  same_species: Reference | null;
+  other_species: Reference | null;
+  best_ellipse: Reference;
+}
+/** What the page shows of the library's `FitReport`: the same keys as the program's `summary.json`. */
+export interface FitReport extends Card {
+  species: string;
+  fresh_seeds: { count: number; likeness: Spread; iou: Spread } | null;
+  individual: (Card & { stems: number }) | null;
+  references: References | null;
   parameters: { slot: string; value: number; seen: Seen }[];
-  history: { evaluations: number[]; iou: number[]; likeness: number[]; cost: number[] };
+}
+export interface FitResult {
+  report: FitReport;
+  verdict: string | null;
+  /** The species file of the kind. */
+  toml: string;
+  /** That of this very tree. */
+  own_toml: string | null;
+}
+export interface FoundTrees {
+  ink: Uint8Array<ArrayBuffer>;
+  /** This very tree, where it was looked for. */
+  ownInk: Uint8Array<ArrayBuffer> | null;
 }
 export type Layout = "numbers" | "looks";
 export interface Plane {
@@ -192,6 +219,19 @@ interface At {
   y: number;
 }
 
+export type MeshFormat = "glb" | "obj" | "ply" | "stl" | "usda";
+/** Options of a mesh file: keys and words of the library's `Export`. What is left out has its default. */
+export interface ExportOptions {
+  lod?: number;
+  leaves?: string;
+  season?: string | null;
+  wind?: boolean;
+}
+export interface NamedFile {
+  name: string;
+  bytes: Uint8Array<ArrayBuffer>;
+}
+
 /** Every operation: what goes in, what comes out. */
 export interface Ops {
   catalogue: { in: null; out: { version: string; families: Family[] } };
@@ -208,17 +248,10 @@ export interface Ops {
     in: { spec: Spec; seed: number; season: string; size: number; azimuth: number; elevation: number };
     out: Picture;
   };
+  /** The mesh file first, then the files that it names. `stem` is its name without the suffix. */
   export: {
-    in: {
-      spec: Spec;
-      seed: number;
-      format: string;
-      season: string;
-      leaves: string;
-      levels: number;
-      wind: boolean;
-    };
-    out: Uint8Array<ArrayBuffer>;
+    in: { spec: Spec; seed: number; format: MeshFormat; stem: string; options: ExportOptions };
+    out: NamedFile[];
   };
   goalRead: { in: { name: string; bytes: Uint8Array; mask: MaskWay }; out: GoalData };
   goalCheck: { in: GoalPixels; out: GoalInfo };
@@ -233,7 +266,8 @@ export interface Ops {
     in: { scores: Uint8Array[] | null; parts: number; elapsed: number; best: boolean };
     out: FitStep;
   };
-  fitFinish: { in: null; out: FitResult & { ink: Uint8Array<ArrayBuffer> } };
+  /** With the trees that were found, over the goal. */
+  fitFinish: { in: null; out: FoundTrees & { result: FitResult } };
   evaluator: { in: Uint8Array; out: null };
   evaluate: { in: Uint8Array; out: Uint8Array<ArrayBuffer> };
 }

@@ -1,7 +1,16 @@
 // A fit as the page sees it: one coordinator, several evaluators, and the clock of the search.
 import { Cancelled, Client } from "./client";
 import { cores } from "./pool";
-import type { FitOptions, FitProgress, FitResult, FitStep, GoalPixels, Guess, Progress } from "./protocol";
+import type {
+  FitOptions,
+  FitProgress,
+  FitResult,
+  FitStep,
+  FoundTrees,
+  GoalPixels,
+  Guess,
+  Progress,
+} from "./protocol";
 
 export interface FitEvents {
   stage(progress: Progress): void;
@@ -39,9 +48,9 @@ export class FitSession {
     private readonly events: FitEvents,
   ) {}
 
-  async run(): Promise<FitResult & { ink: Uint8Array<ArrayBuffer> }> {
+  async run(): Promise<FoundTrees & { result: FitResult }> {
     try {
-      this.events.stage({ stage: "loading what is known" });
+      this.events.stage({ stage: "Loading what is known" });
       const known = await knownDrawings();
       const goal = { ...this.goal, ink: this.goal.ink.slice() };
       const guess = await this.coordinator.call(

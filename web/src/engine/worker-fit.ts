@@ -4,6 +4,9 @@ import type { FitProgress, FitResult, Guess } from "./protocol";
 import type { Handlers } from "./worker";
 import { makeGoal } from "./worker-goal";
 
+/** The library's words for what comes after the search. */
+const LAST_STAGES = { judging: "Judging", individual: "Looking for this very tree" };
+
 let fit: Fit | undefined;
 let evaluator: Evaluator | undefined;
 
@@ -18,11 +21,11 @@ export const fitHandlers: Handlers<
   fitGuess({ goal, options, drawings }, report) {
     const made = makeGoal(goal);
     fit?.free();
-    // What is left open is left out.
-    const said = Object.entries(options).filter(([, value]) => value !== null);
-    fit = new Fit(made, JSON.stringify(Object.fromEntries(said)));
+    fit = new Fit(made, JSON.stringify(options));
     if (drawings) fit.use_drawings(drawings);
-    const found = fit.guess((done: number, all: number) => report({ stage: "looking for kin", done, all }));
+    const found = fit.guess((done: number, all: number) =>
+      report({ stage: "Comparing with known species", done, all }),
+    );
     return JSON.parse(found) as Guess;
   },
 
@@ -44,10 +47,12 @@ export const fitHandlers: Handlers<
 
   fitFinish(_, report) {
     const search = running();
-    // A fit that has ended shows no silhouette any more.
-    const ink = search.best_silhouette().slice();
-    const result = JSON.parse(search.finish((stage: string) => report({ stage }))) as FitResult;
-    return { ...result, ink };
+    const said = search.finish((stage: keyof typeof LAST_STAGES, used?: number) => {
+      report({ stage: LAST_STAGES[stage], ...(used === undefined ? {} : { done: used, all: 1 }) });
+    });
+    const result = JSON.parse(said) as FitResult;
+    const ownInk = result.own_toml === null ? null : search.found_silhouette(1).slice();
+    return { result, ink: search.found_silhouette(0).slice(), ownInk };
   },
 
   evaluator(recipe) {

@@ -130,6 +130,8 @@ export const speciesHandlers: Handlers<
     return { size, rgba: tree.picture(size, season, azimuth, elevation).slice(), stats: stats(tree) };
   },
 
-  export: ({ spec, seed, format, season, leaves, levels, wind }) =>
-    grow(spec, seed).export(format, season, leaves, levels, wind).slice(),
+  export({ spec, seed, format, stem, options }) {
+    const files = grow(spec, seed).export(format, stem, JSON.stringify(options));
+    return (files as [string, Uint8Array<ArrayBuffer>][]).map(([name, bytes]) => ({ name, bytes }));
+  },
 };

@@ -38,7 +38,7 @@ export class History<T> {
     this.lastTime = time;
   }
 
-  /** A new value that is no step: what came before is forgotten. */
+  /** A new value without a step back: earlier ones are forgotten. */
   reset(value: T): void {
     this.past.value = [];
     this.future.value = [];

@@ -2,7 +2,7 @@
 
 export type Rgb = readonly [number, number, number];
 
-/** Blue and orange are told apart with every kind of colour vision; what both have is dark. */
+/** Every kind of colour vision tells blue from orange; what both have is dark. */
 export const GOAL_ONLY: Rgb = [46, 110, 212];
 export const TREE_ONLY: Rgb = [232, 126, 28];
 export const BOTH: Rgb = [30, 38, 42];

@@ -1,29 +1,17 @@
 //! Meshes for `pleach grow`: what was asked for, and the files.
 
 use super::grow::formats::Format;
-use super::leaf_form::Leaves;
 use crate::choice::{Choice, one_of};
-use crate::files::{self, Out};
+use crate::files;
 use anyhow::{Context, bail};
-use pleach::extras;
-use pleach_mesh::forest;
-use pleach_mesh::lod::{self, Level};
+use pleach::{Export, Forest, LeafForm, MeshFormat};
+use pleach_mesh::lod;
 use pleach_mesh::weld::WeldSettings;
-use pleach_mesh::write::glb::{Glb, Placed, Scene};
-use pleach_mesh::write::{obj, ply, stl, usda};
-use pleach_mesh::{
-    Block, Card, Cards, LeafStyle, Material, MeshError, MeshSettings, Mesher, Palette, Rig, Source, Welded,
-    send, weld,
-};
-use pleach_render::{Billboards, billboard, leaf_picture, png_file};
+use pleach_render::billboard;
 use pleach_tree::Season;
-use pleach_tree::{Foliage, Parts, Species, Tree};
-use serde_json::json;
+use pleach_tree::{Foliage, GrowError, Species, Tree};
 use std::io::Write;
 use std::path::Path;
-
-/// How far bark may stray where nothing is said of it, in millimetres.
-const TOLERANCE: f64 = 2.0;
 
 pub(super) const SEASONS: &[Choice<Season>] = &[
     (Season::Spring.name(), "", Season::Spring),
@@ -32,35 +20,17 @@ pub(super) const SEASONS: &[Choice<Season>] = &[
     (Season::Winter.name(), "", Season::Winter),
 ];
 
-/// A tree, dressed for its season, and the file that it goes to.
-#[derive(Clone, Copy)]
-pub(super) struct Export<'a> {
-    /// The file, or `-` for standard output.
-    pub(super) path: &'a Path,
-    pub(super) species: &'a Species,
-    pub(super) seed: u64,
-    pub(super) tree: &'a Tree,
-    pub(super) palette: Palette,
-}
-
-impl Export<'_> {
-    /// Writes the file, whole or not at all.
-    fn write(&self, send: impl FnOnce(&mut dyn Out) -> Result<(), MeshError>) -> anyhow::Result<()> {
-        files::write_out(self.path, |out| Ok(send(out)?))
-    }
-}
-
-/// `mesher` with `bark` instead of its tubes, if there is one.
-fn with_bark<'a>(mesher: Mesher<'a>, bark: Option<&'a Block>) -> Box<dyn Source + 'a> {
-    match bark {
-        Some(bark) => Box::new(Welded::new(bark, mesher)),
-        None => Box::new(mesher),
-    }
-}
-
-fn cards(cards: &[Card]) -> Box<dyn Source + '_> {
-    Box::new(Cards(cards))
-}
+const LEAVES: &[Choice<LeafForm>] = &[
+    (LeafForm::Outline.name(), "Their outlines", LeafForm::Outline),
+    (LeafForm::Simple.name(), "Two triangles each", LeafForm::Simple),
+    (LeafForm::Cards.name(), "Two crossed cards each, which show a picture of the leaf", LeafForm::Cards),
+    (
+        LeafForm::Instances.name(),
+        "One leaf, placed many times (EXT_mesh_gpu_instancing in .glb); always so in .usda",
+        LeafForm::Instances,
+    ),
+    (LeafForm::None.name(), "No leaves and no blossom", LeafForm::None),
+];
 
 /// Options of mesh files.
 #[derive(Clone, Debug, clap::Args)]
@@ -87,8 +57,8 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "MM", value_parser = tolerance)]
     pub(super) tolerance: Option<f64>,
     /// How leaves are drawn [default: outline]
-    #[arg(long, value_enum, value_name = "HOW", conflicts_with = "no_leaves")]
-    pub(super) leaves: Option<Leaves>,
+    #[arg(long, value_parser = one_of(LEAVES), value_name = "HOW", conflicts_with = "no_leaves")]
+    pub(super) leaves: Option<LeafForm>,
     /// Season; by default the species file's own, or summer with all its blossom
     #[arg(long, value_parser = one_of(SEASONS))]
     pub(super) season: Option<Season>,
@@ -105,7 +75,7 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "METRES", default_value_t = 6.0, requires = "forest")]
     spacing: f64,
     /// Different trees in a forest
-    #[arg(long, value_name = "N", default_value_t = 4, requires = "forest", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", default_value_t = 4, requires = "forest", value_parser = clap::value_parser!(u32).range(1..=i64::from(Forest::MAX_VARIANTS)))]
     variants: u32,
 }
 
@@ -148,37 +118,33 @@ impl MeshArgs {
     /// Whether trees are to be grown with leaves, if `--leaves` says how they are drawn.
     pub(super) fn foliage(&self) -> Option<Foliage> {
         let leaves = self.leaves?;
-        Some(if leaves == Leaves::None { Foliage::None } else { Foliage::All })
+        Some(if leaves == LeafForm::None { Foliage::None } else { Foliage::All })
     }
 
-    /// What of a tree is drawn.
-    pub(super) fn parts(&self) -> Parts {
-        if self.roots { Parts::ALL } else { Parts::LEAFY }
-    }
-
-    fn levels(&self) -> u32 {
-        self.lod.unwrap_or(1)
-    }
-
-    fn settings(&self) -> MeshSettings {
-        let leaves = match self.leaves {
-            None | Some(Leaves::Outline | Leaves::Instances) => LeafStyle::Outline,
-            Some(Leaves::Simple) => LeafStyle::Simple,
-            Some(Leaves::Cards) => LeafStyle::CrossedCards,
-            Some(Leaves::None) => LeafStyle::None,
-        };
-        MeshSettings {
-            tolerance: self.tolerance.unwrap_or(TOLERANCE) / 1000.0,
-            leaves,
+    /// What was asked for, in the library's terms.
+    pub(super) fn export(&self) -> Export {
+        let usual = Export::default();
+        Export {
+            lod: self.lod.unwrap_or(usual.lod),
+            billboard: self.billboard.unwrap_or(usual.billboard),
+            tolerance: self.tolerance.unwrap_or(usual.tolerance),
+            weld: self.weld,
+            fillet: self.fillet.unwrap_or(usual.fillet),
+            roots: self.roots,
+            leaves: self.leaves.unwrap_or(usual.leaves),
+            season: self.season,
             wind: self.wind,
-            parts: self.parts(),
-            ..MeshSettings::default()
+            sway: self.sway,
         }
     }
 
     /// Fails if files beside the one at `path` are wanted: standard output has none beside it.
     pub(super) fn check_alone(&self, path: &Path, format: Format) -> anyhow::Result<()> {
-        if files::is_stdout(path) && self.leaves == Some(Leaves::Cards) && format != Format::Glb {
+        let format = match format {
+            Format::Mesh(format) if format != MeshFormat::Glb => format,
+            _ => return Ok(()),
+        };
+        if files::is_stdout(path) && self.leaves == Some(LeafForm::Cards) {
             bail!(
                 "`--leaves cards` writes pictures beside a .{}, which standard output cannot have; .glb \
                  holds them",
@@ -188,96 +154,28 @@ impl MeshArgs {
         Ok(())
     }
 
-    /// The colours of the season that was asked for.
-    pub(super) fn palette(&self, species: &Species) -> Palette {
-        Palette::new(&species.appearance, self.season)
-    }
-
-    /// Writes a tree as a mesh.
-    pub(super) fn write(&self, format: Format, export: &Export<'_>) -> anyhow::Result<()> {
-        self.check_alone(export.path, format)?;
-        let welded = |cell: f64| {
-            let fillet = self.fillet.unwrap_or(0.0);
-            let settings = WeldSettings { fillet, parts: self.parts(), ..WeldSettings::new(cell / 1000.0) };
-            weld::surface(export.tree, &settings)
-        };
-        let bark = self.weld.map(welded).transpose()?;
-        let bark = bark.as_ref();
-        match format {
-            Format::Glb => self.write_glb(export, bark),
-            Format::Obj => self.write_obj(export, bark),
-            Format::Ply => {
-                let sources = [self.source(export.tree, bark)];
-                export.write(|out| send(&sources, &mut ply::Ply::new(out, export.palette)))
-            }
-            Format::Stl => {
-                let sources = [self.source(export.tree, bark)];
-                export.write(|out| send(&sources, &mut stl::Stl::new(out)))
-            }
-            Format::Usda => self.write_usda(export, bark),
-            Format::Json | Format::Png => bail!("a .{} file holds no mesh", format.suffix()),
-        }
-    }
-
-    fn source<'a>(&self, tree: &'a Tree, bark: Option<&'a Block>) -> Box<dyn Source + 'a> {
-        with_bark(Mesher::new(tree, self.settings()), bark)
-    }
-
-    /// PNG files that leaves, blossom and billboards show.
-    fn pictures(
+    /// Writes a tree as a mesh to `path`, or to standard output where it is `-`, and the files that the mesh names
+    /// beside it.
+    pub(super) fn write(
         &self,
+        path: &Path,
+        format: MeshFormat,
+        species: &Species,
+        seed: u64,
         tree: &Tree,
-        palette: &Palette,
-        billboards: Option<&Billboards>,
-    ) -> anyhow::Result<Vec<(Material, Vec<u8>)>> {
-        let mut pictures = Vec::new();
-        if self.leaves == Some(Leaves::Cards) {
-            for (material, picture) in leaf_picture::of(tree, palette) {
-                pictures.push((material, png_file::bytes(&picture)?));
-            }
+    ) -> anyhow::Result<()> {
+        self.check_alone(path, Format::Mesh(format))?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let stem = (!files::is_stdout(path)).then_some(&*stem);
+        let mut beside = Vec::new();
+        files::write_out(path, |out| {
+            beside = self.export().write(format, species, seed, tree, stem, out)?;
+            Ok(())
+        })?;
+        for file in beside {
+            files::write_whole(&path.with_file_name(&file.name), |out| Ok(out.write_all(&file.bytes)?))?;
         }
-        if let Some(billboards) = billboards {
-            pictures.push((Material::Card, png_file::bytes(&billboards.picture)?));
-        }
-        Ok(pictures)
-    }
-
-    fn write_glb(&self, export: &Export<'_>, bark: Option<&Block>) -> anyhow::Result<()> {
-        let Export { species, seed, tree, palette, .. } = *export;
-        let levels = lod::levels(tree, self.settings(), self.levels());
-        let rig = self.sway.then(|| Rig::new(tree));
-        let billboards = self.billboard.map(|sides| Billboards::paint(&[tree], &palette, sides));
-        let billboards = billboards.filter(|billboards| !billboards.is_empty());
-        let mut sources = self.sources(&levels, rig.as_ref(), bark);
-        sources.extend(billboards.iter().map(|b| cards(&b.cards[0])));
-        let scene = Scene {
-            name: species.name.clone(),
-            palette,
-            extras: extras(species, json!(seed)),
-            placed: vec![Placed::at_origin(&species.name, sources.len())],
-            rig: rig.as_ref(),
-            pictures: self.pictures(tree, &palette, billboards.as_ref())?,
-        };
-        export.write(|out| send(&sources, &mut Glb::new(out, &scene)))
-    }
-
-    fn sources<'a>(
-        &self,
-        levels: &'a [Level<'a>],
-        rig: Option<&'a Rig>,
-        bark: Option<&'a Block>,
-    ) -> Vec<Box<dyn Source + 'a>> {
-        let mesher = |level: &'a Level<'a>| {
-            let mut mesher = Mesher::new(&level.tree, level.settings);
-            if let Some(rig) = rig {
-                mesher = mesher.with_rig(rig);
-            }
-            if self.leaves == Some(Leaves::Instances) {
-                mesher = mesher.with_instanced_leaves();
-            }
-            with_bark(mesher, bark)
-        };
-        levels.iter().map(mesher).collect()
+        Ok(())
     }
 
     /// Grows a few trees, from `seed` on, and writes a forest of them. Returns how many stand there.
@@ -286,106 +184,15 @@ impl MeshArgs {
         path: &Path,
         species: &Species,
         seed: u64,
-        grow: impl Fn(u64) -> anyhow::Result<Tree>,
+        grow: impl Fn(u64) -> Result<Tree, GrowError>,
     ) -> anyhow::Result<usize> {
         let (width, depth) = self.forest.context("no forest was asked for")?;
-        let sites = forest::plant(width, depth, self.spacing, self.variants, seed)?;
-        // Only variants that stand somewhere are grown.
-        let mut used: Vec<u32> = sites.iter().map(|s| s.variant).collect();
-        used.sort_unstable();
-        used.dedup();
-        let season = self.season;
-        let mut trees = Vec::new();
-        let mut palette = None;
-        for &variant in &used {
-            let mut tree = grow(seed + u64::from(variant))?;
-            let colors = Palette::new(&species.appearance, season);
-            colors.apply_season(&mut tree);
-            palette = palette.or(Some(colors));
-            trees.push(tree);
-        }
-        let levels: Vec<Vec<Level<'_>>> =
-            trees.iter().map(|tree| lod::levels(tree, self.settings(), self.levels())).collect();
-        let palette = palette.context("a forest needs a tree")?;
-        let billboards = self.billboard.map(|sides| {
-            let trees: Vec<&Tree> = trees.iter().collect();
-            Billboards::paint(&trees, &palette, sides)
-        });
-        let mut sources = Vec::new();
-        for (i, levels) in levels.iter().enumerate() {
-            sources.extend(self.sources(levels, None, None));
-            sources.extend(billboards.iter().map(|b| cards(&b.cards[i])));
-        }
-        let each = self.levels() as usize + usize::from(billboards.is_some());
-        let placed = sites.iter().enumerate().map(|(i, site)| {
-            let first = used.binary_search(&site.variant).unwrap_or(0) * each;
-            Placed {
-                name: format!("{} {}", species.name, i + 1),
-                meshes: (first..first + each).collect(),
-                position: site.position.as_vec2().extend(0.0),
-                turn: site.turn as f32,
-                scale: site.scale as f32,
-            }
-        });
-        let seeds: Vec<u64> = used.iter().map(|v| seed + u64::from(*v)).collect();
-        let scene = Scene {
-            name: format!("{} forest", species.name),
-            palette,
-            extras: extras(species, json!(seeds)),
-            placed: placed.collect(),
-            rig: None,
-            pictures: self.pictures(&trees[0], &palette, billboards.as_ref())?,
-        };
-        files::write_out(path, |out| Ok(send(&sources, &mut Glb::new(out, &scene))?))?;
-        Ok(sites.len())
-    }
-
-    fn write_obj(&self, export: &Export<'_>, bark: Option<&Block>) -> anyhow::Result<()> {
-        let Export { path, species, tree, palette, .. } = *export;
-        // Standard output has nothing beside it.
-        let materials = (!files::is_stdout(path)).then(|| path.with_extension("mtl"));
-        let name = materials.as_deref().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
-        let sources = [self.source(tree, bark)];
-        export.write(|out| send(&sources, &mut obj::Obj::new(out, &species.name, &name)))?;
-        let Some(materials) = materials else { return Ok(()) };
-        let pictures = self.pictures_beside(path, tree, &palette)?;
-        files::write_text(&materials, &obj::materials(&palette, &pictures))
-    }
-
-    fn write_usda(&self, export: &Export<'_>, bark: Option<&Block>) -> anyhow::Result<()> {
-        let Export { path, species, seed, tree, palette } = *export;
-        let sources = [with_bark(Mesher::new(tree, self.settings()).with_instanced_leaves(), bark)];
-        let about = [
-            ("generator", species.generator.family().to_string()),
-            ("seed", seed.to_string()),
-            ("species", species.name.clone()),
-        ];
-        let notes = usda::Notes {
-            name: species.name.clone(),
-            about: about.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
-            pictures: self.pictures_beside(path, tree, &palette)?,
-        };
-        export.write(|out| send(&sources, &mut usda::Usda::new(out, &notes, palette)))
-    }
-
-    /// Writes the pictures of leaves and blossom beside `path`, and says their names.
-    fn pictures_beside(
-        &self,
-        path: &Path,
-        tree: &Tree,
-        palette: &Palette,
-    ) -> anyhow::Result<Vec<(Material, String)>> {
-        let mut pictures = Vec::new();
-        for (material, png) in self.pictures(tree, palette, None)? {
-            let placed = if material == Material::Blossom { &tree.blossoms } else { &tree.leaves };
-            if placed.is_empty() {
-                continue;
-            }
-            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-            let name = format!("{stem}-{}.png", material.name());
-            files::write_whole(&path.with_file_name(&name), |file| Ok(file.write_all(&png)?))?;
-            pictures.push((material, name));
-        }
-        Ok(pictures)
+        let forest = Forest { width, depth, spacing: self.spacing, variants: self.variants };
+        let mut trees = 0;
+        files::write_out(path, |out| {
+            trees = self.export().write_forest(&forest, species, seed, grow, out)?;
+            Ok(())
+        })?;
+        Ok(trees)
     }
 }

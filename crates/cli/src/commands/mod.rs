@@ -11,7 +11,6 @@ mod gallery;
 mod grammar;
 mod grow;
 mod landmarks;
-mod leaf_form;
 mod man;
 mod map;
 mod mask;

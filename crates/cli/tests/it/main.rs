@@ -41,6 +41,7 @@ mod map;
 mod mask;
 mod odd_files;
 mod params;
+mod parity;
 mod pictures;
 mod reference_stats;
 mod render;

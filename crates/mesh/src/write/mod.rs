@@ -9,11 +9,14 @@
 //! | [`usda`] | +z | one mesh, materials, leaves as instances |
 
 mod decimal;
+mod format;
 pub mod glb;
 pub mod obj;
 pub mod ply;
 pub mod stl;
 pub mod usda;
+
+pub use format::{Feature, Format};
 
 use crate::part::{MeshError, Part};
 

@@ -14,7 +14,7 @@ pub enum Effort {
     Share,
     /// So long.
     Time(Duration),
-    /// So many trees, as far as the share of the time goes where that is bounded.
+    /// This number of trees; fewer if the share of a bounded time ends first.
     Trees(u64),
     /// Not at all.
     Off,
@@ -27,7 +27,7 @@ const SHARE_OF_TREES: u64 = 8;
 const TREES: u64 = 400;
 
 impl Effort {
-    /// The settings in a fit of so much time, or of so many trees; none if it is off.
+    /// The settings in a fit of this time, or of this number of trees; `None` if it is off.
     ///
     /// # Errors
     /// A time that leaves nothing of the whole.

@@ -29,7 +29,7 @@ mod words;
 pub use direction::{Direction, FurtherView};
 pub use drawn::{FitDrawing, FittedTree};
 pub use effort::{Effort, parse_duration};
-pub use error::{OptionError, PrepareError};
+pub use error::PrepareError;
 pub use goal_pair::GoalPair;
 pub use optimizer::{SettingError, optimizer_with, settings_of};
 pub use options::{FitOptions, Spent};

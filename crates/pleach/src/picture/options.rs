@@ -2,14 +2,13 @@
 
 use super::direction::{Direction, FurtherView};
 use super::effort::{Effort, MAX_SECONDS};
-use super::error::OptionError;
 use super::json;
 use super::words::{KnownFrame, Leaves, MaskFrom, StartFrom, Tone, VolumeFrom};
+use crate::option_error::OptionError;
 use crate::plan::USUAL_TIME;
-use pleach_fit::{Azimuth, IndividualSettings, Objective, Optimizer, TreeSeed};
+use pleach_fit::{Azimuth, IndividualSettings, Objective, Optimizer, RulesSettings, TreeSeed};
 use pleach_generators::GeneratorChoice;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
 use std::num::NonZeroU32;
 use std::time::Duration;
 
@@ -165,17 +164,20 @@ impl FitOptions {
     /// # Errors
     /// The first key that is not an option, or whose value cannot be read.
     pub fn from_json(text: &str) -> Result<Self, OptionError> {
-        let whole = |problem: String| OptionError::new("options", problem);
-        let given: Map<String, Value> =
-            serde_json::from_str(text).map_err(|error| whole(format!("are not a JSON object: {error}")))?;
-        for (key, value) in &given {
-            let alone = Value::Object(Map::from_iter([(key.clone(), value.clone())]));
-            if let Err(error) = serde_json::from_value::<Self>(alone) {
-                let problem = format!("is {value}: {}", in_words(&error.to_string()));
-                return Err(OptionError::new(key.clone(), problem));
-            }
-        }
-        serde_json::from_value(Value::Object(given)).map_err(|error| whole(error.to_string()))
+        crate::option_error::from_json(text)
+    }
+
+    /// What the search minimises: what was asked for, or what suits it.
+    #[must_use]
+    pub fn whole_objective(&self) -> Objective {
+        let usual = if self.evolve_rules { RulesSettings::OBJECTIVE } else { Objective::default() };
+        self.objective.unwrap_or(usual)
+    }
+
+    /// The same options with defaults that depend on other options spelled out: `objective` and `timeout`.
+    #[must_use]
+    pub fn spelled_out(&self) -> Self {
+        Self { objective: Some(self.whole_objective()), timeout: self.whole_time(), ..self.clone() }
     }
 
     /// The time for all of the fit, where it is bounded.
@@ -185,7 +187,7 @@ impl FitOptions {
         self.timeout.or((!is_counted).then_some(USUAL_TIME))
     }
 
-    /// The same options of a fit that goes on from where another, that has `spent` so much, ended.
+    /// The same options for a fit that continues another one, which has used `spent`.
     #[must_use]
     pub fn after(&self, spent: &Spent) -> Self {
         Self {
@@ -217,7 +219,7 @@ impl FitOptions {
     }
 
     /// Tells whether each option has a value that can be, and whether they go together. What depends on a picture or on
-    /// a species is told by [`FitOptions::start`] and [`FitOptions::prepare`], which check all of this too.
+    /// species are reported by [`FitOptions::start`] and [`FitOptions::prepare`], which check all of this too.
     ///
     /// # Errors
     /// The first option that is wrong.
@@ -341,19 +343,6 @@ impl FitOptions {
             TreeSeed::Any => None,
         }
     }
-}
-
-/// What serde expects, for people.
-fn in_words(error: &str) -> String {
-    let words = [
-        ("expected a nonzero u32", "expected a whole number of 1 or more"),
-        ("expected u64", "expected a whole number of 0 or more"),
-        ("expected u32", "expected a whole number of 0 or more"),
-        ("expected u8", "expected a whole number of 0 or more"),
-        ("expected f64", "expected a number"),
-        ("expected a string", "expected a text"),
-    ];
-    words.iter().fold(error.to_owned(), |error, (from, to)| error.replace(from, to))
 }
 
 #[cfg(test)]

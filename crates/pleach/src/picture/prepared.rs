@@ -62,7 +62,7 @@ impl FitOptions {
         self.prepare_after(source, &Spent::default())
     }
 
-    /// The same of a fit that goes on from where another ended that has `spent` so much.
+    /// The same of a fit that goes on from where another ended having used `spent`.
     ///
     /// # Errors
     /// As [`FitOptions::prepare`].

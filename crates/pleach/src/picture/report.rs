@@ -193,7 +193,7 @@ pub struct ViewReport {
     pub azimuth: f64,
     /// Degrees above the horizon.
     pub elevation: f64,
-    /// Factor on the metres that a pixel of the picture is wide, as found.
+    /// Factor on the picture's metres per pixel, as found.
     pub scale: f64,
     /// How far the trunk's foot is to the right of where the picture says, in its widths, and below it, in its heights,
     /// as found.
@@ -379,7 +379,7 @@ impl Prepared {
                 pixel_accuracy: best.score.accuracy,
             },
             warnings: self.goal.warnings.clone(),
-            options: self.options.clone(),
+            options: self.options.spelled_out(),
             version: env!("CARGO_PKG_VERSION"),
             kind,
             trees,

@@ -64,7 +64,7 @@ impl<'a> Sides<'a> {
         Self { drawing, front_frame: front, side, side_frame, trees: Vec::new() }
     }
 
-    /// Adds the tree of an individual with draws of its own for so many `stems`.
+    /// Adds the tree of an individual with draws of its own for this number of `stems`.
     pub(super) fn add(
         &mut self,
         tree: &Tree,

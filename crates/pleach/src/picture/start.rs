@@ -1,10 +1,11 @@
 //! Where a fit starts, and how it goes on from there: what options say without the goal's picture.
 
 use super::effort::Effort;
-use super::error::{OptionError, PrepareError};
+use super::error::PrepareError;
 use super::options::FitOptions;
 use super::source::FitSource;
 use super::words::{Leaves, StartFrom};
+use crate::option_error::OptionError;
 use crate::plan::{Origin, Shares, has_individuals, plan, usual_start};
 use pleach_fit::{Budget, FitSettings, Freedom, GoalSettings, IndividualSettings, RulesSettings};
 use pleach_generators::{GeneratorChoice, RegistryError};
@@ -149,10 +150,7 @@ impl FitOptions {
             seed: self.seed,
             tree_seed: self.tree_seed,
             robust: self.robust,
-            objective: self.objective.unwrap_or(match self.evolve_rules {
-                true => RulesSettings::OBJECTIVE,
-                false => pleach_fit::Objective::default(),
-            }),
+            objective: self.whole_objective(),
             freedom: Freedom { free: self.free.clone(), fix: self.fix.clone() },
             ..FitSettings::default()
         }

@@ -1,8 +1,9 @@
 //! A start whose volume is the outline of a picture: `volume_from`.
 
-use super::error::{OptionError, PrepareError};
+use super::error::PrepareError;
 use super::source::FitSource;
 use super::words::VolumeFrom;
+use crate::option_error::OptionError;
 use pleach_fit::{Azimuth, Candidate, FitSettings, GoalSettings, GoalView, Guessing, Start, check_freedom};
 use pleach_least_cost_path::{SideView, species_around};
 use pleach_silhouette::{Bitmap, Frame, GoalOptions, View, outline};

@@ -121,7 +121,7 @@ impl fmt::Display for VolumeFrom {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "(f64, f64, f64)", into = "(f64, f64, f64)")]
 pub struct KnownFrame {
-    /// Metres that a pixel is wide and high, above 0.
+    /// Metres per pixel, above 0.
     pub meters_per_pixel: f64,
     /// Column of the trunk's foot, in pixels of the file from its left edge.
     pub axis_column: f64,

@@ -59,7 +59,7 @@ pub fn usual_start(generator: GeneratorChoice) -> Option<Species> {
     Some(Species { appearance: Appearance::default(), ..first })
 }
 
-/// Whether any species of `generator` has stems that can be dealt anew, one by one. Where none has, a fit ends with
+/// Whether any species of `generator` has stems whose draws can be changed one by one. Where none has, a fit ends with
 /// the kind, and its search has all the time.
 #[must_use]
 pub fn has_individuals(generator: GeneratorChoice) -> bool {

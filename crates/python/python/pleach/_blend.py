@@ -21,7 +21,7 @@ def one_species(kind: Kind) -> _native.Species:
 
 
 def blend(shares: Shares, *, name: str = "blend") -> _native.Species:
-    """The species that is so much of each: names or species of one generator, and their shares.
+    """The blend of species, by name or as objects, of one generator; with their shares.
 
     Raises ``SpeciesError`` for shares that are negative or all 0, and for species of several generators.
 

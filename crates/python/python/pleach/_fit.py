@@ -139,16 +139,16 @@ class _Bar:
         self._bar = tqdm(total=100, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed}")
         self._stage = ""
 
-    def __call__(self, told: dict[str, Any]) -> None:
-        if told["stage"] != self._stage:
-            self._stage = told["stage"]
+    def __call__(self, event: dict[str, Any]) -> None:
+        if event["stage"] != self._stage:
+            self._stage = event["stage"]
             self._bar.reset()
         words = {"guess": "first guess", "begun": "search", "search": "search", "judging": "judging", "individual": "this very tree"}
         said = words[self._stage]
-        if told.get("likeness") is not None:
-            said += f", likeness {told['likeness']:.3f}"
+        if event.get("likeness") is not None:
+            said += f", likeness {event['likeness']:.3f}"
         self._bar.set_description_str(said)
-        self._bar.n = min(100, round(100 * (told.get("used") or 0)))
+        self._bar.n = min(100, round(100 * (event.get("used") or 0)))
         self._bar.refresh()
 
     def close(self) -> None:
@@ -251,7 +251,7 @@ def fit(
     bounded by evaluations are the same bits on any number of ``threads``. Ctrl-C ends the fit with what it has:
     ``interrupted`` is then true; before it has anything, ``KeyboardInterrupt`` is raised.
 
-    Raises ``GoalError`` for a picture that is no goal and ``FitError`` for options that cannot be.
+    Raises ``GoalError`` for a picture that is not a goal and ``FitError`` for options that cannot be.
 
     >>> import pleach
     >>> goal = pleach.species("acer").grow(5).silhouette(48)

@@ -1,10 +1,14 @@
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, Optional, Union, final
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal, Optional, Union, final
 
 import numpy as np
 import numpy.typing as npt
 
 _View = Union[float, tuple[float, float], None]
+_LeafForm = Literal["outline", "simple", "cards", "instances", "none"]
+_Season = Literal["spring", "summer", "autumn", "winter"]
 
 class PleachError(Exception): ...
 class SpeciesError(PleachError): ...
@@ -41,6 +45,22 @@ class Species(Mapping[str, Any]):
     ) -> Species: ...
     def declared(self, name: str) -> dict[str, Any]: ...
     def grow(self, seed: Optional[int] = None, *, leaves: Optional[bool] = None) -> Tree: ...
+    def export_forest(
+        self,
+        path: Union[str, PathLike[str]],
+        width: float,
+        depth: float,
+        *,
+        spacing: float = 6.0,
+        variants: int = 4,
+        seed: Optional[int] = None,
+        lod: int = 1,
+        billboard: int = 0,
+        tolerance: float = 2.0,
+        leaves: _LeafForm = "outline",
+        season: Optional[_Season] = None,
+        wind: bool = False,
+    ) -> int: ...
     def keys(self) -> list[str]: ...  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]
     def values(self) -> list[Any]: ...  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]
     def items(self) -> list[tuple[str, Any]]: ...  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]
@@ -93,7 +113,36 @@ class Tree:
     def stats(self) -> dict[str, Any]: ...
     def silhouette(self, size: int = 512, *, view: _View = None) -> npt.NDArray[np.bool_]: ...
     def render(self, size: int = 512, *, view: _View = None, threads: Optional[int] = None) -> npt.NDArray[np.uint8]: ...
-    def to_glb(self) -> bytes: ...
+    def export(
+        self,
+        path: Union[str, PathLike[str]],
+        /,
+        *,
+        lod: int = 1,
+        billboard: int = 0,
+        tolerance: float = 2.0,
+        weld: Optional[float] = None,
+        fillet: float = 0.0,
+        roots: bool = False,
+        leaves: _LeafForm = "outline",
+        season: Optional[_Season] = None,
+        wind: bool = False,
+        sway: bool = False,
+    ) -> list[Path]: ...
+    def to_glb(
+        self,
+        *,
+        lod: int = 1,
+        billboard: int = 0,
+        tolerance: float = 2.0,
+        weld: Optional[float] = None,
+        fillet: float = 0.0,
+        roots: bool = False,
+        leaves: _LeafForm = "outline",
+        season: Optional[_Season] = None,
+        wind: bool = False,
+        sway: bool = False,
+    ) -> bytes: ...
     def _repr_png_(self) -> bytes: ...
 
 @final

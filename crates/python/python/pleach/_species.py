@@ -13,7 +13,7 @@ def species() -> list[str]: ...
 @overload
 def species(name: Union[str, "os.PathLike[str]"]) -> _native.Species: ...
 def species(name: Union[str, "os.PathLike[str]", None] = None) -> Union[list[str], _native.Species]:
-    """The species of this name, or in this file; the names of all built-in ones if none is given.
+    """The species of this name, or in this file; without one, the names of all built-in species.
 
     Raises ``SpeciesError`` where there is none, and for a file with mistakes, each by line and column.
 

@@ -24,8 +24,13 @@ interface SavedResult {
   width: number;
   height: number;
   ink: string;
+  ownInk: string | null;
   goal: string;
 }
+
+/** Its number changes with the shape of what is saved. */
+const RESULT = "result.2";
+const OLD_RESULT = "result";
 
 const packInk = (ink: Uint8Array) => pack(packBits(ink));
 const unpackInk = async (text: string, length: number) => unpackBits(await unpack(text), length);
@@ -60,9 +65,10 @@ async function saveResult(): Promise<void> {
     width,
     height,
     ink: await packInk(now.ink),
+    ownInk: now.ownInk && (await packInk(now.ownInk)),
     goal: await packInk(now.goal),
   };
-  save("result", saved);
+  save(RESULT, saved);
 }
 
 export async function restoreFit(): Promise<void> {
@@ -74,7 +80,8 @@ export async function restoreFit(): Promise<void> {
     const ink = await unpackInk(goal.ink, width * height);
     restoreGoal({ name, width, height, photo: null, target }, { ink, ground, axis });
   }
-  const last = load<SavedResult | null>("result", null);
+  save(OLD_RESULT, null);
+  const last = load<SavedResult | null>(RESULT, null);
   if (goal && last) {
     const { width, height } = last;
     const pixels = width * height;
@@ -82,6 +89,7 @@ export async function restoreFit(): Promise<void> {
       width,
       height,
       ink: await unpackInk(last.ink, pixels),
+      ownInk: last.ownInk === null ? null : await unpackInk(last.ownInk, pixels),
       goal: await unpackInk(last.goal, pixels),
     };
     curve.value = last.curve;

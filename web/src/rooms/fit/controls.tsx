@@ -164,15 +164,12 @@ function Kin(): JSX.Element | null {
   return (
     <p class="kin">
       Looks like{" "}
-      {seen.looks_like
-        .slice(0, 3)
-        .filter(([, share], at) => at === 0 || share >= 0.005)
-        .map(([name, share], at) => (
-          <span key={name}>
-            {at > 0 && ", "}
-            <strong>{name.replaceAll("_", " ")}</strong> {Math.round(share * 100)} %
-          </span>
-        ))}
+      {seen.looks_like.slice(0, 3).map(({ species, confidence }, at) => (
+        <span key={species}>
+          {at > 0 && ", "}
+          <strong>{species.replaceAll("_", " ")}</strong> {Math.round(confidence * 100)} %
+        </span>
+      ))}
       , {seen.leaves ? "leafy" : "bare"}.
     </p>
   );

@@ -1,6 +1,6 @@
 // The running fit and its result.
 import { computed, signal } from "@preact/signals";
-import type { FitProgress, FitResult, Guess } from "../../engine/protocol";
+import type { Card, FitOptions, FitProgress, FitResult, Guess } from "../../engine/protocol";
 import { FitSession } from "../../engine/session";
 import { announce, sentence } from "../../state/notes";
 import { goalPixels, treeHeight } from "./goal-state";
@@ -18,12 +18,38 @@ export const result = signal<FitResult | null>(null);
 /** The best tree so far, in the goal's frame. */
 export interface Best {
   ink: Uint8Array<ArrayBuffer>;
+  /** This very tree, once it was found. */
+  ownInk: Uint8Array<ArrayBuffer> | null;
   width: number;
   height: number;
   /** The goal that it was fitted to, which may be painted over since. */
   goal: Uint8Array<ArrayBuffer>;
 }
 export const best = signal<Best | null>(null);
+
+/** Which of the trees that were found is shown and saved: the goal's own, or one of its kind. */
+export type Which = "own" | "kind";
+export const which = signal<Which>("own");
+
+/** The same, where there is one of its own. */
+export const shownWhich = computed<Which>(() => (best.value?.ownInk ? which.value : "kind"));
+
+export const shownInk = computed(() => {
+  const now = best.value;
+  return now && ((shownWhich.value === "own" && now.ownInk) || now.ink);
+});
+
+/** The species file and the scores of the tree that is shown. */
+export const shownTree = computed<{ name: string; toml: string; card: Card } | null>(() => {
+  const fit = result.value;
+  if (!fit) return null;
+  const { report, toml, own_toml: own } = fit;
+  const name = report.species;
+  if (shownWhich.value === "own" && own !== null && report.individual) {
+    return { name, toml: own, card: report.individual };
+  }
+  return { name, toml, card: report };
+});
 /** Its species, while the search runs and if it fails. */
 export const bestToml = signal<string | null>(null);
 
@@ -36,7 +62,9 @@ export const curve = signal<readonly CurvePoint[]>([]);
 
 export const seconds = signal(30);
 export const generator = signal("weber-penn");
-export const leafiness = signal<"auto" | "leafy" | "bare">("auto");
+export const leafiness = signal<NonNullable<FitOptions["leaves"]>>("auto");
+/** Whether this very tree is looked for after its kind. */
+export const individual = signal(true);
 
 export const running = computed(() => !["idle", "done"].includes(phase.value));
 export const rate = computed(() => {
@@ -56,21 +84,16 @@ function addPoint(point: CurvePoint): void {
   curve.value = [...points, point];
 }
 
-const LEAVES = { auto: null, leafy: true, bare: false } as const;
-
 export async function startFit(): Promise<void> {
   const goal = goalPixels();
   if (!goal || running.peek()) return;
   const { width, height } = goal;
-  const options = {
+  const options: FitOptions = {
     height: treeHeight.peek(),
     generator: generator.peek(),
-    seconds: seconds.peek(),
-    evaluations: null,
-    seed: 1,
-    tree_seed: null,
-    leaves: LEAVES[leafiness.peek()],
-    start: "guess",
+    timeout: seconds.peek(),
+    leaves: leafiness.peek(),
+    individual: individual.peek() ? "auto" : "off",
   };
   // On a telephone the pictures are above the button.
   document.getElementById("room")?.scrollTo({ top: 0, behavior: "smooth" });
@@ -103,7 +126,7 @@ export async function startFit(): Promise<void> {
       const { likeness, iou } = now;
       if (likeness !== null && iou !== null) addPoint({ seconds: time, likeness, iou });
       if (found) {
-        best.value = { ink: found.ink, width, height, goal: goal.ink };
+        best.value = { ink: found.ink, ownInk: null, width, height, goal: goal.ink };
         bestToml.value = found.toml;
       }
       // Screen readers hear of it now and then, not forty times a second.
@@ -114,12 +137,13 @@ export async function startFit(): Promise<void> {
     },
   });
   try {
-    const { ink, ...finished } = await session.run();
-    best.value = { ink, width, height, goal: goal.ink };
+    const { ink, ownInk, result: finished } = await session.run();
+    best.value = { ink, ownInk, width, height, goal: goal.ink };
     result.value = finished;
     bestToml.value = null;
     phase.value = "done";
-    announce(`The fit has ended with likeness ${finished.card.likeness.toFixed(2)}`);
+    const likeness = shownTree.peek()?.card.likeness ?? finished.report.likeness;
+    announce(`The fit has ended with likeness ${likeness.toFixed(2)}`);
   } catch (error) {
     failure.value = sentence(error);
     best.value ??= keptBest;

@@ -104,7 +104,7 @@ export function goalPixels(): GoalPixels | null {
   return { name: shown.name, width: shown.width, height: shown.height, ink, ground, axis };
 }
 
-/** A changed mask: what the library makes of it is told at once. */
+/** A changed mask: the library reads it at once. */
 export function setMask(part: Partial<Mask>, key = ""): void {
   masks.push({ ...masks.peek(), ...part }, key);
   checkGoal();

@@ -1,7 +1,7 @@
 // What a fit leaves: trees of other seeds, what the picture says of the parameters, and where to take it.
 import type { JSX } from "preact";
 import { treeClient } from "../../engine/clients";
-import type { FitResult, Seen, Spec } from "../../engine/protocol";
+import type { Seen, Spec } from "../../engine/protocol";
 import { keepSpecies } from "../../state/library";
 import { sayError } from "../../state/notes";
 import { go } from "../../state/route";
@@ -11,20 +11,25 @@ import { canvasPng, download, fileName } from "../../ui/files";
 import { show } from "../../ui/ink";
 import { Thumb } from "../../ui/thumb";
 import { saveMesh } from "../species/exports";
-import { result } from "./fit-state";
+import { result, shownTree } from "./fit-state";
 
-const specOf = (fit: FitResult): Spec => ({ source: { toml: fit.toml, name: fit.name }, values: null });
+interface Found {
+  readonly name: string;
+  readonly toml: string;
+}
+
+const specOf = ({ toml, name }: Found): Spec => ({ source: { toml, name }, values: null });
 
 const PICTURE = 1024;
 
-async function exportMesh(fit: FitResult, format: "glb" | "obj"): Promise<void> {
+async function exportMesh(fit: Found, format: "glb" | "obj"): Promise<void> {
   const spec = specOf(fit);
   const { info } = await openSource(spec.source);
-  const input = { spec, seed: info.tree_seed ?? 1, season: "", leaves: "outline", levels: 1, wind: true };
-  await saveMesh(fileName(fit.name, format), format, input);
+  const options = { wind: format === "glb" };
+  await saveMesh(fileName(fit.name, format), { spec, seed: info.tree_seed ?? 1, format, options });
 }
 
-async function exportPicture(fit: FitResult): Promise<void> {
+async function exportPicture(fit: Found): Promise<void> {
   const spec = specOf(fit);
   const { info } = await openSource(spec.source);
   const input = { spec, seed: info.tree_seed ?? 1, season: "", size: PICTURE, azimuth: 0, elevation: 0 };
@@ -35,11 +40,12 @@ async function exportPicture(fit: FitResult): Promise<void> {
 }
 
 export function Outcome(): JSX.Element | null {
-  const fit = result.value;
-  if (!fit) return null;
-  const spec = specOf(fit);
+  const fit = shownTree.value;
+  const found = result.value;
+  if (!fit || !found) return null;
+  const kind = specOf({ name: fit.name, toml: found.toml });
   const edit = () =>
-    start(spec.source)
+    start(specOf(fit).source)
       .then(() => go("species"))
       .catch(sayError);
   return (
@@ -70,12 +76,12 @@ export function Outcome(): JSX.Element | null {
               type="button"
               title="Open this tree in the species room"
               onClick={() =>
-                void start(spec.source, { seed })
+                void start(kind.source, { seed })
                   .then(() => go("species"))
                   .catch(sayError)
               }
             >
-              <Thumb spec={spec} seed={seed} season="" size={144} name={`Seed ${seed}`} />
+              <Thumb spec={kind} seed={seed} season="" size={144} name={`Seed ${seed}`} />
               <span>Seed {seed}</span>
             </button>
           </li>
@@ -93,13 +99,13 @@ const SEEN: readonly { seen: Seen; title: string; what: string }[] = [
 ];
 
 export function Determined(): JSX.Element | null {
-  const fit = result.value;
-  if (!fit || fit.parameters.length === 0) return null;
+  const parameters = result.value?.report.parameters ?? [];
+  if (parameters.length === 0) return null;
   return (
     <section class="card determined" aria-label="What the picture determines">
       <h3>What the picture determines</h3>
       {SEEN.map(({ seen, title, what }, at) => {
-        const slots = fit.parameters.filter((each) => each.seen === seen);
+        const slots = parameters.filter((each) => each.seen === seen);
         if (slots.length === 0) return null;
         return (
           <details key={seen} open={at === 0}>

@@ -1,8 +1,8 @@
 // The score card in words.
 import type { ComponentChildren, JSX } from "preact";
-import type { Card, FitResult } from "../../engine/protocol";
+import type { Card, FitReport, Reference } from "../../engine/protocol";
 import { Meter } from "../../ui/controls";
-import { result } from "./fit-state";
+import { result, shownTree, shownWhich } from "./fit-state";
 
 /** Medians over fifteen species, from the library's documents: two seeds of a species, two species. */
 const SAME_SPECIES = 0.77;
@@ -45,7 +45,7 @@ function Row({
   );
 }
 
-function Fresh({ fresh }: { fresh: FitResult["fresh"] }): JSX.Element | null {
+function Fresh({ fresh }: { fresh: FitReport["fresh_seeds"] }): JSX.Element | null {
   if (!fresh) return null;
   return (
     <Row name="Other seeds" value={`${fresh.likeness.mean.toFixed(2)} ± ${fresh.likeness.sd.toFixed(2)}`}>
@@ -54,8 +54,16 @@ function Fresh({ fresh }: { fresh: FitResult["fresh"] }): JSX.Element | null {
   );
 }
 
-function References({ references }: { references: FitResult["references"] }): JSX.Element | null {
-  if (!references || references.length === 0) return null;
+function References({ references }: { references: FitReport["references"] }): JSX.Element | null {
+  if (!references) return null;
+  const rows: readonly (readonly [string, Reference | null])[] = [
+    [
+      `two trees of ${references.species?.replaceAll("_", " ") ?? "the species that it looks like"}`,
+      references.same_species,
+    ],
+    ["a tree of another species", references.other_species],
+    ["the best ellipse", references.best_ellipse],
+  ];
   return (
     <>
       <h4>For this goal, about</h4>
@@ -68,13 +76,16 @@ function References({ references }: { references: FitResult["references"] }): JS
           </tr>
         </thead>
         <tbody>
-          {references.map((each) => (
-            <tr key={each.what}>
-              <th scope="row">{each.what}</th>
-              <td>{each.likeness.toFixed(2)}</td>
-              <td>{each.iou.toFixed(2)}</td>
-            </tr>
-          ))}
+          {rows.map(
+            ([what, each]) =>
+              each && (
+                <tr key={what}>
+                  <th scope="row">{what}</th>
+                  <td>{each.likeness.toFixed(2)}</td>
+                  <td>{each.iou.toFixed(2)}</td>
+                </tr>
+              ),
+          )}
         </tbody>
       </table>
     </>
@@ -83,15 +94,17 @@ function References({ references }: { references: FitResult["references"] }): JS
 
 export function ScoreCard(): JSX.Element | null {
   const fit = result.value;
-  if (!fit) return null;
-  const { card } = fit;
+  const tree = shownTree.value;
+  if (!fit || !tree) return null;
+  const { card } = tree;
+  const own = shownWhich.value === "own";
   return (
     <section class="card score" aria-label="Score card" data-testid="score">
       <header>
         <p class="big">{card.likeness.toFixed(2)}</p>
         <div>
           <h3>Likeness</h3>
-          <p>{meaning(card.likeness)}</p>
+          <p>{own ? "How far this very tree lies on the goal." : meaning(card.likeness)}</p>
         </div>
       </header>
       <p class="hint">
@@ -114,7 +127,7 @@ export function ScoreCard(): JSX.Element | null {
       <dl class="scores">
         <Row name="IoU" value={card.iou.toFixed(2)}>
           the ink that both have over the ink that either has. The best ellipse has{" "}
-          {card.ellipse_iou.toFixed(2)}.
+          {card.best_ellipse_iou.toFixed(2)}.
         </Row>
         <Row name="Pixels right" value={percent(card.pixel_accuracy)}>
           an empty picture has {percent(card.empty_accuracy)}.
@@ -122,10 +135,10 @@ export function ScoreCard(): JSX.Element | null {
         <Row name="Outline" value={card.boundary_f.toFixed(2)}>
           how well the outlines meet, 1 is best.
         </Row>
-        <Fresh fresh={fit.fresh} />
+        <Fresh fresh={fit.report.fresh_seeds} />
       </dl>
       {fit.verdict && <p class="verdict">{fit.verdict}.</p>}
-      <References references={fit.references} />
+      <References references={fit.report.references} />
     </section>
   );
 }

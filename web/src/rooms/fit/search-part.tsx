@@ -4,8 +4,8 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { loadCatalogue } from "../../engine/clients";
 import { sayError } from "../../state/notes";
-import { Field, NumberInput, Segmented } from "../../ui/controls";
-import { generator, leafiness, running, seconds } from "./fit-state";
+import { Check, Field, NumberInput, Segmented } from "../../ui/controls";
+import { generator, individual, leafiness, running, seconds } from "./fit-state";
 import { treeHeight } from "./goal-state";
 
 const BUDGETS = [10, 30, 60, 180] as const;
@@ -48,8 +48,8 @@ export function SearchPart(): JSX.Element {
               }}
             >
               <option value="auto">as it looks</option>
-              <option value="leafy">leafy</option>
-              <option value="bare">bare</option>
+              <option value="on">leafy</option>
+              <option value="off">bare</option>
             </select>
           )}
         </Field>
@@ -89,6 +89,14 @@ export function SearchPart(): JSX.Element {
           />
         )}
       </Field>
+      <Check
+        label="Look for this very tree too"
+        checked={individual.value}
+        disabled={running.value}
+        onChange={(next) => {
+          individual.value = next;
+        }}
+      />
     </section>
   );
 }

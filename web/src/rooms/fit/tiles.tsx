@@ -2,15 +2,17 @@
 import { useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
+import { Segmented } from "../../ui/controls";
 import { BOTH, inkImage, overlayImage, show } from "../../ui/ink";
-import { best, progress, result } from "./fit-state";
+import { best, progress, result, shownInk, shownTree, shownWhich, which } from "./fit-state";
 import { GoalEditor } from "./goal-editor";
 
 function Best(): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
   useSignalEffect(() => {
     const now = best.value;
-    if (now && canvas.current) show(canvas.current, inkImage(now.ink, now.width, now.height, BOTH));
+    const ink = shownInk.value;
+    if (now && ink && canvas.current) show(canvas.current, inkImage(ink, now.width, now.height, BOTH));
   });
   return <canvas ref={canvas} role="img" aria-label={`Best tree so far. ${scoreText()}`} />;
 }
@@ -19,7 +21,9 @@ function Overlay(): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
   useSignalEffect(() => {
     const now = best.value;
-    if (now && canvas.current) show(canvas.current, overlayImage(now.goal, now.ink, now.width, now.height));
+    const ink = shownInk.value;
+    if (now && ink && canvas.current)
+      show(canvas.current, overlayImage(now.goal, ink, now.width, now.height));
   });
   return (
     <canvas
@@ -32,7 +36,7 @@ function Overlay(): JSX.Element {
 }
 
 function scoreText(): string {
-  const card = result.value?.card ?? progress.value;
+  const card = shownTree.value?.card ?? progress.value;
   if (!card || card.likeness === null || card.iou === null) return "";
   return `Likeness ${card.likeness.toFixed(2)}, IoU ${card.iou.toFixed(2)}.`;
 }
@@ -63,7 +67,25 @@ export function Tiles(): JSX.Element {
             <div class="paper">
               <Best />
             </div>
-            <figcaption>{result.value ? "Best tree" : "Best tree so far"}</figcaption>
+            <figcaption>
+              {now.ownInk ? (
+                <Segmented
+                  label="Tree that is shown"
+                  value={shownWhich.value}
+                  options={[
+                    { value: "own", label: "This very tree" },
+                    { value: "kind", label: "Its kind" },
+                  ]}
+                  onPick={(picked) => {
+                    which.value = picked;
+                  }}
+                />
+              ) : result.value ? (
+                "Best tree"
+              ) : (
+                "Best tree so far"
+              )}
+            </figcaption>
           </figure>
         </>
       )}

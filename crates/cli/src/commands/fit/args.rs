@@ -1,4 +1,4 @@
-//! What `pleach fit` is told: its arguments, as they are typed.
+//! The arguments of `pleach fit`, as they are typed.
 
 use super::help;
 use super::run_folder::Mode;
@@ -163,12 +163,12 @@ pub(super) struct SearchArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "This very tree")]
 pub(super) struct IndividualArgs {
-    /// How long single branches are dealt anew until the tree lies on the picture: a time such as 20s,
-    /// `Ntrees` for as many trees if --timeout leaves time for them, or off. By default a third of --timeout and what judging leaves of
-    /// its share, or an eighth as many trees as --evaluations
+    /// How long single branches are re-sampled until the tree lies on the picture: a time such as 20s, a
+    /// number of trees such as 400trees if --timeout leaves time for them, or off. By default a third of --timeout and what
+    /// judging leaves of its share, or an eighth as many trees as --evaluations
     #[arg(long, value_name = "TIME|Ntrees|off")]
     pub(super) individual: Option<Effort>,
-    /// How many trees lie on the goal in the end, each dealt anew from the trunk up: one picture leaves their
+    /// How many trees lie on the goal in the end, each re-sampled from the trunk up: one picture leaves their
     /// depth open. They share the time of --individual
     #[arg(long, value_name = "N", default_value_t = 1,
           value_parser = clap::value_parser!(u8).range(1..=i64::from(IndividualSettings::MAX_COUNT)))]
@@ -176,7 +176,7 @@ pub(super) struct IndividualArgs {
 }
 
 #[derive(Debug, clap::Args)]
-#[command(next_help_heading = "When to stop (whatever comes first; after a minute if nothing is said)")]
+#[command(next_help_heading = "When to stop (whatever comes first; after a minute by default)")]
 pub(super) struct BudgetArgs {
     /// After this time, such as 90s, 10m or 2h: for all of the fit, from the first guess to the last file. The first
     /// guess is made in full, and a few trees are tried whatever time is left. The result is judged by fewer trees

@@ -19,7 +19,7 @@ pub(super) fn say(path: &Path, goal: &GoalPair, verbose: bool) {
     }
 }
 
-/// How the tree was told from the paper.
+/// How the tree was separated from the background.
 fn means(goal: &Goal) -> String {
     let how = match goal.detection.split {
         Split::Opacity => "the tree is what is opaque".to_owned(),

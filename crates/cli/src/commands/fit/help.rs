@@ -19,16 +19,16 @@ pub(super) const EXAMPLES: &str = "Examples:
   pleach fit goals/*.png --out runs --shard 2/8  goals 2, 10, 18 ..., for arrays
   pleach fit --list goals.csv --out runs  a height, view, mask ... for each goal
 
-Likeness says how much two silhouettes look like trees of one kind: how much ink stands where, how \
-ragged the rim is, how thick the strokes and how large the gaps are. It is 1 for the same picture; a fit \
-ends with what other trees of the species, trees of another species and an ellipse would have for its \
-goal, a verdict, and what to do next.
+Likeness measures how much two silhouettes look like trees of one kind: where the ink is, how ragged \
+the outline is, how thick the strokes and how large the gaps are. It is 1 for the same picture; a fit \
+ends with what other trees of the species, trees of another species and an ellipse have for its goal, \
+a verdict, and what to do next.
 
 The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png (grey is \
 agreement, orange is missing, blue is too much), render.png, history.csv (a row per generation), \
 parameters.csv (how well the goal determines each parameter) and summary.json; with --mask auto mask.png, \
 with further views an overlay of each. That is the kind; individual.toml is this very tree, whose branches \
-were dealt anew one by one until they lie on the picture, with individual.png, overlay-individual.png and \
+were re-sampled one by one until they lie on the picture, with individual.png, overlay-individual.png and \
 individual-render.png. With --individuals there are individual-2.toml and so on, and individuals.png, a sheet of \
 all trees from the front and from the side. Most of them are written while the search runs, too. The file \
 `checkpoint` is there while a fit is unfinished, `search-state` once it is finished, for --continue.
@@ -37,7 +37,7 @@ A finished fit is replaced only by a fit of the same goal with the same options,
 only once the new one is complete; until then that one is in the folder `unfinished` inside.
 
 Asked to stop (ctrl-C), a fit writes what it has found and ends with code 130; --resume goes on with it \
-and comes to what it would have come to. The first guess, the judging of the result, and the search for \
+and gives the same result as an uninterrupted fit. The first guess, the judging of the result, and the search for \
 this very tree are then made again.
 
 With several goals, the budget is for each. A goal that fails is named and the others go on. With --resume \

@@ -7,7 +7,7 @@ use std::path::Path;
 pub(super) const RUNS: &str = "runs";
 
 /// What the run folder of `goal` is called, and its species. Names that are not UTF-8 become so: the
-/// species file in the folder is typed as an argument later. None if there is no name that stays inside of
+/// species file in the folder is typed as an argument later. `None` if there is no name that stays inside of
 /// the folder of run folders: `...png` is called `..`.
 pub(in crate::commands) fn run_name(goal: &Path) -> Option<String> {
     let name = input::stem(goal)?.to_string_lossy().into_owned();

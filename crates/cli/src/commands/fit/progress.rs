@@ -5,7 +5,8 @@ use crate::output;
 use indicatif::{ProgressBar, ProgressStyle};
 use pleach_fit::{CheckpointError, FitSettings, Progress};
 
-/// A bar with what is made small and likeness of the best tree, trees per second and the time left; nothing where nobody watches.
+/// A bar with the cost and likeness of the best tree, trees per second and the time left. Hidden if standard error is
+/// not a terminal.
 pub(super) struct Bar {
     bar: ProgressBar,
     warned: bool,

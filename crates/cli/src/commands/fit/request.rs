@@ -29,7 +29,7 @@ impl Request {
     pub(super) fn new(goal: &Path, source: &Encoded, options: &FitOptions) -> anyhow::Result<Self> {
         let inputs =
             options.files().into_iter().map(|file| Ok((file.to_owned(), file_sha256(file.as_ref())?)));
-        let Value::Object(written) = serde_json::to_value(options)? else {
+        let Value::Object(written) = serde_json::to_value(options.spelled_out())? else {
             anyhow::bail!("options are an object");
         };
         Ok(Self {

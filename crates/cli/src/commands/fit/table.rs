@@ -91,7 +91,7 @@ mod tests {
         assert_eq!(cell(Some(&3.into())), "3");
         assert_eq!(cell(Some(&"oak".into())), "oak");
         assert_eq!(cell(Some(&"=1+1".into())), "'=1+1");
-        assert_eq!(cell(Some(&(-3).into())), "-3", "a number is no formula");
+        assert_eq!(cell(Some(&(-3).into())), "-3", "a number is not a formula");
         assert_eq!(row(Path::new("-a\n.png"), Err("+"))[..3], ["'-a\\u{a}.png", "failed", "'+"]);
         assert_eq!(cell(Some(&Value::Null)) + &cell(None), "");
     }

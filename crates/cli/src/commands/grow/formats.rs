@@ -2,52 +2,68 @@
 //! check and by the help.
 
 use super::Grow;
-use crate::commands::leaf_form::Leaves;
 use anyhow::bail;
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
+use pleach::{LeafForm, MeshFeature, MeshFormat};
 use std::path::Path;
 use std::sync::LazyLock;
 
 /// A kind of file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
-    /// The skeleton: stems, leaves and blossoms
+    /// The skeleton: stems, leaves and blossoms.
     Json,
-    /// A flat drawing
+    /// A flat drawing.
     Png,
-    /// Binary glTF
-    Glb,
-    /// Wavefront, with a .mtl file beside it
-    Obj,
-    /// Binary, with colours
-    Ply,
-    /// Binary, for 3D printers
-    Stl,
-    /// Universal Scene Description, as text
-    Usda,
+    /// Triangles.
+    Mesh(MeshFormat),
+}
+
+impl ValueEnum for Format {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            Self::Json => "The skeleton: stems, leaves and blossoms",
+            Self::Png => "A flat drawing",
+            Self::Mesh(MeshFormat::Glb) => "Binary glTF",
+            Self::Mesh(MeshFormat::Obj) => "Wavefront, with a .mtl file beside it",
+            Self::Mesh(MeshFormat::Ply) => "Binary, with colours",
+            Self::Mesh(MeshFormat::Stl) => "Binary, for 3D printers",
+            Self::Mesh(MeshFormat::Usda) => "Universal Scene Description, as text",
+        };
+        Some(PossibleValue::new(self.suffix()).help(help))
+    }
 }
 
 impl Format {
     /// Every format, in the order of the table.
-    pub(crate) const ALL: [Self; 7] =
-        [Self::Json, Self::Png, Self::Glb, Self::Obj, Self::Ply, Self::Stl, Self::Usda];
+    pub(crate) const ALL: [Self; 2 + MeshFormat::ALL.len()] = {
+        let mut all = [Self::Json; 2 + MeshFormat::ALL.len()];
+        all[1] = Self::Png;
+        let mut i = 0;
+        while i < MeshFormat::ALL.len() {
+            all[2 + i] = Self::Mesh(MeshFormat::ALL[i]);
+            i += 1;
+        }
+        all
+    };
 
     /// The suffix of such files.
     pub(crate) const fn suffix(self) -> &'static str {
         match self {
             Self::Json => "json",
             Self::Png => "png",
-            Self::Glb => "glb",
-            Self::Obj => "obj",
-            Self::Ply => "ply",
-            Self::Stl => "stl",
-            Self::Usda => "usda",
+            Self::Mesh(format) => format.suffix(),
         }
     }
 
     /// Whether it holds triangles.
     pub(super) const fn is_mesh(self) -> bool {
-        !matches!(self, Self::Json | Self::Png)
+        matches!(self, Self::Mesh(_))
     }
 
     /// The format that the suffix of `path` names.
@@ -71,16 +87,9 @@ pub(super) enum Goes {
 }
 
 impl Goes {
-    const ALL: [Self; 8] = [
-        Self::Into(Format::Json),
-        Self::Into(Format::Png),
-        Self::Into(Format::Glb),
-        Self::Into(Format::Obj),
-        Self::Into(Format::Ply),
-        Self::Into(Format::Stl),
-        Self::Into(Format::Usda),
-        Self::Statistics,
-    ];
+    fn all() -> impl Iterator<Item = Self> {
+        Format::ALL.into_iter().map(Self::Into).chain([Self::Statistics])
+    }
 
     const fn name(self) -> &'static str {
         match self {
@@ -90,51 +99,68 @@ impl Goes {
     }
 }
 
+/// What takes an option.
+#[derive(Clone, Copy)]
+enum Takes {
+    /// Everything.
+    All,
+    /// Everything but a flat drawing, which has colours of its own.
+    AllButPng,
+    /// A flat drawing.
+    Png,
+    /// Every mesh.
+    Meshes,
+    /// Meshes whose format can hold it.
+    Holding(MeshFeature),
+}
+
 /// An option that not everything takes.
 struct Choice {
     /// As it is typed.
     flag: &'static str,
     /// What it asks for.
     what: &'static str,
-    /// What takes it, in the order of [`Goes::ALL`]: an `x` for yes.
-    takes: [char; 8],
+    takes: Takes,
     /// Whether it was given.
     given: fn(&Grow) -> bool,
 }
 
 impl Choice {
     fn takes(&self, goes: Goes) -> bool {
-        Goes::ALL.iter().zip(self.takes).any(|(one, mark)| *one == goes && mark == 'x')
+        match (self.takes, goes) {
+            (Takes::All, _) | (Takes::Meshes, Goes::Into(Format::Mesh(_))) => true,
+            (Takes::AllButPng, goes) => goes != Goes::Into(Format::Png),
+            (Takes::Png, goes) => goes == Goes::Into(Format::Png),
+            (Takes::Holding(feature), Goes::Into(Format::Mesh(format))) => format.holds(feature),
+            (Takes::Meshes | Takes::Holding(_), _) => false,
+        }
     }
 }
 
 /// The table. `--no-leaves`, `--leafy`, `--seed`, `--seeds` and the limits are for everything.
 #[rustfmt::skip]
 static CHOICES: [Choice; 14] = {
-    const fn choice(
-        flag: &'static str,
-        what: &'static str,
-        takes: [char; 8],
-        given: fn(&Grow) -> bool,
-    ) -> Choice {
+    use MeshFeature::{Billboard, Forest, LeafCards, LeafInstances, Levels, Sway, Wind};
+    use Takes::{All, AllButPng, Holding, Meshes, Png};
+
+    const fn choice(flag: &'static str, what: &'static str, takes: Takes, given: fn(&Grow) -> bool) -> Choice {
         Choice { flag, what, takes, given }
     }
     [
-        //                                                      json png  glb  obj  ply  stl  usda statistics
-        choice("--size", "the size of a picture",               ['-', 'x', '-', '-', '-', '-', '-', '-'], |g| g.size.is_some()),
-        choice("--season", "a season's leaves and colours",     ['x', '-', 'x', 'x', 'x', 'x', 'x', 'x'], |g| g.mesh.season.is_some()),
-        choice("--tolerance", "the tolerance of a surface",     ['-', '-', 'x', 'x', 'x', 'x', 'x', '-'], |g| g.mesh.tolerance.is_some()),
-        choice("--leaves none", "a tree without leaves",        ['x', 'x', 'x', 'x', 'x', 'x', 'x', 'x'], |g| g.mesh.leaves == Some(Leaves::None)),
-        choice("--leaves outline", "leaves as triangles",       ['-', '-', 'x', 'x', 'x', 'x', 'x', '-'], |g| g.mesh.leaves == Some(Leaves::Outline)),
-        choice("--leaves simple", "leaves of two triangles",    ['-', '-', 'x', 'x', 'x', 'x', 'x', '-'], |g| g.mesh.leaves == Some(Leaves::Simple)),
-        choice("--leaves cards", "cards with a leaf's picture", ['-', '-', 'x', 'x', '-', '-', 'x', '-'], |g| g.mesh.leaves == Some(Leaves::Cards)),
-        choice("--leaves instances", "placed leaves",           ['-', '-', 'x', '-', '-', '-', 'x', '-'], |g| g.mesh.leaves == Some(Leaves::Instances)),
-        choice("--weld", "one watertight surface",              ['-', '-', 'x', 'x', 'x', 'x', 'x', '-'], |g| g.mesh.weld.is_some()),
-        choice("--wind", "data for wind shaders",               ['-', '-', 'x', '-', 'x', '-', '-', '-'], |g| g.mesh.wind),
-        choice("--lod", "levels of detail",                     ['-', '-', 'x', '-', '-', '-', '-', '-'], |g| g.mesh.lod.is_some()),
-        choice("--billboard", "billboards",                     ['-', '-', 'x', '-', '-', '-', '-', '-'], |g| g.mesh.billboard.is_some()),
-        choice("--sway", "an animation",                        ['-', '-', 'x', '-', '-', '-', '-', '-'], |g| g.mesh.sway),
-        choice("--forest", "a forest",                          ['-', '-', 'x', '-', '-', '-', '-', '-'], |g| g.mesh.forest.is_some()),
+        choice("--size", "the size of a picture", Png, |g| g.size.is_some()),
+        choice("--season", "a season's leaves and colours", AllButPng, |g| g.mesh.season.is_some()),
+        choice("--tolerance", "the tolerance of a surface", Meshes, |g| g.mesh.tolerance.is_some()),
+        choice("--leaves none", "a tree without leaves", All, |g| g.mesh.leaves == Some(LeafForm::None)),
+        choice("--leaves outline", "leaves as triangles", Meshes, |g| g.mesh.leaves == Some(LeafForm::Outline)),
+        choice("--leaves simple", "leaves of two triangles", Meshes, |g| g.mesh.leaves == Some(LeafForm::Simple)),
+        choice("--leaves cards", "cards with a leaf's picture", Holding(LeafCards), |g| g.mesh.leaves == Some(LeafForm::Cards)),
+        choice("--leaves instances", "placed leaves", Holding(LeafInstances), |g| g.mesh.leaves == Some(LeafForm::Instances)),
+        choice("--weld", "one watertight surface", Meshes, |g| g.mesh.weld.is_some()),
+        choice("--wind", "data for wind shaders", Holding(Wind), |g| g.mesh.wind),
+        choice("--lod", "levels of detail", Holding(Levels), |g| g.mesh.lod.is_some()),
+        choice("--billboard", "billboards", Holding(Billboard), |g| g.mesh.billboard.is_some()),
+        choice("--sway", "an animation", Holding(Sway), |g| g.mesh.sway),
+        choice("--forest", "a forest", Holding(Forest), |g| g.mesh.forest.is_some()),
     ]
 };
 
@@ -145,8 +171,7 @@ pub(super) fn check(grow: &Grow, goes: &[Goes]) -> anyhow::Result<()> {
             continue;
         }
         let here: Vec<String> = goes.iter().map(|goes| named(*goes)).collect();
-        let there: Vec<String> =
-            Goes::ALL.into_iter().filter(|goes| choice.takes(*goes)).map(named).collect();
+        let there: Vec<String> = Goes::all().filter(|goes| choice.takes(*goes)).map(named).collect();
         bail!(
             "`{}` ({}) would do nothing for {}; it is for {}",
             choice.flag,
@@ -170,13 +195,13 @@ pub(super) static TABLE: LazyLock<String> = LazyLock::new(|| {
     let width = CHOICES.iter().map(|choice| choice.flag.len()).max().unwrap_or(0);
     let mut text = String::from("What takes which option; any other combination is refused:\n");
     text.push_str(&format!("  {:width$}", ""));
-    for goes in Goes::ALL {
+    for goes in Goes::all() {
         text.push_str("  ");
         text.push_str(goes.name());
     }
     for choice in &CHOICES {
         let mut line = format!("\n  {:width$}", choice.flag);
-        for goes in Goes::ALL {
+        for goes in Goes::all() {
             let mark = if choice.takes(goes) { 'x' } else { '-' };
             line.push_str(&format!("  {mark:<0$}", goes.name().len()));
         }
@@ -191,8 +216,8 @@ mod tests {
 
     #[test]
     fn every_kind_of_leaves_has_a_row_of_its_own() {
-        for leaves in Leaves::value_variants() {
-            let flag = format!("--leaves {}", leaves.to_possible_value().unwrap().get_name());
+        for leaves in LeafForm::ALL {
+            let flag = format!("--leaves {}", leaves.name());
             assert_eq!(CHOICES.iter().filter(|choice| choice.flag == flag).count(), 1, "{flag}");
         }
     }

@@ -4,7 +4,7 @@ pub(super) mod formats;
 mod in_order;
 mod statistics;
 
-use super::export::{Export, MeshArgs};
+use super::export::MeshArgs;
 use crate::input::{LeafArgs, LimitArgs};
 use crate::{files, input, output, skeleton};
 use anyhow::{Context, bail, ensure};
@@ -214,9 +214,7 @@ impl Grow {
             bail!("a forest is one file: -o {}.glb", species.name);
         };
         let trees = self.mesh.write_forest(path, species, seed, |seed| {
-            species
-                .grow_with(&Growth { parallel: true, ..self.growth(species, seed) })
-                .with_context(|| format!("{} does not grow from seed {seed}", species.name))
+            species.grow_with(&Growth { parallel: true, ..self.growth(species, seed) })
         })?;
         output::note(format!("wrote {}: {trees} trees", path.display()));
         Ok(())
@@ -233,7 +231,7 @@ impl Grow {
 
     /// Takes off what the tree does not wear in the season.
     fn apply_season(&self, species: &Species, tree: &mut Tree) {
-        self.mesh.palette(species).apply_season(tree);
+        self.mesh.export().palette(species).apply_season(tree);
     }
 
     /// Writes the file or files that were asked for, and says which they are.
@@ -253,10 +251,7 @@ impl Grow {
                     files::write_out(&path, |mut out| skeleton::write(&mut out, species, seed, tree))?
                 }
                 Format::Png => self.picture(&path, tree)?,
-                mesh => {
-                    let palette = self.mesh.palette(species);
-                    self.mesh.write(mesh, &Export { path: &path, species, seed, tree, palette })?;
-                }
+                Format::Mesh(format) => self.mesh.write(&path, format, species, seed, tree)?,
             }
             written.push(path);
         }
@@ -266,7 +261,7 @@ impl Grow {
     /// Bark and foliage in two colours, seen from the front.
     fn picture(&self, path: &Path, tree: &Tree) -> anyhow::Result<()> {
         let size = self.size.unwrap_or(SIZE);
-        let parts = self.mesh.parts();
+        let parts = self.mesh.export().parts();
         let frame = Frame::automatic(tree, &View::FRONT, parts, size, size);
         let picture = picture::two_colors(tree, &View::FRONT, &frame, parts);
         files::write_out(path, |mut out| Ok(picture.write_png(&mut out)?))

@@ -16,11 +16,11 @@ const MAX_TRIES: usize = 100;
 /// A run folder that no other process may write to while this value lives.
 ///
 /// The lock is the operating system's and ends with the process, however it ends: a `lock` file that a
-/// killed run left behind stops nobody. It is removed on drop.
+/// killed run left behind blocks no one. It is removed on drop.
 #[derive(Debug)]
 pub(super) struct Lock {
     path: PathBuf,
-    /// Holds the lock; none where the file system knows no locks.
+    /// Holds the lock; `None` if the file system has no locks.
     file: Option<File>,
 }
 
@@ -89,7 +89,7 @@ fn owner() -> String {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // First the file, then the lock: nobody can lock a file that this removes.
+        // First the file, then the lock: no process can lock a file that this removes.
         let _ = std::fs::remove_file(&self.path);
         drop(self.file.take());
     }
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_folder_has_one_owner_and_stale_files_stop_nobody() {
+    fn a_folder_has_one_owner_and_stale_files_block_no_one() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join(LOCK), "4294967295 0").unwrap();
         let lock = Lock::take(folder.path()).unwrap();

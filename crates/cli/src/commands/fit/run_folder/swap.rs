@@ -40,7 +40,7 @@ pub(super) fn finish(home: &Path) -> anyhow::Result<()> {
     }
     if stage.join(MOVING).exists() {
         let mut names: Vec<String> = names(&stage)?.into_iter().filter(|name| is_ours(name)).collect();
-        // Without a summary nobody takes the folder for a result: it comes last.
+        // A folder without a summary is not a result, so the summary comes last.
         names.sort_by_key(|name| name == SUMMARY);
         for name in names {
             rename(&stage.join(&name), &home.join(&name))?;

@@ -1,4 +1,4 @@
-//! What a fit tells while it runs: as dicts, to a callback of Python's.
+//! Events of a running fit, as dicts for a callback of Python's.
 
 use pleach::{Begun, IndividualProgress, Observer, ObserverError, Progress, Row};
 use pyo3::prelude::*;
@@ -7,8 +7,8 @@ use std::sync::mpsc::Sender;
 
 /// One step of a fit.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Told {
-    /// Trees of the first guess that are grown, of so many.
+pub(crate) enum Event {
+    /// Trees of the first guess that are grown, and all of them.
     Guessing(usize, usize),
     /// The species that the goal looks like, with confidence.
     Begun(Vec<(String, f64)>),
@@ -20,7 +20,7 @@ pub(crate) enum Told {
     Individual { trees: u64, trials: u64, iou: f64, likeness: f64, used: f64 },
 }
 
-impl Told {
+impl Event {
     /// As a dict: `stage` says what else there is.
     pub(crate) fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
@@ -56,22 +56,22 @@ impl Told {
     }
 }
 
-/// Sends what it is told to the thread that Python waits on. Nobody may listen any more, which is no mistake.
-pub(crate) struct Teller(pub(crate) Sender<Told>);
+/// Sends events to the thread that Python waits on. A closed channel is not an error: the fit is being stopped.
+pub(crate) struct EventSender(pub(crate) Sender<Event>);
 
-impl Observer for Teller {
+impl Observer for EventSender {
     fn guessing(&mut self, done: usize, all: usize) {
-        let _ = self.0.send(Told::Guessing(done, all));
+        let _ = self.0.send(Event::Guessing(done, all));
     }
 
     fn begun(&mut self, begun: &Begun) -> Result<(), ObserverError> {
         let names = begun.guess.iter().flat_map(|guess| &guess.names);
-        let _ = self.0.send(Told::Begun(names.map(|(name, share)| (name.to_string(), *share)).collect()));
+        let _ = self.0.send(Event::Begun(names.map(|(name, share)| (name.to_string(), *share)).collect()));
         Ok(())
     }
 
     fn progress(&mut self, progress: &Progress<'_>) {
-        let _ = self.0.send(Told::Searching {
+        let _ = self.0.send(Event::Searching {
             evaluations: progress.evaluations,
             cost: progress.best.map(|best| best.score.cost).filter(|cost| cost.is_finite()),
             likeness: progress.likeness,
@@ -82,11 +82,11 @@ impl Observer for Teller {
     fn generation(&mut self, _: &Row) {}
 
     fn judging(&mut self) {
-        let _ = self.0.send(Told::Judging);
+        let _ = self.0.send(Event::Judging);
     }
 
     fn individual(&mut self, progress: &IndividualProgress) {
         let IndividualProgress { trees, trials, iou, likeness, used, .. } = *progress;
-        let _ = self.0.send(Told::Individual { trees, trials, iou, likeness, used });
+        let _ = self.0.send(Event::Individual { trees, trials, iou, likeness, used });
     }
 }

@@ -4,8 +4,7 @@ use pleach_tree::Species;
 use serde_json::{Map, Value, json};
 
 /// Species, parameters and seed, for anyone who finds the file without its history.
-#[must_use]
-pub fn extras(species: &Species, seed: Value) -> Value {
+pub(super) fn extras(species: &Species, seed: Value) -> Value {
     let space = species.generator.space();
     let parameters: Map<String, Value> = space
         .params()

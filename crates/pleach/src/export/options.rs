@@ -1,0 +1,303 @@
+//! What a mesh file is to hold.
+
+use crate::option_error::{OptionError, from_json};
+use pleach_mesh::weld::WeldSettings;
+use pleach_mesh::write::{Feature, Format};
+use pleach_mesh::{LeafStyle, MeshSettings, Palette, lod};
+use pleach_render::billboard;
+use pleach_tree::{Parts, Season, Species};
+use serde::{Deserialize, Serialize};
+
+/// How leaves are put into a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LeafForm {
+    /// Their outlines.
+    #[default]
+    Outline,
+    /// Two triangles each.
+    Simple,
+    /// Two crossed cards each, which show a picture of the leaf.
+    Cards,
+    /// One leaf, placed many times (`EXT_mesh_gpu_instancing` in GLB); always so in USDA.
+    Instances,
+    /// No leaves and no blossom.
+    None,
+}
+
+impl LeafForm {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Outline, Self::Simple, Self::Cards, Self::Instances, Self::None];
+
+    /// The name in options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Outline => "outline",
+            Self::Simple => "simple",
+            Self::Cards => "cards",
+            Self::Instances => "instances",
+            Self::None => "none",
+        }
+    }
+
+    /// What only some formats can hold of it.
+    #[must_use]
+    pub const fn feature(self) -> Option<Feature> {
+        match self {
+            Self::Cards => Some(Feature::LeafCards),
+            Self::Instances => Some(Feature::LeafInstances),
+            Self::Outline | Self::Simple | Self::None => None,
+        }
+    }
+
+    pub(super) const fn style(self) -> LeafStyle {
+        match self {
+            Self::Outline | Self::Instances => LeafStyle::Outline,
+            Self::Simple => LeafStyle::Simple,
+            Self::Cards => LeafStyle::CrossedCards,
+            Self::None => LeafStyle::None,
+        }
+    }
+}
+
+/// What a mesh file is to hold; the defaults are those of `pleach grow -o tree.glb`.
+///
+/// In JSON the keys are the names of the fields; a key that is left out has its default, and one that is not known is
+/// refused.
+///
+/// ```
+/// use pleach::{Export, MeshFormat, Season};
+///
+/// let species = pleach::species("acer")?;
+/// let tree = species.grow(1)?;
+/// let export = Export { lod: 3, season: Some(Season::Autumn), ..Export::default() };
+/// let mut glb = std::io::Cursor::new(Vec::new());
+/// export.write(MeshFormat::Glb, &species, 1, &tree, None, &mut glb)?;
+/// # assert!(glb.into_inner().starts_with(b"glTF"));
+/// assert!(export.check(MeshFormat::Stl).is_err(), "STL holds triangles and nothing else");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Export {
+    /// Levels of detail, the finest included, 1 to 6.
+    pub lod: u32,
+    /// A last level of detail: this many crossing cards that show the tree, 1 to 8; 0 for none.
+    pub billboard: u32,
+    /// How far bark may stray from its true surface, in millimetres, 0.01 to 1000.
+    pub tolerance: f64,
+    /// Weld all stems into one watertight surface, on a grid with cells of this many millimetres, 1 to 1000; what is
+    /// thinner becomes as thick as a cell.
+    pub weld: Option<f64>,
+    /// Round the corners where welded stems meet: width of the fillet over the radius of the thinner stem, 0 to 4.
+    pub fillet: f64,
+    /// Whether roots are drawn, where the generator grows any.
+    pub roots: bool,
+    /// How leaves are drawn.
+    pub leaves: LeafForm,
+    /// Season; by default the species file's own, or summer with all its blossom. In JSON its name.
+    #[serde(with = "season")]
+    pub season: Option<Season>,
+    /// Whether each vertex has the data that shaders need for wind.
+    pub wind: bool,
+    /// Whether there are joints, and a looping animation of the tree in wind.
+    pub sway: bool,
+}
+
+impl Default for Export {
+    fn default() -> Self {
+        Self {
+            lod: 1,
+            billboard: 0,
+            tolerance: 2.0,
+            weld: None,
+            fillet: 0.0,
+            roots: false,
+            leaves: LeafForm::default(),
+            season: None,
+            wind: false,
+            sway: false,
+        }
+    }
+}
+
+/// A season by name.
+mod season {
+    use super::*;
+    use serde::de::Error;
+    use serde::{Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(season: &Option<Season>, to: S) -> Result<S::Ok, S::Error> {
+        season.map(Season::name).serialize(to)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Season>, D::Error> {
+        let Some(name) = Option::<String>::deserialize(from)? else { return Ok(None) };
+        let known = || D::Error::custom(format!("expected {}", Season::NAMES.join(", ")));
+        Season::from_name(&name).map(Some).ok_or_else(known)
+    }
+}
+
+impl Export {
+    /// Reads options from JSON, as the type's own `Deserialize` does, and tells which of them is wrong.
+    ///
+    /// # Errors
+    /// The first key that is not an option, or whose value cannot be read.
+    pub fn from_json(text: &str) -> Result<Self, OptionError> {
+        from_json(text)
+    }
+
+    /// Checks everything that can be checked without a tree: ranges, options that exclude each other, and whether
+    /// `format` can hold what is asked for.
+    ///
+    /// # Errors
+    /// The first option that is wrong.
+    pub fn check(&self, format: Format) -> Result<(), OptionError> {
+        self.check_ranges()?;
+        self.check_together()?;
+        for (option, feature) in self.features() {
+            if !format.holds(feature) {
+                let others = Format::ALL.into_iter().filter(|other| other.holds(feature));
+                let others: Vec<String> = others.map(|other| format!(".{}", other.suffix())).collect();
+                let problem =
+                    format!("is for {}, and .{} cannot hold it", others.join(" and "), format.suffix());
+                return Err(OptionError::new(option, problem));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_ranges(&self) -> Result<(), OptionError> {
+        let error = |option, problem: String| Err(OptionError::new(option, problem));
+        if !(1..=lod::MAX_LEVELS).contains(&self.lod) {
+            return error("lod", format!("is {}, expected from 1 to {} levels", self.lod, lod::MAX_LEVELS));
+        }
+        if self.billboard > billboard::MAX_SIDES {
+            let most = billboard::MAX_SIDES;
+            return error("billboard", format!("is {}, expected up to {most} cards", self.billboard));
+        }
+        if !(0.01..=1000.0).contains(&self.tolerance) {
+            return error("tolerance", format!("is {} mm, expected from 0.01 to 1000", self.tolerance));
+        }
+        if let Some(cell) = self.weld.filter(|cell| !(1.0..=1000.0).contains(cell)) {
+            return error("weld", format!("has cells of {cell} mm, expected from 1 to 1000"));
+        }
+        if !(0.0..=WeldSettings::MAX_FILLET).contains(&self.fillet) {
+            let most = WeldSettings::MAX_FILLET;
+            return error("fillet", format!("is {}, expected a ratio from 0 to {most}", self.fillet));
+        }
+        Ok(())
+    }
+
+    fn check_together(&self) -> Result<(), OptionError> {
+        let asks = [
+            ("lod", self.lod > 1),
+            ("billboard", self.billboard > 0),
+            ("sway", self.sway),
+            ("wind", self.wind),
+        ];
+        let asked = |names: &[&str]| {
+            asks.iter().find(|(name, asked)| *asked && names.contains(name)).map(|(name, _)| *name)
+        };
+        if self.weld.is_some()
+            && let Some(other) = asked(&["lod", "sway", "wind"])
+        {
+            return Err(OptionError::new("weld", format!("makes one surface, which `{other}` cannot have")));
+        }
+        if self.sway
+            && let Some(other) = asked(&["lod", "billboard"])
+        {
+            return Err(OptionError::new("sway", format!("is of one mesh: leave out `{other}`")));
+        }
+        if self.fillet > 0.0 && self.weld.is_none() {
+            return Err(OptionError::new("fillet", "is about welded stems, and `weld` is not given"));
+        }
+        Ok(())
+    }
+
+    /// The options that ask for something that only some formats can hold.
+    fn features(&self) -> impl Iterator<Item = (&'static str, Feature)> {
+        let asked = [
+            ("leaves", self.leaves.feature()),
+            ("wind", self.wind.then_some(Feature::Wind)),
+            ("lod", (self.lod > 1).then_some(Feature::Levels)),
+            ("billboard", (self.billboard > 0).then_some(Feature::Billboard)),
+            ("sway", self.sway.then_some(Feature::Sway)),
+        ];
+        asked.into_iter().filter_map(|(option, feature)| feature.map(|feature| (option, feature)))
+    }
+
+    /// What of a tree is drawn.
+    #[must_use]
+    pub const fn parts(&self) -> Parts {
+        if self.roots { Parts::ALL } else { Parts::LEAFY }
+    }
+
+    /// The colours of the season.
+    #[must_use]
+    pub fn palette(&self, species: &Species) -> Palette {
+        Palette::new(&species.appearance, self.season)
+    }
+
+    pub(super) fn settings(&self) -> MeshSettings {
+        MeshSettings {
+            tolerance: self.tolerance / 1000.0,
+            leaves: self.leaves.style(),
+            wind: self.wind,
+            parts: self.parts(),
+            ..MeshSettings::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_read_back_from_json_and_unknown_ones_are_refused() {
+        let other = r#"{ "lod": 2, "billboard": 3, "tolerance": 5.0, "weld": 30.0, "fillet": 1.0, "roots": true,
+            "leaves": "cards", "season": "autumn", "wind": true, "sway": true }"#;
+        let other = Export::from_json(other).unwrap();
+        let written = serde_json::to_value(&other).unwrap();
+        assert_eq!(serde_json::from_value::<Export>(written.clone()).unwrap(), other);
+        let usual = serde_json::to_value(Export::default()).unwrap();
+        for (name, value) in usual.as_object().unwrap() {
+            assert_ne!(written[name], *value, "{name} is lost, or has its default in the list of others");
+        }
+        assert_eq!(Export::from_json("{}").unwrap(), Export::default());
+        let error = |text| Export::from_json(text).unwrap_err().to_string();
+        assert!(error(r#"{"lodd": 3}"#).starts_with("`lodd` is 3: unknown field"));
+        assert!(error(r#"{"season": "fall"}"#).contains("spring, summer, autumn, winter"));
+        assert!(error(r#"{"leaves": "round"}"#).contains("`leaves` is \"round\""));
+        assert!(error(r#"{"wind": 1}"#).contains("true or false"));
+    }
+
+    #[test]
+    fn each_wrong_option_is_named() {
+        let wrong = |format, change: fn(&mut Export)| {
+            let mut export = Export::default();
+            change(&mut export);
+            export.check(format).unwrap_err().option.into_owned()
+        };
+        for format in Format::ALL {
+            assert_eq!(Export::default().check(format), Ok(()));
+            assert_eq!(wrong(format, |e| e.lod = 0), "lod");
+            assert_eq!(wrong(format, |e| e.lod = 7), "lod");
+            assert_eq!(wrong(format, |e| e.billboard = 9), "billboard");
+            assert_eq!(wrong(format, |e| e.tolerance = f64::NAN), "tolerance");
+            assert_eq!(wrong(format, |e| e.weld = Some(0.5)), "weld");
+            assert_eq!(wrong(format, |e| (e.weld, e.fillet) = (Some(5.0), 4.5)), "fillet");
+            assert_eq!(wrong(format, |e| e.fillet = 1.0), "fillet");
+            assert_eq!(wrong(format, |e| (e.weld, e.wind) = (Some(5.0), true)), "weld");
+            assert_eq!(wrong(format, |e| (e.sway, e.lod) = (true, 2)), "sway");
+        }
+        assert_eq!(wrong(Format::Stl, |e| e.lod = 2), "lod");
+        assert_eq!(wrong(Format::Obj, |e| e.wind = true), "wind");
+        assert_eq!(wrong(Format::Ply, |e| e.leaves = LeafForm::Cards), "leaves");
+        assert_eq!(wrong(Format::Usda, |e| e.billboard = 2), "billboard");
+        let message = Export { lod: 2, ..Export::default() }.check(Format::Obj).unwrap_err().to_string();
+        assert_eq!(message, "`lod` is for .glb, and .obj cannot hold it");
+    }
+}

@@ -1,0 +1,227 @@
+//! One tree as a file.
+
+use super::ExportError;
+use super::extras::extras;
+use super::options::{Export, LeafForm};
+use pleach_mesh::lod::{self, Level};
+use pleach_mesh::weld::{self, WeldSettings};
+use pleach_mesh::write::glb::{Glb, Placed, Scene};
+use pleach_mesh::write::{Format, obj, ply, stl, usda};
+use pleach_mesh::{Block, Card, Cards, Material, Mesher, Palette, Rig, Source, Welded, send};
+use pleach_render::{Billboards, leaf_picture, png_file};
+use pleach_tree::{Species, Tree};
+use serde_json::json;
+use std::io::{Cursor, Seek, Write};
+
+/// A small file that a mesh file names and that stands beside it: materials, or a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Beside {
+    /// Its name.
+    pub name: String,
+    /// What it holds.
+    pub bytes: Vec<u8>,
+}
+
+/// A mesh in memory, with the files beside it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ExportedFile {
+    /// What the mesh file holds.
+    pub bytes: Vec<u8>,
+    /// The files that it names.
+    pub beside: Vec<Beside>,
+}
+
+/// `mesher` with `bark` instead of its tubes, if there is one.
+fn with_bark<'a>(mesher: Mesher<'a>, bark: Option<&'a Block>) -> Box<dyn Source + 'a> {
+    match bark {
+        Some(bark) => Box::new(Welded::new(bark, mesher)),
+        None => Box::new(mesher),
+    }
+}
+
+pub(super) fn cards(cards: &[Card]) -> Box<dyn Source + '_> {
+    Box::new(Cards(cards))
+}
+
+impl Export {
+    /// Writes `tree`, which `species` has grown from `seed`, to `out`, an empty and buffered file. What the tree does
+    /// not wear in the season is left out.
+    ///
+    /// `stem` is the name of the file without its suffix. With it an OBJ or USDA file names its materials and pictures,
+    /// which are returned and are to be written into the same folder; without it, as on a stream, there are none.
+    ///
+    /// # Errors
+    /// An [`ExportError`]: options that [`Export::check`] refuses, a mesh that cannot be made or written. `out` may
+    /// then hold a part of the file.
+    pub fn write<W: Write + Seek + ?Sized>(
+        &self,
+        format: Format,
+        species: &Species,
+        seed: u64,
+        tree: &Tree,
+        stem: Option<&str>,
+        out: &mut W,
+    ) -> Result<Vec<Beside>, ExportError> {
+        self.check(format)?;
+        let palette = self.palette(species);
+        let tree = &*palette.dressed(tree);
+        let bark = self.welded(tree)?;
+        let one = One { export: self, species, seed, tree, palette, bark: bark.as_ref(), stem };
+        match format {
+            Format::Glb => one.write_glb(out).map(|()| Vec::new()),
+            Format::Obj => one.write_obj(out),
+            Format::Ply => Ok(send(&[one.source()], &mut ply::Ply::new(out, palette)).map(|()| Vec::new())?),
+            Format::Stl => Ok(send(&[one.source()], &mut stl::Stl::new(out)).map(|()| Vec::new())?),
+            Format::Usda => one.write_usda(out),
+        }
+    }
+
+    /// The same in memory.
+    ///
+    /// # Errors
+    /// As of [`Export::write`].
+    pub fn to_file(
+        &self,
+        format: Format,
+        species: &Species,
+        seed: u64,
+        tree: &Tree,
+        stem: &str,
+    ) -> Result<ExportedFile, ExportError> {
+        let mut out = Cursor::new(Vec::new());
+        let beside = self.write(format, species, seed, tree, Some(stem), &mut out)?;
+        Ok(ExportedFile { bytes: out.into_inner(), beside })
+    }
+
+    fn welded(&self, tree: &Tree) -> Result<Option<Block>, ExportError> {
+        let Some(cell) = self.weld else { return Ok(None) };
+        let settings =
+            WeldSettings { fillet: self.fillet, parts: self.parts(), ..WeldSettings::new(cell / 1000.0) };
+        Ok(Some(weld::surface(tree, &settings)?))
+    }
+
+    /// One mesh for each level.
+    pub(super) fn sources<'a>(
+        &self,
+        levels: &'a [Level<'a>],
+        rig: Option<&'a Rig>,
+        bark: Option<&'a Block>,
+    ) -> Vec<Box<dyn Source + 'a>> {
+        let mesher = |level: &'a Level<'a>| {
+            let mut mesher = Mesher::new(&level.tree, level.settings);
+            if let Some(rig) = rig {
+                mesher = mesher.with_rig(rig);
+            }
+            if self.leaves == LeafForm::Instances {
+                mesher = mesher.with_instanced_leaves();
+            }
+            with_bark(mesher, bark)
+        };
+        levels.iter().map(mesher).collect()
+    }
+
+    pub(super) fn levels<'a>(&self, tree: &'a Tree) -> Vec<Level<'a>> {
+        lod::levels(tree, self.settings(), self.lod)
+    }
+
+    /// PNG files that leaves, blossom and billboards show.
+    pub(super) fn pictures(
+        &self,
+        tree: &Tree,
+        palette: &Palette,
+        billboards: Option<&Billboards>,
+    ) -> Result<Vec<(Material, Vec<u8>)>, ExportError> {
+        let mut pictures = Vec::new();
+        if self.leaves == LeafForm::Cards {
+            for (material, picture) in leaf_picture::of(tree, palette) {
+                pictures.push((material, png_file::bytes(&picture).map_err(ExportError::Picture)?));
+            }
+        }
+        if let Some(billboards) = billboards {
+            let png = png_file::bytes(&billboards.picture).map_err(ExportError::Picture)?;
+            pictures.push((Material::Card, png));
+        }
+        Ok(pictures)
+    }
+}
+
+/// A tree on its way into a file.
+struct One<'a> {
+    export: &'a Export,
+    species: &'a Species,
+    seed: u64,
+    tree: &'a Tree,
+    palette: Palette,
+    bark: Option<&'a Block>,
+    stem: Option<&'a str>,
+}
+
+impl One<'_> {
+    fn source(&self) -> Box<dyn Source + '_> {
+        with_bark(Mesher::new(self.tree, self.export.settings()), self.bark)
+    }
+
+    fn write_glb<W: Write + Seek + ?Sized>(&self, out: &mut W) -> Result<(), ExportError> {
+        let Self { export, species, tree, palette, .. } = *self;
+        let levels = export.levels(tree);
+        let rig = export.sway.then(|| Rig::new(tree));
+        let billboards =
+            (export.billboard > 0).then(|| Billboards::paint(&[tree], &palette, export.billboard));
+        let billboards = billboards.filter(|billboards| !billboards.is_empty());
+        let mut sources = export.sources(&levels, rig.as_ref(), self.bark);
+        sources.extend(billboards.iter().map(|billboards| cards(&billboards.cards[0])));
+        let scene = Scene {
+            name: species.name.clone(),
+            palette,
+            extras: extras(species, json!(self.seed)),
+            placed: vec![Placed::at_origin(&species.name, sources.len())],
+            rig: rig.as_ref(),
+            pictures: export.pictures(tree, &palette, billboards.as_ref())?,
+        };
+        Ok(send(&sources, &mut Glb::new(out, &scene))?)
+    }
+
+    fn write_obj<W: Write + ?Sized>(&self, out: &mut W) -> Result<Vec<Beside>, ExportError> {
+        let materials = self.stem.map(|stem| format!("{stem}.mtl"));
+        let name = materials.as_deref().unwrap_or_default();
+        send(&[self.source()], &mut obj::Obj::new(out, &self.species.name, name))?;
+        let Some(name) = materials else { return Ok(Vec::new()) };
+        let (mut beside, pictures) = self.pictures_beside()?;
+        let bytes = obj::materials(&self.palette, &pictures).into_bytes();
+        beside.push(Beside { name, bytes });
+        Ok(beside)
+    }
+
+    fn write_usda<W: Write + ?Sized>(&self, out: &mut W) -> Result<Vec<Beside>, ExportError> {
+        let (beside, pictures) = self.pictures_beside()?;
+        let mesher = Mesher::new(self.tree, self.export.settings()).with_instanced_leaves();
+        let about = [
+            ("generator", self.species.generator.family().to_owned()),
+            ("seed", self.seed.to_string()),
+            ("species", self.species.name.clone()),
+        ];
+        let notes = usda::Notes {
+            name: self.species.name.clone(),
+            about: about.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+            pictures,
+        };
+        send(&[with_bark(mesher, self.bark)], &mut usda::Usda::new(out, &notes, self.palette))?;
+        Ok(beside)
+    }
+
+    /// The pictures of leaves and blossom, as files and by name.
+    fn pictures_beside(&self) -> Result<(Vec<Beside>, Vec<(Material, String)>), ExportError> {
+        let (mut beside, mut names) = (Vec::new(), Vec::new());
+        let Some(stem) = self.stem else { return Ok((beside, names)) };
+        for (material, bytes) in self.export.pictures(self.tree, &self.palette, None)? {
+            let placed = if material == Material::Blossom { &self.tree.blossoms } else { &self.tree.leaves };
+            if placed.is_empty() {
+                continue;
+            }
+            let name = format!("{stem}-{}.png", material.name());
+            names.push((material, name.clone()));
+            beside.push(Beside { name, bytes });
+        }
+        Ok((beside, names))
+    }
+}
