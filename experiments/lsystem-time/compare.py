@@ -2,7 +2,7 @@
 
 Each program runs as a whole process on one thread and prints the string; what it takes after no step is
 taken off, so that starting it does not count, and writing the string does. Processor time, the least of
-RUNS tries by turns. Both strings have to be the same. Writes `foreign.csv` beside this file and
+RUNS tries, alternately. Both strings have to be the same. Writes `foreign.csv` beside this file and
 prints the README's table. The npm package is installed into a temporary folder; without node and npm there
 is nothing to compare with, and the script says so.
 """

@@ -155,7 +155,7 @@ def traced(pleach, goal, more):
 
 
 def measure_pair(pleach, count):
-    """The same goals on one worker and on two, by turns."""
+    """The same goals on one worker and on two, alternately."""
     pair = first(count)
     rows = []
     for workers in [1, 2] * 2:

@@ -166,7 +166,7 @@ pub struct Run {
 impl Run {
     /// A run of a command that a test put together itself.
     #[must_use]
-    pub const fn of(what: String, output: Output) -> Self {
+    pub const fn new(what: String, output: Output) -> Self {
         Self { what, output }
     }
 

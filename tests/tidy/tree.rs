@@ -61,7 +61,7 @@ pub(crate) fn text(path: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// `path` seen from `folder`, with its `..` resolved; none where it leaves the repository.
+/// `path` seen from `folder`, with its `..` resolved; `None` where it leaves the repository.
 pub(crate) fn join(folder: &str, path: &str) -> Option<String> {
     let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
     for part in path.split('/') {

@@ -24,7 +24,7 @@ function run(program, args, more = {}) {
   }
 }
 
-/** Whether the standard library for WebAssembly is there, or can be had. */
+/** Whether the standard library for WebAssembly is there, or could be installed. */
 function hasTarget() {
   const root = spawnSync("rustc", ["--print", "sysroot"], { encoding: "utf8" });
   const there = root.status === 0 && existsSync(join(root.stdout.trim(), "lib", "rustlib", TRIPLE));

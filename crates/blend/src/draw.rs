@@ -20,7 +20,7 @@ pub struct DrawError {
     pub species: String,
     /// The seed of the tree.
     pub seed: u64,
-    /// What stopped it.
+    /// The reason.
     pub source: GrowError,
 }
 

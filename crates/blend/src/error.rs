@@ -44,7 +44,7 @@ pub enum BlendError {
     /// No species has this name.
     #[error("no species of this map is called `{name}`{}", nearest.as_ref().map_or_else(String::new, |n| format!(", did you mean `{n}`?")))]
     UnknownSpecies {
-        /// What was asked for.
+        /// The value that was given.
         name: String,
         /// The nearest known name, if any is near.
         nearest: Option<String>,
@@ -74,7 +74,7 @@ pub enum BlendError {
         readable(*at)
     )]
     NotBetween {
-        /// What was asked for.
+        /// The value that was given.
         at: f64,
     },
     /// A point that is nowhere.
@@ -105,7 +105,7 @@ pub enum DecompositionFault {
     Solver,
 }
 
-/// What `second` is called beside `first`, which it is not the same as.
+/// The name of `second` beside a different `first`.
 fn different(first: &ModelId, second: &ModelId) -> String {
     let family = second.family();
     if family == first.family() { format!("another model of {family}") } else { family.to_owned() }

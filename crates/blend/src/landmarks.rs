@@ -31,14 +31,14 @@ impl Weights {
         Self(shares)
     }
 
-    /// One a landmark, in their order.
+    /// One weight per landmark, in their order.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.0
     }
 
     /// The nearest weights that are whole numbers of thirds: those of the counts of a blend. Nearest by
-    /// largest remainders, of equals the first.
+    /// largest remainders; the first of equals.
     #[must_use]
     pub fn quantized(&self) -> Self {
         const PARTS: f64 = 3.0;
@@ -162,7 +162,7 @@ impl Landmarks {
         })
     }
 
-    /// Weights from shares in any unit, one a landmark.
+    /// Weights from shares in any unit, one per landmark.
     ///
     /// # Errors
     /// The wrong number of them, one below 0 or not finite, or all 0.
@@ -219,7 +219,7 @@ impl Landmarks {
     /// weight among those landmarks to which they matter. Counts, and other numbers that arrange the
     /// layout of a tree ([`Effect::Layout`]), change together, by the nearest weights
     /// in [thirds](Weights::quantized): of 250 branches each one more would shuffle all the others, so
-    /// they come in three larger steps with peace in between. A slot on which all landmarks with weight
+    /// they change in three larger steps and are constant in between. A slot on which all landmarks with weight
     /// agree keeps their number bit for bit, so all weight on one landmark gives that landmark exactly.
     #[must_use]
     pub fn mix(&self, weights: &Weights) -> CheckedParams {
@@ -246,7 +246,7 @@ impl Landmarks {
                 let (weights, features) =
                     if arranges { (&whole, whole_features.as_slice()) } else { (weights, features) };
                 let mut active = weights.present().filter(|(l, _)| self.active[*l][slot.index()]);
-                // Where it matters to none of them, the number of the nearest species will do.
+                // No species uses this slot: keep the nearest species' value.
                 let Some((one, _)) = active.next() else { return params.get(slot) };
                 let value = |landmark: usize| self.species[landmark].params.get(slot);
                 if !moved(slot) && active.all(|(l, _)| value(l).to_bits() == value(one).to_bits()) {

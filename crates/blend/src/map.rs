@@ -9,7 +9,7 @@ use crate::plane::{Hull, Point};
 use pleach_tree::math;
 use pleach_tree::{CheckedParams, Slot, Species};
 
-/// What a map is made by.
+/// The settings of a map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
     /// How numbers become features.
@@ -35,7 +35,7 @@ pub struct Blend {
 }
 
 impl Blend {
-    /// Whether the point lies outside the hull, where no species vouches for the tree.
+    /// Whether the point lies outside the hull, so that the tree is extrapolated.
     #[must_use]
     pub fn is_extrapolated(&self) -> bool {
         self.outside > 0.0
@@ -120,7 +120,7 @@ impl BlendMap {
     ///
     /// Inside the hull it is made of the landmarks around, by [natural-neighbour weights](NaturalNeighbor);
     /// on a landmark's dot it is that landmark, bit for bit. Outside, the blend of the nearest place
-    /// of the hull is moved along the principal axes, and says that it is extrapolated. With
+    /// of the hull is moved along the principal axes, and marked as extrapolated. With
     /// [`Encoding::Raw`] it is the axes' back-projection and nothing else.
     ///
     /// # Errors

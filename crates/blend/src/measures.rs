@@ -1,4 +1,4 @@
-//! What people see of a tree, as numbers: how traits change across the map.
+//! Visible properties of a tree as numbers, to show how they change across the map.
 
 use pleach_silhouette::{Bitmap, Detail, Rasterizer};
 use pleach_tree::math;
@@ -48,7 +48,7 @@ impl Measure {
 
     /// Measures `tree`; 0 for angles of a tree without branches.
     #[must_use]
-    pub fn of(self, tree: &Tree) -> f64 {
+    pub fn value(self, tree: &Tree) -> f64 {
         match self {
             Self::HeightToWidth => {
                 let stats = TreeStats::new(tree);
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn traits_say_what_everybody_sees() {
-        let of = |t: Measure, name: &str| t.of(&species(name).grow(1).unwrap());
+        let of = |t: Measure, name: &str| t.value(&species(name).grow(1).unwrap());
         let poplar = of(Measure::HeightToWidth, "lombardy_poplar");
         assert!(poplar > 1.5 * of(Measure::HeightToWidth, "black_oak"), "{poplar}");
         assert!(of(Measure::BareTrunk, "palm") > 0.7);

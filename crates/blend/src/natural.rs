@@ -15,7 +15,7 @@
 //! residual.
 //!
 //! On the hull's edges the weights run linearly between the two neighbouring landmarks; outside there
-//! are none, and the nearest place of the hull stands in.
+//! are none, and the nearest place of the hull is used.
 
 use crate::landmarks::Weights;
 use crate::plane::{Hull, OnHull, Point};
@@ -41,7 +41,7 @@ pub struct NaturalNeighbor {
 }
 
 impl NaturalNeighbor {
-    /// Sites at `dots`, one a landmark; landmarks on one place share its weight equally.
+    /// Sites at `dots`, one per landmark; landmarks on one place share its weight equally.
     #[must_use]
     pub fn new(dots: &[Point]) -> Self {
         let hull = Hull::new(dots);

@@ -1,4 +1,4 @@
-//! What the file of a blend says of where it comes from.
+//! The provenance in the file of a blend.
 
 use crate::plane::{Point, readable};
 

@@ -5,7 +5,7 @@
 //! from the singular values, σ² / (n − 1), and are compared with the total variance of the data. No
 //! whitening, after which its inverse is wrong. And its decomposition (LOBPCG) is only for a few axes
 //! of a large matrix: of fourteen axes of fifteen rows it loses one without a word (explained variance
-//! 0.944 of 1). So the matrix is made large by rows at the mean and columns of zeros, which change
+//! 0.944 of 1). So the matrix is enlarged by rows at the mean and columns of zeros, which change
 //! neither axes nor singular values; then 14 axes of the species agree with numpy's to 1e-9.
 
 use crate::error::{BlendError, DecompositionFault};

@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-/// A word, what the help says of it, and what it stands for.
+/// A word, its line of help, and its value.
 pub(crate) type Choice<T> = (&'static str, &'static str, T);
 
 /// Takes one of the words of `choices`, which the help and completions list.

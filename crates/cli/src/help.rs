@@ -1,4 +1,4 @@
-//! Help texts laid out alike: paragraphs wrap where the terminal ends, examples fit 80 columns.
+//! The layout of help texts: paragraphs wrap where the terminal ends, examples fit 80 columns.
 //!
 //! A command's text after its options is made of blocks with blank lines between them. A block that
 //! begins with `Examples:` lists commands, each with a comment two or more spaces behind it. Lines of
@@ -6,7 +6,7 @@
 
 use clap::{Arg, Command};
 
-/// What examples are laid out for.
+/// Columns that examples are laid out for.
 const WIDTH: usize = 80;
 
 /// Lays out the texts after the options of `command` and all commands below it.
@@ -17,8 +17,8 @@ pub(crate) fn laid_out(mut command: Command) -> Command {
     command.mut_subcommands(laid_out)
 }
 
-/// Lets every option of `command` and of those below it have a negative number as its value, so that
-/// `--height -3` is told what heights are possible and not that `-3` is unknown.
+/// Lets every option of `command` and of its subcommands take a negative number, so that the error for
+/// `--height -3` names the heights that are possible, not an unknown option `-3`.
 pub(crate) fn with_negative_numbers(command: Command) -> Command {
     let option = |arg: &Arg| !arg.is_positional() && arg.get_action().takes_values();
     let command = command.mut_args(|arg| if option(&arg) { arg.allow_negative_numbers(true) } else { arg });

@@ -17,7 +17,7 @@ pub(crate) fn species(name: &str) -> Result<Species, RegistryError> {
     pleach_generators::species(name)
 }
 
-/// Whether a path means standard input, or standard output.
+/// Whether a path means standard input or standard output: `-`.
 pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
@@ -31,7 +31,7 @@ pub(crate) fn picture(path: &Path) -> Result<Encoded, GoalError> {
     }
 }
 
-/// What is made of a picture is called by this: the file's name without its extension, or `stdin`. None if
+/// The name for results made from a picture: the file's name without its extension, or `stdin`. `None` if
 /// the path has no file name.
 pub(crate) fn stem(path: &Path) -> Option<&OsStr> {
     if is_standard(path) { Some("stdin".as_ref()) } else { path.file_stem() }
@@ -46,9 +46,9 @@ pub(crate) fn seed(text: &str) -> Result<u64, String> {
     }
 }
 
-/// `A..B`: from A up to, and without, B.
+/// `A..B`: from A up to but not including B.
 pub(crate) fn seeds(text: &str) -> Result<Range<u64>, String> {
-    let hint = || format!("`{text}` is no range of seeds, expected A..B with A below B, such as 0..100");
+    let hint = || format!("`{text}` is not a range of seeds, expected A..B with A below B, such as 0..100");
     let (from, to) = text.split_once("..").ok_or_else(hint)?;
     let range = seed(from)?..seed(to)?;
     if range.is_empty() { Err(hint()) } else { Ok(range) }
@@ -80,7 +80,7 @@ pub(crate) struct LeafArgs {
 }
 
 impl LeafArgs {
-    /// What is grown of `species`.
+    /// Whether leaves of `species` are grown.
     pub(crate) fn foliage(self, species: &Species) -> Foliage {
         match (self.no_leaves, self.leafy) {
             (true, _) => Foliage::None,
@@ -90,7 +90,7 @@ impl LeafArgs {
     }
 }
 
-/// Tells the user if `species` asks for leaves that cannot grow.
+/// Notes that `species` asks for leaves which cannot grow.
 pub(crate) fn note_leafless(species: &Species, foliage: Foliage) {
     let leafless = species.generator.leafless(species.params.values());
     if let (Foliage::All, Some(leafless)) = (foliage, leafless) {
@@ -107,8 +107,8 @@ pub(crate) struct LimitArgs {
     /// A tree with more leaves and blossoms is an error
     #[arg(long, value_name = "N", default_value_t = Limits::default().leaves, help_heading = "Limits")]
     max_leaves: usize,
-    /// A tree that takes more steps to grow is an error; by default 40000000, and as many times more
-    /// as the other limits are raised
+    /// A tree that takes more steps to grow is an error; by default 40000000, raised in
+    /// proportion to the other limits
     #[arg(long, value_name = "N", help_heading = "Limits")]
     max_work: Option<u64>,
 }
@@ -117,7 +117,7 @@ impl LimitArgs {
     pub(crate) fn limits(self) -> Limits {
         let usual = Limits::DEFAULT;
         let knots_per_stem = usual.knots / usual.stems;
-        // Whoever asks for a larger tree than usual means to have it.
+        // A user who asks for more than the usual limits means it.
         let larger = (self.max_stems / usual.stems).max(self.max_leaves / usual.leaves).max(1);
         Limits {
             stems: self.max_stems,

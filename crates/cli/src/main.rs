@@ -20,7 +20,7 @@ fn main() -> ExitCode {
     memory::give_back_large_blocks();
     match commands::Arguments::from_command_line().run() {
         Ok(()) => ExitCode::SUCCESS,
-        // Whoever reads our output has read enough, as in `pleach species | head`.
+        // The reader of our output has closed the pipe, as in `pleach species | head`.
         Err(error) if output::is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             output::error(&error, species_file);
@@ -29,7 +29,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// A drawing of what is wrong with a species file, if that is what `cause` is about.
+/// The excerpt of a species file with its mistake marked, if `cause` is such a mistake.
 fn species_file(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     let error = match cause.downcast_ref() {
         Some(RegistryError::Species(error)) => Some(error),
@@ -38,7 +38,7 @@ fn species_file(cause: &(dyn std::error::Error + 'static)) -> Option<String> {
     error.map(|error| error.draw(true))
 }
 
-/// Whether a request to stop is what `error` is about.
+/// Whether `error` comes from a request to stop.
 fn was_interrupted(error: &anyhow::Error) -> bool {
     let is_fit = |cause: &FitError| matches!(cause, FitError::Interrupted);
     interrupted::Interrupted::is_in(error)

@@ -1,4 +1,4 @@
-//! Memory that is given back.
+//! Returns freed memory to the system.
 //!
 //! Trees are grown into arrays of some megabytes, which live for a moment or for a whole search. The allocator of
 //! glibc begins by giving such blocks back to the system when they are freed, but after the first few it keeps larger
@@ -10,7 +10,7 @@
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 const LARGE: libc::c_int = 256 << 10;
 
-/// Has large blocks given back when they are freed.
+/// Makes the allocator return large blocks when they are freed.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 #[expect(unsafe_code, reason = "glibc has no other way but variables of the environment")]
 pub(crate) fn give_back_large_blocks() {
@@ -18,7 +18,7 @@ pub(crate) fn give_back_large_blocks() {
     let _ = unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, LARGE) };
 }
 
-/// Gives back what small blocks have left, for after something that took many of them.
+/// Returns free pages between small blocks; for after work that took many of them.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 #[expect(unsafe_code, reason = "nothing else in the library gives pages back that lie between blocks in use")]
 pub(crate) fn give_back_the_rest() {

@@ -47,7 +47,7 @@ fn beside(path: &Path) -> std::io::Result<NamedTempFile> {
     name.push(".");
     let mut builder = tempfile::Builder::new();
     builder.prefix(&name).suffix(TEMPORARY).rand_bytes(RANDOM);
-    // As any new file: a temporary one would be its owner's alone.
+    // With the permissions of any new file: a temporary one would be readable by its owner alone.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder.unwrap_or(Path::new(".")))
@@ -58,18 +58,18 @@ pub fn write_text(path: &Path, text: &str) -> anyhow::Result<()> {
     write_whole(path, |file| Ok(file.write_all(text.as_bytes())?))
 }
 
-/// Makes a folder and those above it.
+/// Creates a folder and those above it.
 pub fn make_folder(path: &Path) -> anyhow::Result<()> {
     std::fs::create_dir_all(path).with_context(|| format!("cannot make the folder {}", text::path(path)))
 }
 
-/// `folder/name`, the folder made if it is not there.
+/// `folder/name`; creates the folder if it is missing.
 pub fn inside(folder: &Path, name: impl AsRef<Path>) -> anyhow::Result<PathBuf> {
     make_folder(folder)?;
     Ok(folder.join(name))
 }
 
-/// A file, or what becomes standard output.
+/// A file, or a buffer for standard output.
 pub trait Out: Write + Seek {}
 
 impl<T: Write + Seek> Out for T {}
@@ -85,8 +85,8 @@ pub fn is_file(path: &Path) -> bool {
     path.extension().is_some() && !slash && !path.is_dir()
 }
 
-/// Writes `path` whole or not at all; standard output where `path` is `-`. What goes to standard
-/// output is kept in memory until it is complete.
+/// Writes `path` whole or not at all; standard output where `path` is `-`. Standard output is
+/// kept in memory until it is complete.
 pub fn write_out(path: &Path, write: impl FnOnce(&mut dyn Out) -> anyhow::Result<()>) -> anyhow::Result<()> {
     if !is_stdout(path) {
         return write_whole(path, |file| write(file));

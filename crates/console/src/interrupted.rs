@@ -1,7 +1,7 @@
 //! The error of a run that was asked to stop.
 
-/// A run was asked to stop (ctrl-C, SIGTERM) and did. The program then ends with exit code 130, as
-/// shells say of a program that ctrl-C ended.
+/// A run was asked to stop (ctrl-C, SIGTERM) and did. The program then ends with exit code 130, like any
+/// program that ctrl-C ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Interrupted {
     message: String,
@@ -16,7 +16,7 @@ impl Interrupted {
     /// Whether `error`, or what caused it, is an interruption.
     #[must_use]
     pub fn is_in(error: &anyhow::Error) -> bool {
-        // What carries words of its own is found by anyhow, what caused it in the chain.
+        // Anyhow finds it below an added context, the chain finds it as a cause.
         error.is::<Self>() || error.chain().any(|cause| cause.is::<Self>())
     }
 }

@@ -1,12 +1,12 @@
-//! What the program and the experiments say to people and write to disks.
+//! Output of the program and the experiments: terminal and files.
 //!
 //! | module | idea |
 //! | --- | --- |
 //! | [`output`] | standard output and standard error: results, notes, warnings, tables |
-//! | [`progress`] | bars that only a person sees |
+//! | [`progress`] | bars, on a terminal only |
 //! | [`files`] | files that appear whole or not at all |
 //! | [`regular`] | files that are opened in place: never through links |
-//! | [`text`] | other people's text: escaped for terminals and tables |
+//! | [`text`] | text from outside: escaped for terminals and tables |
 //! | [`signals`] | ctrl-C and requests to end |
 //! | [`interrupted`] | the error of a run that was asked to stop |
 //!

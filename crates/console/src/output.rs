@@ -21,12 +21,12 @@ pub fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Writes `text` and a line's end to standard output, for people: what a terminal would obey is escaped.
+/// Writes a line to standard output, for people: control characters are escaped.
 pub fn line(text: impl std::fmt::Display) -> anyhow::Result<()> {
     data(text::lines(&text.to_string()))
 }
 
-/// Writes `text` and a line's end to standard output as it is: what would stand in a file.
+/// Writes a line to standard output unchanged, as it would be written to a file.
 pub fn data(text: impl std::fmt::Display) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     writeln!(out, "{text}")?;
@@ -38,13 +38,13 @@ pub fn json(value: &impl Serialize) -> anyhow::Result<()> {
     data(json_text(value)?)
 }
 
-/// JSON whose texts hold nothing that a terminal would obey: it is the same JSON with more escapes.
+/// JSON with control characters escaped: the same value.
 pub fn json_text(value: &impl Serialize) -> anyhow::Result<String> {
     let text = serde_json::to_string(value)?;
     Ok(if text.contains(text::is_hidden) { text::json(&text) } else { text })
 }
 
-/// Tells the user something on standard error that is not a result; nothing with `--quiet`.
+/// Writes a note, which is not a result, to standard error; nothing with `--quiet`.
 pub fn note(text: impl std::fmt::Display) {
     let text = text.to_string();
     if let Some(text) = text.strip_prefix("warning: ") {
@@ -59,19 +59,19 @@ pub fn warning(text: impl std::fmt::Display) {
     anstream::eprintln!("{WARNING}warning:{WARNING:#} {}", text::lines(&text.to_string()));
 }
 
-/// Tells the user what was written where; nothing for standard output.
+/// Notes which file was written; nothing for standard output.
 pub fn wrote(path: &Path) {
     if !crate::files::is_stdout(path) {
         note(format_args!("wrote {}", text::path(path)));
     }
 }
 
-/// Tells the user why the program failed: each cause on its own line, or as `drawn` has it.
+/// Prints why the program failed: each cause on its own line, or `drawn`.
 pub fn error(error: &anyhow::Error, drawn: impl Fn(&(dyn std::error::Error + 'static)) -> Option<String>) {
     anstream::eprintln!("{ERROR}error:{ERROR:#} {}", joined(error, "\n  because: ", drawn));
 }
 
-/// What went wrong and why, causes set apart by `because`.
+/// The error and its causes, separated by `because`.
 pub fn causes(error: &anyhow::Error, because: &str) -> String {
     joined(error, because, |_| None)
 }
@@ -83,9 +83,9 @@ fn joined(
 ) -> String {
     let mut message = String::new();
     for (i, cause) in error.chain().enumerate() {
-        // A drawing has colors of ours, and escapes what it shows.
+        // A drawing has our own colours, and is escaped already.
         let cause = drawn(cause).unwrap_or_else(|| text::lines(&cause.to_string()).into_owned());
-        // Errors that carry their source in their own words would say it twice.
+        // Errors whose message includes that of their source would repeat it.
         if i > 0 && message.contains(&cause) {
             continue;
         }
@@ -97,7 +97,7 @@ fn joined(
     message
 }
 
-/// Whether `error` only says that nobody reads standard output any more.
+/// Whether `error` is a closed pipe at standard output.
 pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
         let io = cause.downcast_ref::<std::io::Error>().map(std::io::Error::kind);

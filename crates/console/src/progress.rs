@@ -3,7 +3,7 @@
 use crate::output;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A bar that counts to `total` and says `what` it counts; hidden unless a person watches.
+/// A bar that counts `what` up to `total`; hidden unless standard error is a terminal.
 #[must_use]
 pub fn bar(what: &str, total: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{pos}/{len} {prefix} {wide_bar} {eta} left");

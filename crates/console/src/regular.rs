@@ -1,8 +1,8 @@
-//! Files and folders that are what their name says: no links, pipes or devices.
+//! Regular files and folders: no links, pipes or devices.
 //!
-//! A program that opens a file under a fixed name in a folder of its user's follows whatever lies there.
-//! What pleach writes in place is therefore opened here; everything else appears by a rename
-//! ([`files`](crate::files)), which replaces a link and leaves what it leads to alone.
+//! A program that opens a file under a fixed name in a user's folder may follow a link that was put there.
+//! Files that pleach writes in place are therefore opened here; all others appear by a rename
+//! ([`files`](crate::files)), which replaces a link and leaves its target alone.
 
 use crate::text;
 use anyhow::{Context, bail, ensure};
@@ -11,7 +11,7 @@ use std::fs::{File, OpenOptions};
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// What lies at a path; links are not followed.
+/// The kind of thing at a path; links are not followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Found {
     /// Nothing.
@@ -30,7 +30,7 @@ impl Found {
     /// What lies at `path`.
     ///
     /// # Errors
-    /// If the system does not tell.
+    /// If the system reports none.
     pub fn at(path: &Path) -> anyhow::Result<Self> {
         match std::fs::symlink_metadata(path) {
             Ok(found) if found.is_symlink() => Ok(Self::Link),
@@ -57,7 +57,7 @@ impl fmt::Display for Found {
     }
 }
 
-/// Checks that a regular file lies at `path`, or nothing.
+/// Checks that `path` is a regular file, or free.
 ///
 /// # Errors
 /// If anything else does.
@@ -68,10 +68,10 @@ pub fn check_file(path: &Path) -> anyhow::Result<()> {
     }
 }
 
-/// Checks that a folder lies at `path`, or nothing.
+/// Checks that `path` is a folder, or free.
 ///
 /// # Errors
-/// If anything else does, be it a link to a folder.
+/// If it is anything else, even a link to a folder.
 pub fn check_folder(path: &Path) -> anyhow::Result<()> {
     match Found::at(path)? {
         Found::Nothing | Found::Folder => Ok(()),
@@ -79,13 +79,13 @@ pub fn check_folder(path: &Path) -> anyhow::Result<()> {
     }
 }
 
-/// Opens the regular file at `path` with `options`, which say whether it is made where nothing is.
+/// Opens the regular file at `path` with `options`, which say whether it may be created.
 ///
 /// # Errors
 /// If anything else is there, or the file cannot be opened.
 pub fn open(path: &Path, options: &mut OpenOptions) -> anyhow::Result<File> {
     check_file(path)?;
-    // What takes its place after the check is not followed either, and no pipe is waited for.
+    // A link or a pipe that takes its place after the check is not followed or waited for either.
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::custom_flags(options, libc::O_NOFOLLOW | libc::O_NONBLOCK);
     let cannot = || format!("cannot open {}", text::path(path));

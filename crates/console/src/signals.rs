@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 /// to the process and to its group, so that it arrives twice.
 const SAME_REQUEST: Duration = Duration::from_secs(2);
 
-/// The exit code of a program that a signal ended, as shells have it: 128 + SIGINT.
+/// The exit code of a program ended by a signal: 128 + SIGINT, by the convention of shells.
 pub const INTERRUPTED: u8 = 130;
 
 /// Calls `stop` at the first request to end. A second one, two seconds later or more, calls `at_once`

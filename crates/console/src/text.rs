@@ -1,5 +1,5 @@
-//! Other people's text: names of files, what files say. A terminal obeys some characters and a spreadsheet
-//! runs some cells; neither happens with what this module gives.
+//! Text from outside: names and contents of files. A terminal obeys some characters and a spreadsheet runs some
+//! cells; this module's output is safe for both.
 
 use std::borrow::Cow;
 use std::fmt::{self, Write as _};
@@ -12,19 +12,19 @@ pub(crate) fn is_hidden(c: char) -> bool {
         || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }
 
-/// `text` on one line, with what is not to be printed escaped as in `\u{1b}`.
+/// `text` on one line, with unprintable characters escaped as in `\u{1b}`.
 #[must_use]
 pub fn shown(text: &str) -> Cow<'_, str> {
     escaped(text, is_hidden)
 }
 
-/// The path as messages show it: on one line.
+/// A path for messages, on one line.
 #[must_use]
 pub fn path(path: &Path) -> Shown<'_> {
     Shown(path)
 }
 
-/// A path that is written as [`shown`] has it.
+/// A path that displays like [`shown`].
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'a>(&'a Path);
 
@@ -34,7 +34,7 @@ impl fmt::Display for Shown<'_> {
     }
 }
 
-/// `text` of several lines for a terminal: line ends and tabs stay, all else is as in [`shown`].
+/// `text` of several lines for a terminal: like [`shown`], but line ends and tabs stay.
 pub(crate) fn lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_hidden(c) && !matches!(c, '\n' | '\t'))
 }
@@ -55,12 +55,12 @@ fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// JSON text with characters that are not to be printed escaped as JSON has it; they only stand in strings.
+/// JSON text with unprintable characters, which occur only in strings, escaped.
 pub(crate) fn json(text: &str) -> String {
     let mut json = String::with_capacity(text.len() + 8);
     for c in text.chars() {
         if is_hidden(c) {
-            // Two units of UTF-16 where one does not do.
+            // A surrogate pair where one unit of UTF-16 is not enough.
             for unit in c.encode_utf16(&mut [0; 2]) {
                 let _ = write!(json, "\\u{unit:04x}");
             }
@@ -71,12 +71,12 @@ pub(crate) fn json(text: &str) -> String {
     json
 }
 
-/// What stands before a cell that a spreadsheet would run or a terminal obey.
+/// The mark before a cell that a spreadsheet would run or a terminal obey.
 const QUOTE: char = '\'';
 
-/// `text` as the cell of a table. What begins with `=`, `+`, `-` or `@`, which spreadsheets take for a
-/// formula, gets an apostrophe before it, as spreadsheets themselves have it, and so does what contains
-/// characters that are not to be printed, which are escaped as in `\u{a}`, and backslashes with them.
+/// `text` as the cell of a table. Text that begins with `=`, `+`, `-` or `@`, which spreadsheets take for a
+/// formula, gets an apostrophe before it, as spreadsheets themselves write it. So does text with unprintable
+/// characters, which are escaped as in `\u{a}`, and backslashes with them.
 /// For names and sentences; numbers are written as they are. [`from_cell`] reads it back.
 #[must_use]
 pub fn cell(text: &str) -> Cow<'_, str> {
@@ -97,7 +97,7 @@ pub fn from_cell(cell: &str) -> Cow<'_, str> {
     unquoted(cell).map_or(Cow::Borrowed(cell), Cow::Owned)
 }
 
-/// The text that is quoted as `cell`, if there is one that has to be.
+/// The text that `cell` quotes, if it is quoted.
 fn unquoted(cell: &str) -> Option<String> {
     let mut rest = cell.strip_prefix(QUOTE)?;
     let mut text = String::new();
@@ -145,7 +145,7 @@ mod tests {
         }
         assert_eq!(cell("=HYPERLINK(1)"), "'=HYPERLINK(1)");
         assert_eq!(cell("two\nlines"), "'two\\u{a}lines");
-        // What needs no mark has none, and what others wrote is not changed.
+        // Cells that need no mark have none, and cells of others are not changed.
         for text in ["plain.png", "'tis.png", "a=b", "\\u{41}"] {
             assert_eq!((cell(text), from_cell(text)), (text.into(), text.into()));
         }

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use toml::Spanned;
 
-/// What a goal was taken for.
+/// The family that a goal was taken for.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 struct Named {
     /// Number of the goal, from 1.
@@ -89,7 +89,7 @@ impl Kind for FamiliesSpec {
     /// One row per goal; a slice has the first few.
     fn rows(&self, _: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
         let goals = self.goals();
-        let goals = &goals[..slice.of(goals.len())];
+        let goals = &goals[..slice.take_of(goals.len())];
         let candidates: Vec<Candidate> = pleach_generators::families()
             .iter()
             .flat_map(|family| pleach_generators::presets(*family))

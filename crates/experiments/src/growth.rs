@@ -216,7 +216,7 @@ fn spread(values: &[f64]) -> f64 {
         .sqrt()
 }
 
-/// The slope of log y over log x by least squares; none where x never changes.
+/// The slope of log y over log x by least squares; `None` where x never changes.
 fn exponent(points: &[(f64, f64)]) -> Option<f64> {
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
     let n = logs.len() as f64;

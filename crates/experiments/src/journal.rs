@@ -42,7 +42,7 @@ impl Journal {
         Self { columns: columns.to_vec(), rows: Vec::new(), known: Vec::new(), kept: None }
     }
 
-    /// The journal of a run in `folder` of what `spec` says, with what an earlier one has left.
+    /// The journal of a run of `spec` in `folder`, with the rows of an earlier, unfinished run.
     pub(super) fn open(folder: &Path, spec: &str, columns: &[String], part: &Part) -> anyhow::Result<Self> {
         let path = path(folder);
         let head = head(spec);
@@ -54,7 +54,7 @@ impl Journal {
             let found =
                 std::fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
             let marked = found.split_once('\n').filter(|(line, _)| line.starts_with('#'));
-            // What follows the last line's end was cut short.
+            // A last line without an end was cut short.
             let rows = marked.map_or(found.as_str(), |(_, rows)| rows);
             let whole = rows.rfind('\n').map_or("", |end| &rows[..=end]);
             if whole.lines().count() > 1 {
@@ -94,7 +94,7 @@ impl Journal {
         Ok(())
     }
 
-    /// What an earlier run has left as a struct, if it is one.
+    /// A row of an earlier run as a struct, if it has the right columns.
     fn read<R: Record>(&self, row: &Row) -> Option<R> {
         record::from_row(row, &self.columns).ok()
     }
@@ -132,7 +132,7 @@ impl Journal {
             return Err(self.interrupted());
         }
         let made = make();
-        // What ends early for the signal is not finished, whatever it says.
+        // A job that ends early because of the signal is not finished, even if it returned rows.
         if stop::is_raised() {
             return Err(self.interrupted());
         }
@@ -142,7 +142,7 @@ impl Journal {
         Ok(())
     }
 
-    /// The error of a run: one that only says that it was interrupted says also how to go on.
+    /// The error of a run; an interruption also says how to continue.
     pub(super) fn told(&self, error: anyhow::Error) -> anyhow::Error {
         if stop::is_raised() { self.interrupted() } else { error }
     }
@@ -167,7 +167,7 @@ impl Journal {
     }
 }
 
-/// The line that says which `experiment.toml` rows are of.
+/// The line that names the `experiment.toml` of the rows.
 fn head(spec: &str) -> String {
     let hash = spec.bytes().fold(Key::root(0), |key, byte| key.child(0, u32::from(byte))).bits(1, 0);
     format!("# rows of the experiment.toml {hash:016x}\n")

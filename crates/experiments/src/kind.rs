@@ -8,15 +8,15 @@ use std::path::{Path, PathBuf};
 /// Which part of an experiment is checked.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Slice {
-    /// Only the first so many repetitions; all if it is not said.
+    /// Only this many repetitions, the first ones; all by default.
     pub repetitions: Option<u64>,
     /// Only up to this many evaluations of a fit.
     pub evaluations: Option<u64>,
 }
 
 impl Slice {
-    /// So many of `all`: the first ones of a slice.
-    pub(crate) fn of(self, all: usize) -> usize {
+    /// How many of `all` the slice takes: the first ones.
+    pub(crate) fn take_of(self, all: usize) -> usize {
         self.repetitions.map_or(all, |n| all.min(usize::try_from(n).unwrap_or(usize::MAX)))
     }
 }
@@ -26,10 +26,10 @@ pub(crate) trait Kind {
     /// The columns of its results.
     ///
     /// # Errors
-    /// If they cannot be told, a mistake in the kind.
+    /// If they cannot be determined, which is a bug in the kind.
     fn columns(&self) -> anyhow::Result<Vec<String>>;
 
-    /// What it writes beside the results, and what it reads: paths in and from `folder`.
+    /// Its outputs beside the results, and its inputs: paths relative to `folder`.
     fn files(&self, folder: &Path) -> (Vec<String>, Vec<PathBuf>);
 
     /// Makes the rows.

@@ -1,4 +1,4 @@
-//! The kinds of experiments, each with what its file says.
+//! The kinds of experiments, each with the options of its file.
 
 use super::families::FamiliesSpec;
 use super::individual::IndividualSpec;
@@ -11,7 +11,7 @@ use super::stylised::StylisedSpec;
 use super::treefit::TreefitSpec;
 use super::yao::YaoSpec;
 
-/// What an experiment runs.
+/// An experiment of any kind.
 #[derive(Clone, Debug)]
 pub(super) enum Spec {
     Fits(FitsSpec),
@@ -29,7 +29,7 @@ pub(super) enum Spec {
 }
 
 impl Spec {
-    /// Everything that `source` says, checked.
+    /// Reads and checks all options of `source`.
     pub(super) fn read(source: &Source) -> anyhow::Result<Self> {
         Ok(match source.head()?.kind {
             Kind::Fits => Self::Fits(source.parse::<FitsSpec>()?.checked(source)?),

@@ -1,4 +1,4 @@
-//! Experiments: folders that say what to run and hold what came of it.
+//! Experiments: folders with a description of what to run, and its results.
 //!
 //! `experiment.toml` says what to run, `results.csv` has a row for every repetition. Columns whose
 //! names begin with `wall_` depend on the clock and are never compared.
@@ -40,7 +40,7 @@ use std::path::Path;
 use table::Table;
 
 pub use kind::Slice;
-pub use list::{FOLDER, of as list};
+pub use list::{FOLDER, list};
 pub use part::Part;
 pub use stop::raise as stop;
 
@@ -75,7 +75,7 @@ pub fn run(folder: &Path, part: &Part) -> anyhow::Result<String> {
     let kind = spec.kind();
     let columns = kind.columns()?;
     let (written, read) = kind.files(folder);
-    // Said now and not hours later. What is not in the folder may be the name of a species.
+    // Checked now and not hours later. An input that is not in the folder may be the name of a species.
     if let Some(missing) = read.iter().find(|path| path.starts_with(folder) && !path.exists()) {
         bail!("cannot use {}: there is no such file", missing.display());
     }

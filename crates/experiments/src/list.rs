@@ -1,18 +1,18 @@
-//! The experiments of a folder with what they ask.
+//! The experiments of a folder, each with its question.
 
 use super::spec::Source;
 use anyhow::{Context, bail};
 use pleach_console::output;
 use std::path::Path;
 
-/// Where experiments are if nobody says otherwise.
+/// The default folder of experiments.
 pub const FOLDER: &str = "experiments";
 
 /// A line for each experiment in `folder`.
 ///
 /// # Errors
 /// If the folder cannot be read or holds no experiment.
-pub fn of(folder: &Path) -> anyhow::Result<String> {
+pub fn list(folder: &Path) -> anyhow::Result<String> {
     let unreadable = || format!("cannot read the folder {}", folder.display());
     let entries = std::fs::read_dir(folder).with_context(unreadable)?;
     let mut paths = Vec::new();

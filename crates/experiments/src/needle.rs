@@ -78,7 +78,7 @@ impl Kind for NeedleSpec {
 
     /// One row for each species and distance; a slice has the first few species.
     fn rows(&self, _: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
-        let species = &self.species[..slice.of(self.species.len())];
+        let species = &self.species[..slice.take_of(self.species.len())];
         let bar = progress("species", species.len() as u64);
         for name in species {
             let name = name.get_ref().as_str();
@@ -130,7 +130,7 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
     let problem = FitProblem::new(species.clone(), GoalView::new(goal, View::FRONT, frame));
     let fixed = TreeSeed::Fixed(TREE_SEED);
     let space = SearchSpace::new(Arc::clone(generator), &truth.values, &Freedom::default(), fixed)?;
-    // What is switched off, and what another choice would make another tree, stays as it is.
+    // Inactive numbers and choices stay as they are.
     let is_moved =
         |gene: &&Gene| !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_active(&truth.values, gene);
     let moved: Vec<_> = space.genes().iter().filter(is_moved).collect();

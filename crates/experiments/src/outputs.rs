@@ -1,4 +1,4 @@
-//! What an experiment writes: declared before anything runs, and none of it over what it reads.
+//! The outputs of an experiment: declared before anything runs, and never over its inputs.
 
 use anyhow::{Context, bail};
 use pleach_console::files;

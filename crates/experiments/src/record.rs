@@ -39,7 +39,7 @@ pub(super) fn from_row<R: Record>(row: &Row, columns: &[String]) -> anyhow::Resu
         .with_context(|| format!("the row {}", row.iter().collect::<Vec<_>>().join(",")))
 }
 
-/// A number that is written with so many decimals.
+/// A number that is written with this many decimals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Fixed<const DECIMALS: usize>(pub(super) f64);
 

@@ -1,4 +1,4 @@
-//! Grammars evolved from nothing, goal by goal: overlap, likeness and length of what is found.
+//! Grammars evolved from nothing, goal by goal: overlap, likeness and length of the grammars found.
 
 use super::pictured::{draw, load_view, write_species};
 use super::record::{self, Fixed};

@@ -1,7 +1,7 @@
 //! `experiment.toml`: read and checked before anything runs; the kinds with folders have their own.
 //!
-//! Every option's type carries its range (`within.rs`); what options say together is checked here. A
-//! message says where in the file the wrong option stands and what would be right.
+//! Every option's type carries its range (`within.rs`); combinations of options are checked here. A
+//! message names the option's place in the file and what would be right.
 
 use super::within::{FileName, List, Meters, Real, SpeciesName, Whole, Word};
 use anyhow::Context;
@@ -62,11 +62,11 @@ impl Kind {
     }
 }
 
-/// What every experiment says; the rest is up to its kind.
+/// The options of every experiment; its kind adds others.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Head {
     pub(super) kind: Kind,
-    /// What is asked, in a line.
+    /// The question, in one line.
     #[serde(default)]
     pub(super) question: String,
 }
@@ -98,7 +98,7 @@ pub(super) struct FitsSpec {
     pub(super) evaluations: Evaluations,
     /// Seed of every tree.
     pub(super) tree_seed: Seed,
-    /// What is made small; the default objective if it is not said.
+    /// The objective; by default that of fits.
     pub(super) objective: Option<Word<Objective>>,
 }
 
@@ -109,12 +109,12 @@ pub(super) struct GoalSpec {
     pub(super) file: PathBuf,
     /// Height of its tree in metres.
     pub(super) height: Real<Meters>,
-    /// What it is called in the results; the file's name without its ending if it is not said.
+    /// Its name in the results; by default the file's name without its ending.
     name: Option<FileName>,
 }
 
 impl GoalSpec {
-    /// What it is called in the results.
+    /// Its name in the results.
     pub(super) fn name(&self) -> String {
         self.name.as_deref().map_or_else(|| stem(&self.file), str::to_owned)
     }
@@ -173,7 +173,7 @@ impl Source {
             Err(error) => {
                 let whole = error.utf8_error().valid_up_to();
                 let text = String::from_utf8_lossy(&error.as_bytes()[..whole]).into_owned();
-                Err(Self { path, text }.wrong(whole..whole, "a byte that is no text, expected UTF-8"))
+                Err(Self { path, text }.wrong(whole..whole, "a byte that is not text, expected UTF-8"))
             }
         }
     }

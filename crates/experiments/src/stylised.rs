@@ -101,7 +101,7 @@ impl Kind for StylisedSpec {
     /// One row for each setting; a slice has fewer repetitions.
     fn rows(&self, _: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
         let bar = progress("settings", self.tests.len() as u64);
-        let repetitions = slice.of(*self.repetitions as usize);
+        let repetitions = slice.take_of(*self.repetitions as usize);
         for test in &self.tests {
             let test = test.get_ref();
             journal.job(

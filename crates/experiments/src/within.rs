@@ -1,4 +1,4 @@
-//! Types of options that carry their declared range: what is outside is refused where it stands.
+//! Types of options that carry their declared range: a value outside is refused with its place in the file.
 
 use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
 use std::fmt;
@@ -37,7 +37,7 @@ impl<'de, const LOW: u64, const HIGH: u64> Deserialize<'de> for Whole<LOW, HIGH>
     }
 }
 
-/// What a real option is and between which values it lies.
+/// The meaning of a real option, and its range.
 pub(super) trait Quantity {
     const WHAT: &'static str;
     const RANGE: RangeInclusive<f64>;

@@ -25,7 +25,7 @@ const MARGIN: f32 = 0.03;
 pub struct Billboards {
     /// One row per tree, one column per side.
     pub picture: Picture,
-    /// The cards of each tree; none where there is nothing of it to be seen.
+    /// The cards of each tree; `None` where nothing of it is visible.
     pub cards: Vec<Vec<Card>>,
 }
 

@@ -2,12 +2,12 @@
 
 use crate::picture::Picture;
 
-/// Bits a channel that tell colours apart before boxes are cut.
+/// Bits per channel of the colours before boxes are cut.
 const BITS: u32 = 6;
 /// Colours of a picture.
 const MAX: usize = 256;
 
-/// Colours and, for each pixel, the number of its own. Opacity is not looked at.
+/// Colours and, for each pixel, the number of its own. Opacity is ignored.
 pub(crate) struct FewColors {
     pub(crate) colors: Vec<[u8; 3]>,
     pub(crate) pixels: Vec<u8>,
@@ -33,7 +33,7 @@ impl FewColors {
         let mut boxes = Vec::with_capacity(MAX);
         boxes.push(0..cells.len());
         while boxes.len() < MAX {
-            // The box that errs most is cut; the first of equals, everywhere.
+            // The box with the largest error is cut; of equals the first, so that results are always the same.
             let worst = boxes
                 .iter()
                 .enumerate()

@@ -1,7 +1,7 @@
 //! Pictures of one leaf and of one blossom, for the cards of [`pleach_mesh::LeafStyle::CrossedCards`].
 //!
 //! They fill the card's texture coordinates: u across, v from the tip (0) to the base (1) of a leaf;
-//! a blossom is seen from above. What is not leaf is transparent and has the leaf's colour, so that
+//! a blossom is seen from above. Pixels outside are transparent and have the leaf's colour, so that
 //! filtered edges are not dark.
 
 use crate::picture::Picture;
@@ -12,14 +12,14 @@ use pleach_plant::leaf_shape::{BlossomShape, Outline};
 
 /// Height and width in pixels.
 const SIDE: u32 = 128;
-/// Samples across and down a pixel.
+/// Samples per pixel, across and down.
 const SAMPLES: u32 = 4;
 
 type Point = [f32; 2];
 
 /// The pictures that the cards of `tree` show.
 #[must_use]
-pub fn of(tree: &Tree, palette: &Palette) -> Vec<(Material, Picture)> {
+pub fn leaf_pictures(tree: &Tree, palette: &Palette) -> Vec<(Material, Picture)> {
     let leaves = tree.leaf_shapes.iter().map(|shape| (Material::Leaf, leaf(shape, palette.leaf)));
     let blossoms =
         tree.blossom_shapes.iter().map(|&shape| (Material::Blossom, blossom(shape, palette.blossom)));
@@ -32,7 +32,7 @@ pub fn leaf(shape: &Outline, color: Color) -> Picture {
     let outline = shape.corners();
     let widest = outline.iter().map(|p| p[0].abs()).fold(f32::MIN_POSITIVE, f32::max);
     let blade: Vec<Point> = outline.iter().map(|p| [0.5 + 0.5 * p[0] / widest, 1.0 - p[1]]).collect();
-    // Needles have no side veins to be seen.
+    // Needles have no visible side veins.
     let veins = if widest > 0.1 { 7.0 } else { 0.0 };
     draw(&[blade], |u, v| leaf_shade(u, v, veins), color)
 }

@@ -12,7 +12,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Copies `other` with its upper left corner at (`x`, `y`); what reaches over the edge is left out.
+    /// Copies `other` with its upper left corner at (`x`, `y`); pixels beyond the edge are left out.
     pub fn paste(&mut self, other: &Self, x: u32, y: u32) {
         let width = other.width.min(self.width.saturating_sub(x)) as usize * 4;
         let rows = other.height.min(self.height.saturating_sub(y)) as usize;

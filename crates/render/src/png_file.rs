@@ -8,7 +8,7 @@ use std::io::{self, Write};
 /// shown for `milliseconds`.
 ///
 /// # Errors
-/// What the system says, or if there is no picture or they differ in size.
+/// An error of the system; no pictures, or pictures of different sizes.
 pub fn write(out: &mut impl Write, pictures: &[Picture], milliseconds: u16) -> io::Result<()> {
     let wrong = |what: &str| io::Error::new(io::ErrorKind::InvalidInput, what);
     let first = pictures.first().ok_or_else(|| wrong("a PNG file needs a picture"))?;
@@ -41,7 +41,7 @@ impl Picture {
     /// Writes the picture as a PNG.
     ///
     /// # Errors
-    /// What the system says, or if the picture is not a rectangle of pixels.
+    /// An error of the system, or a picture that is not a rectangle of pixels.
     pub fn write_png(&self, out: &mut impl Write) -> io::Result<()> {
         write(out, std::slice::from_ref(self), 0)
     }

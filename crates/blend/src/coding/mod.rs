@@ -1,4 +1,4 @@
-//! What the numbers of a species mean, as features that can be compared and averaged.
+//! The meaning of a species' numbers, as features that can be compared and averaged.
 //!
 //! The dissertation put the plain list of numbers into principal components (Hewitt 2017, §3.3.1)
 //! and found that signs which are switches and a `taper` that means three things spoil the blends

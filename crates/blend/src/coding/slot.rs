@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
 
 /// How far below its search range a quantity is still compared by ratio: a hundredth of it.
-const LEAST_PART: f64 = 100.0;
+const MAX_RATIO_BELOW: f64 = 100.0;
 
 /// Counts that reach beyond this are many: compared by ratio.
 const MAX_FEW: f64 = 9.0;
@@ -15,7 +15,7 @@ const MAX_FEW: f64 = 9.0;
 /// One feature.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
-    /// The slot that it says something about.
+    /// Its slot.
     pub slot: Slot,
     /// The slot's name, and which part of its meaning where there are several: `length[1]`,
     /// `shape = flame`, `rotate[2] < 0`, `taper[0] from 2`.
@@ -37,9 +37,9 @@ enum Stretch {
 impl Stretch {
     /// How numbers of this scale are stretched, where they are searched from `low` on and reach
     /// `largest`.
-    fn of(scale: Scale, low: f64, largest: f64) -> Self {
+    fn new(scale: Scale, low: f64, largest: f64) -> Self {
         match scale {
-            Scale::Log => Self::Log { floor: low / LEAST_PART },
+            Scale::Log => Self::Log { floor: low / MAX_RATIO_BELOW },
             Scale::Count if largest > MAX_FEW => Self::LogCount,
             Scale::Count | Scale::Linear | Scale::FineNearZero => Self::Linear,
         }
@@ -102,7 +102,7 @@ enum Code {
     Regimes(Vec<f64>),
 }
 
-/// The code of one slot: which features it has and what they say.
+/// The code of one slot: its features and their meaning.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SlotCode {
     first: usize,
@@ -143,7 +143,7 @@ impl SlotCode {
             }
             Kind::Real { .. } | Kind::Integer { .. } => {
                 feature(name);
-                Code::Quantity(Quantity::new(Stretch::of(scale, low, span.1), span))
+                Code::Quantity(Quantity::new(Stretch::new(scale, low, span.1), span))
             }
             Kind::Choice { first, names } => {
                 names.iter().for_each(|choice| feature(format!("{name} = {choice}")));
@@ -157,7 +157,7 @@ impl SlotCode {
                     let reach = reach.max(0.0);
                     // A magnitude begins at zero, where there is no ratio.
                     let stretch =
-                        if scale == Scale::Log { Stretch::Linear } else { Stretch::of(scale, low, reach) };
+                        if scale == Scale::Log { Stretch::Linear } else { Stretch::new(scale, low, reach) };
                     Quantity::new(stretch, (0.0, reach))
                 };
                 Code::Flagged { positive: side(span.1), negative: side(-span.0) }
@@ -220,7 +220,7 @@ impl SlotCode {
                 let is_negative = mine[0]? > 0.5;
                 let (quantity, magnitude) =
                     if is_negative { (negative, mine[2]) } else { (positive, mine[1]) };
-                // A magnitude that nobody knows belongs to a meaning that nobody has chosen.
+                // No species has this meaning, so its magnitude is never used.
                 let magnitude = quantity.decode(magnitude?.max(0.0));
                 Some(if is_negative { -magnitude } else { magnitude })
             }

@@ -55,7 +55,7 @@ pub(super) fn isoline(grid: &Grid<f64>, level: f64) -> Vec<Piece> {
     pieces
 }
 
-/// Pieces of the lines between samples that differ, each with what `weight` says of the two.
+/// Pieces of the lines between samples that differ, each with the `weight` of the two.
 pub(super) fn boundaries<T>(grid: &Grid<T>, weight: impl Fn(&T, &T) -> f64) -> Vec<(Piece, f64)> {
     let mut pieces = Vec::new();
     grid.squares(|origin, samples| {
@@ -182,7 +182,7 @@ mod tests {
         // A parabola's middle is not the mean of its ends: Catmull and Rom's curve hits it.
         let middle = *fine.at(10, 6).unwrap();
         assert!((middle - sample(2.5, 1.5)).abs() < 1e-12, "{middle}");
-        // What is missing stays missing, and nothing else does.
+        // Missing samples stay missing, and no others become so.
         cells[8] = None;
         let fine = refined(&Grid { columns: 6, cells }, 4);
         assert!(fine.at(8, 4).is_none() && fine.at(9, 4).is_none() && fine.at(8, 5).is_none());

@@ -19,10 +19,10 @@ use pleach_silhouette::Bitmap;
 use switches::switch_lines_on;
 pub use switches::{Switch, switch_lines};
 
-/// What is drawn beside dots, names, regions and hull.
+/// Optional layers beside dots, names, regions and hull.
 #[derive(Clone, Debug, Default)]
 pub struct Extras {
-    /// A silhouette for each landmark, in their order; none for a map without thumbnails.
+    /// A silhouette for each landmark, in their order; `None` for a map without thumbnails.
     pub thumbnails: Vec<Bitmap>,
     /// Iso-lines of these traits.
     pub traits: Vec<TraitField>,
@@ -50,7 +50,7 @@ const HEAD: f64 = 76.0;
 const SWITCH_COLUMNS: usize = 240;
 /// Samples of the plane across, for iso-lines of traits.
 const TRAIT_COLUMNS: usize = 21;
-/// Each piece between two samples of a trait becomes so many, on a smooth curve, for its iso-lines.
+/// Pieces, on a smooth curve, that each interval between two samples of a trait is cut into for its iso-lines.
 const REFINED: usize = 6;
 
 const INK: Color = Color::opaque([40, 40, 40]);
@@ -90,7 +90,7 @@ impl Sheet {
         (self.origin.0 + (p.x - self.low.x) * self.scale, self.origin.1 + (self.high.y - p.y) * self.scale)
     }
 
-    /// Points of a grid of so many columns, row by row from the top, and the number of rows.
+    /// Points of a grid of this many columns, row by row from the top, and the number of rows.
     fn grid(&self, columns: usize) -> (Vec<Point>, usize) {
         let step = (self.high.x - self.low.x) / (columns - 1) as f64;
         let rows = ((self.high.y - self.low.y) / step).floor() as usize + 1;
@@ -177,7 +177,7 @@ fn regions(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) {
             scene.add(Shape::Polygon { corners, fill: pastel(landmark) });
         }
     }
-    // What lies outside the hull is paled: no species vouches for it.
+    // Outside the hull trees are extrapolated: paler.
     if !map.hull().is_flat() {
         let page = [
             sheet.low,
@@ -325,7 +325,7 @@ fn species(map: &BlendMap, sheet: &Sheet, thumbnails: &[Bitmap], scene: &mut Sce
     }
 }
 
-/// What is seen, and how much of it: two axes seldom hold all that species differ by.
+/// The caption: which axes, and their share of the variance, since two axes rarely hold all differences.
 fn title(map: &BlendMap) -> String {
     let count = map.dots().len();
     if map.is_by_components() {

@@ -80,7 +80,7 @@ pub enum Shape {
     Text {
         /// The text.
         text: String,
-        /// The point of its baseline that `anchor` says.
+        /// The point of its baseline that `anchor` names.
         at: (f64, f64),
         /// Pixels to the em.
         size: f64,
@@ -89,7 +89,7 @@ pub enum Shape {
         /// Its colour.
         color: Color,
     },
-    /// A silhouette in black, one pixel a pixel; where there is no ink, what lies below is seen.
+    /// A silhouette in black at its own size, transparent where there is no ink.
     Silhouette {
         /// The silhouette.
         bitmap: Bitmap,
@@ -282,7 +282,7 @@ fn element(shape: &Shape) -> String {
     }
 }
 
-/// A silhouette as one path of runs of ink, a pixel high each.
+/// A silhouette as one path of runs of ink, each one pixel high.
 fn silhouette(bitmap: &Bitmap, x: f64, y: f64) -> String {
     let mut runs = String::new();
     for row in 0..bitmap.height() {

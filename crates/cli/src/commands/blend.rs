@@ -38,7 +38,7 @@ pub(crate) struct BlendCommand {
     /// On a straight line over the map that `pleach map` draws, taking something of each species that it passes
     #[arg(long, conflicts_with_all = ["weights", "point"])]
     across_the_map: bool,
-    /// Of the named species only: what is done anyway
+    /// A mixture of the named species only (the default)
     #[arg(long, hide = true, conflicts_with = "across_the_map")]
     straight: bool,
     /// Shares of several species, by name or file
@@ -48,7 +48,7 @@ pub(crate) struct BlendCommand {
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = point,
         conflicts_with_all = ["straight", "steps", "at"])]
     point: Option<Point>,
-    /// Instead of one tree, so many from the first species to the second
+    /// Instead of one tree, a row of this many from the first species to the second
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=101), requires = "out", conflicts_with = "at")]
     steps: Option<u16>,
     /// The species file to write, or a folder for it that ends in a slash; `-`, the default, is standard output. With --steps a folder
@@ -97,19 +97,19 @@ fn shares(text: &str) -> Result<Shares, String> {
     Ok(shares)
 }
 
-/// A blend, and how it came about.
+/// A blend and its recipe.
 struct Made {
     species: Species,
     /// What it is made of, by name.
     recipe: Vec<(String, f64)>,
     /// How far outside the hull of the map's species it is; 0 without a map.
     outside: f64,
-    /// Where on a map of so many species it is.
+    /// Its place on a map, and the number of species there.
     place: Option<(Point, usize)>,
 }
 
 impl Made {
-    fn of(landmarks: &Landmarks, blend: Blend, place: Option<(Point, usize)>) -> Self {
+    fn new(landmarks: &Landmarks, blend: Blend, place: Option<(Point, usize)>) -> Self {
         let name = |landmark: usize| landmarks.species()[landmark].name.clone();
         Self {
             recipe: blend.weights.present().map(|(l, w)| (name(l), w)).collect(),
@@ -120,7 +120,7 @@ impl Made {
     }
 
     fn straight(landmarks: &Landmarks, weights: Weights) -> Self {
-        Self::of(landmarks, Blend { params: landmarks.mix(&weights), weights, outside: 0.0 }, None)
+        Self::new(landmarks, Blend { params: landmarks.mix(&weights), weights, outside: 0.0 }, None)
     }
 
     /// All of one species.
@@ -159,7 +159,7 @@ impl BlendCommand {
         if let Some(point) = self.point {
             let map = self.map.map(&[])?;
             let place = Some((point, map.dots().len()));
-            return self.write_one(Made::of(map.landmarks(), map.at(point)?, place));
+            return self.write_one(Made::new(map.landmarks(), map.at(point)?, place));
         }
         let ends = [&self.from, &self.to].into_iter().flatten();
         let ends = ends.map(|name| Ok(input::species(name)?)).collect::<anyhow::Result<Vec<Species>>>()?;
@@ -179,7 +179,7 @@ impl BlendCommand {
         self.write(&names, |at| Ok(Made::straight(&landmarks, landmarks.between(from, to, at)?)))
     }
 
-    /// Writes the blend, or the row of blends, that was asked for.
+    /// Writes the blend or the row of blends.
     fn write(
         &self,
         names: &[String; 2],
@@ -218,7 +218,7 @@ impl BlendCommand {
         for (name, share) in shares {
             let landmark = match landmarks.named(name) {
                 Ok(landmark) => landmark,
-                // An alias or a file: its name is another.
+                // An alias or a file, whose species has another name.
                 Err(_) => landmarks.named(&input::species(name)?.name)?,
             };
             all[landmark] += share;
@@ -235,9 +235,7 @@ impl BlendCommand {
         let text = made.species.to_toml(&made.comments());
         if made.outside > 0.0 {
             let outside = readable((made.outside * 100.0).round() / 100.0);
-            output::note(format!(
-                "{outside} outside the hull of the species: extrapolated, no species vouches for this tree"
-            ));
+            output::note(format!("{outside} outside the hull of the species: this tree is extrapolated"));
         }
         if let Some(path) = &file {
             if let Some(folder) = path.parent().filter(|_| self.out_is_folder()) {
@@ -262,7 +260,7 @@ impl BlendCommand {
         self.out.as_deref().is_some_and(names_folder)
     }
 
-    /// The file of a single blend; none for standard output.
+    /// The file of a single blend; `None` for standard output.
     fn file(&self) -> anyhow::Result<Option<PathBuf>> {
         let Some(path) = self.out.as_deref().filter(|path| path.as_os_str() != "-") else {
             return Ok(None);
@@ -341,5 +339,5 @@ fn across(map: &BlendMap, [first, second]: &[String; 2], at: f64) -> anyhow::Res
     let landmarks = map.landmarks();
     let point = map.between(landmarks.named(first)?, landmarks.named(second)?, at)?;
     let blend = map.at(point).with_context(|| format!("there is no tree {at} of the way"))?;
-    Ok(Made::of(landmarks, blend, Some((point, map.dots().len()))))
+    Ok(Made::new(landmarks, blend, Some((point, map.dots().len()))))
 }

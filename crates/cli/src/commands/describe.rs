@@ -1,4 +1,4 @@
-//! What is said of goals and masks: `fit` and `mask` use the same words.
+//! Descriptions of goals and masks, in the same words for `fit` and `mask`.
 
 use pleach_silhouette::goal::{Goal, Origin};
 use pleach_silhouette::mask::{Mask, Segmentation};
@@ -30,7 +30,7 @@ pub(super) fn cannot(photo: &Path) -> String {
     format!("cannot make a mask of {}", photo.display())
 }
 
-/// How the tree was told from the background.
+/// How the tree was separated from the background.
 pub(super) fn means(mask: &Mask) -> String {
     match mask.segmentation {
         Segmentation::Opacity => "the picture has an alpha channel: the tree is what is opaque".to_owned(),

@@ -45,13 +45,13 @@ enum Action {
     },
 }
 
-/// What of an experiment is run.
+/// Which part of an experiment is run.
 #[derive(Clone, Debug, Default, clap::Args)]
 struct Part {
-    /// Only this method, again for further ones; rows of the others stay as they are (kind treefit)
+    /// Run only this method (may be repeated); rows of the others stay as they are (kind treefit)
     #[arg(long = "method", value_name = "NAME")]
     methods: Vec<String>,
-    /// Go on with a run that was interrupted or killed: rows that it had finished are kept
+    /// Continue a run that was interrupted or killed: rows that it had finished are kept
     #[arg(long)]
     resume: bool,
     /// Start over although an unfinished run has left rows
@@ -62,7 +62,7 @@ struct Part {
 /// Which part of an experiment is checked.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 struct Slice {
-    /// Only the first so many repetitions
+    /// Only this many repetitions, the first ones
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     repetitions: Option<u64>,
     /// Only up to this many evaluations of a fit

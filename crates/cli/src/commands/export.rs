@@ -115,7 +115,7 @@ impl MeshArgs {
         self.forest.is_some()
     }
 
-    /// Whether trees are to be grown with leaves, if `--leaves` says how they are drawn.
+    /// Whether trees are grown with leaves, if `--leaves` is given.
     pub(super) fn foliage(&self) -> Option<Foliage> {
         let leaves = self.leaves?;
         Some(if leaves == LeafForm::None { Foliage::None } else { Foliage::All })
@@ -138,7 +138,7 @@ impl MeshArgs {
         }
     }
 
-    /// Fails if files beside the one at `path` are wanted: standard output has none beside it.
+    /// Fails if files beside the one at `path` are needed: standard output has no place for them.
     pub(super) fn check_alone(&self, path: &Path, format: Format) -> anyhow::Result<()> {
         let format = match format {
             Format::Mesh(format) if format != MeshFormat::Glb => format,

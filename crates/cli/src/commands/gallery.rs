@@ -19,7 +19,7 @@ fn across(count: usize) -> u32 {
     (1..).find(|n| 2 * n * n >= count as u32).unwrap_or(1)
 }
 
-/// Draws the sheet, `size` pixels per tree; `columns` species per row, or so many that it is about square.
+/// Draws the sheet, `size` pixels per tree; `columns` species per row, by default about a square.
 pub(super) fn sheet(
     all: &[Species],
     columns: Option<u32>,

@@ -28,7 +28,7 @@ pub(crate) struct GrammarCommand {
     /// Write the turtle's drawing in the plane, after --derive steps or the grammar's own; `-` for standard output
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Say what is wrong or odd, and print nothing else
+    /// Print mistakes and oddities, and nothing else
     #[arg(long, conflicts_with_all = ["derive", "svg"])]
     check: bool,
     /// Seed of all draws
@@ -83,7 +83,7 @@ impl GrammarCommand {
             return Ok((system, Some(species.params.values().to_vec())));
         }
         let mut bytes = Vec::new();
-        // One byte more than allowed, so that what is too large is seen to be.
+        // One byte more than allowed, to notice a file that is too large.
         let limit = MAX_BYTES as u64 + 1;
         if input::is_standard(path) {
             let read = std::io::stdin().lock().take(limit).read_to_end(&mut bytes);

@@ -32,13 +32,13 @@ pub(super) struct MapArgs {
     /// All built-in species instead of the fifteen of the dissertation
     #[arg(long)]
     all: bool,
-    /// The built-in species of this generator, so far as they have the same parameters
+    /// The built-in species of this generator that have the same parameters
     #[arg(long, value_name = "NAME", value_parser = pleach_generators::family, conflicts_with_all = ["all", "only"])]
     generator: Option<&'static dyn Family>,
     /// Only these built-in species
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', conflicts_with = "all")]
     only: Option<Vec<String>>,
-    /// Leave out species files that are broken, and say so
+    /// Leave out broken species files, with a note for each
     #[arg(long)]
     keep_going: bool,
     /// Where the dots stand
@@ -101,8 +101,8 @@ impl MapArgs {
         self.features
     }
 
-    /// Refuses options that choose or place the species of a map, where no map is asked for. Shares may
-    /// be of `--species`, and `--all` says what holds for their names anyway.
+    /// Refuses options that choose or place the species of a map, where no map is asked for. `--species`
+    /// and `--all` are allowed: shares may name such species.
     pub(super) fn refuse_without_map(&self, has_shares: bool) -> anyhow::Result<()> {
         let given = [
             ("--layout", self.layout != Layout::default()),
@@ -167,7 +167,7 @@ fn by_looks(species: &[Species]) -> anyhow::Result<Vec<Point>> {
     let unlike = looks::unlikeness(species)?;
     let dots = looks::scale(&unlike);
     output::note(format!(
-        "the plane shows {:.0} % of how unlike the silhouettes are (stress {:.2})",
+        "the plane shows {:.0} % of the differences between the silhouettes (stress {:.2})",
         100.0 * (1.0 - looks::stress(&unlike, &dots)),
         looks::stress(&unlike, &dots)
     ));

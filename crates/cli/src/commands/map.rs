@@ -25,11 +25,11 @@ Every point inside the dashed line is a tree; `pleach blend --point X,Y` writes 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Map {
-    /// Folder for what is written: map.png, map.svg, map.csv (the dots) and loadings.csv (every axis).
+    /// Folder to write to: map.png, map.svg, map.csv (the dots) and loadings.csv (every axis).
     /// Several files, so `-` for standard output is refused
     #[arg(short, long, value_name = "DIR", value_parser = folder)]
     out: PathBuf,
-    /// Also write grid.png: so many trees across and down the plane
+    /// Also write grid.png: this many trees across and down the plane
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = grid)]
     grid: Option<(usize, usize)>,
     /// Draw iso-lines of traits: height_to_width, ink, bare_trunk, branch_angle, droop
@@ -60,7 +60,7 @@ fn folder(text: &str) -> Result<PathBuf, String> {
 
 /// `9x9`.
 fn grid(text: &str) -> Result<(usize, usize), String> {
-    let hint = || format!("`{text}` is no grid, expected COLUMNSxROWS from 1x1 to 40x40, such as 9x9");
+    let hint = || format!("`{text}` is not a grid, expected COLUMNSxROWS from 1x1 to 40x40, such as 9x9");
     let (columns, rows) = text.split_once(['x', '×']).ok_or_else(hint)?;
     let number = |part: &str| part.trim().parse().ok().filter(|n| (1..=40).contains(n)).ok_or_else(hint);
     Ok((number(columns)?, number(rows)?))
@@ -75,7 +75,7 @@ fn trait_named(name: &str) -> Result<Measure, String> {
     })
 }
 
-/// With fewer species any trait seems to go with an axis: two dots always lie on a line.
+/// With fewer species any trait correlates with an axis: two dots always lie on a line.
 const FEWEST_TO_CORRELATE: usize = 5;
 
 /// Height and width of a thumbnail on the map, and of a tree on a sheet, in pixels.
@@ -122,7 +122,7 @@ fn sample(map: &BlendMap, traits: &[Measure], seed: u64) -> anyhow::Result<Vec<T
     let points = picture::trait_points(map);
     let species = species_at(map, &points.iter().flatten().copied().collect::<Vec<_>>())?;
     let measured =
-        each_tree(&species, seed, |tree, _| traits.iter().map(|t| t.of(tree)).collect::<Vec<f64>>())?;
+        each_tree(&species, seed, |tree, _| traits.iter().map(|t| t.value(tree)).collect::<Vec<f64>>())?;
     let fields = traits.iter().enumerate().map(|(number, &of)| {
         let mut values = measured.iter().map(|values| values[number]);
         TraitField { of, values: points.iter().map(|point| point.and_then(|_| values.next())).collect() }
@@ -186,7 +186,7 @@ fn write_loadings(map: &BlendMap, path: &Path) -> anyhow::Result<()> {
 type Direction = (Measure, [f64; 2]);
 
 fn directions(map: &BlendMap, seed: u64) -> anyhow::Result<Vec<Direction>> {
-    let measure = |tree: &pleach_tree::Tree| Measure::ALL.map(|t| t.of(tree));
+    let measure = |tree: &pleach_tree::Tree| Measure::ALL.map(|t| t.value(tree));
     let measured = each_tree(map.landmarks().species(), seed, |tree, _| measure(tree))?;
     let axes: [Vec<f64>; 2] =
         [map.dots().iter().map(|d| d.x).collect(), map.dots().iter().map(|d| d.y).collect()];

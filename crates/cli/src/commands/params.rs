@@ -1,4 +1,4 @@
-//! `pleach params`: the declared parameters, and what else a species file may say.
+//! `pleach params`: the declared parameters, and the other keys of species files.
 
 use crate::output;
 use anyhow::{Context, bail};

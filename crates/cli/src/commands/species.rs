@@ -1,4 +1,4 @@
-//! `pleach species`: what is known, or one species as a file.
+//! `pleach species`: the known species, or one of them as a file.
 
 use crate::{input, output};
 use pleach_tree::species::{Form, Key, appearance_keys};

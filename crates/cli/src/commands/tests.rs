@@ -10,7 +10,7 @@ fn examples(command: &Command) -> Vec<String> {
     let text = command.get_after_help().map(ToString::to_string).unwrap_or_default().replace("\\\n", " ");
     let lines = text.lines().skip_while(|line| *line != "Examples:").skip(1);
     for line in lines.take_while(|line| !line.is_empty()).map(str::trim) {
-        // What stands behind a command is set apart by two spaces; shells take care of the rest.
+        // Two spaces separate a command from its comment; shells handle the rest.
         let commands = line.split("  ").next().unwrap_or_default().split("&&");
         found.extend(commands.map(|c| c.split(" > ").next().unwrap_or_default().trim().to_owned()));
     }
@@ -48,11 +48,11 @@ fn commands_of(page: &str) -> Vec<(String, bool)> {
         for (part, named) in block.chain(quoted) {
             let command = part.strip_prefix("cargo run --release -- ").map(|rest| format!("pleach {rest}"));
             let command = command.unwrap_or_else(|| part.to_owned());
-            // Prose begins like a command as well, and `…` is left to the reader.
+            // Prose may begin like a command, and `…` stands for something that the reader fills in.
             let prose = command.ends_with('.') || command.contains("finds the parameters");
             let prose = prose || command.contains('…');
             if command.starts_with("pleach ") && !prose {
-                // What follows two spaces is said of the command; a shell sees to the rest.
+                // Two spaces separate a command from its comment; a shell handles the rest.
                 let command = ["  ", " | ", " > "]
                     .iter()
                     .fold(command.as_str(), |command, end| command.split(end).next().unwrap_or_default());
@@ -66,11 +66,14 @@ fn commands_of(page: &str) -> Vec<(String, bool)> {
 #[test]
 fn every_command_of_the_pages_is_understood() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let experiments = std::fs::read_dir(root.join("experiments")).unwrap();
-    let mut pages: Vec<_> = experiments.map(|entry| entry.unwrap().path().join("README.md")).collect();
-    pages.extend(
-        ["README.md", "docs/cluster.md", "docs/figures.md", "targets/README.md"].map(|page| root.join(page)),
-    );
+    let in_folder = |folder: &str| {
+        std::fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path()).collect::<Vec<_>>()
+    };
+    let mut pages: Vec<_> =
+        in_folder("experiments").into_iter().map(|folder| folder.join("README.md")).collect();
+    pages.extend([in_folder("docs"), in_folder("docs/decisions")].concat());
+    pages.retain(|page| page.extension().is_some_and(|ending| ending == "md"));
+    pages.extend(["README.md", "targets/README.md"].map(|page| root.join(page)));
     let (mut count, mut wrong) = (0, Vec::new());
     for page in pages {
         for (command, named) in commands_of(&std::fs::read_to_string(&page).unwrap()) {
@@ -90,5 +93,5 @@ fn every_command_of_the_pages_is_understood() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert!(count > 60, "{count} commands were found");
+    assert!(count > 100, "{count} commands were found");
 }

@@ -6,7 +6,7 @@
 use pleach_tests::{Dir, program, root};
 use std::process::{Command, Output};
 
-/// Runs `pleach` with `args` where no more than 1.5 GB and 10 s of processor time are to be had.
+/// Runs `pleach` with `args` under limits of 1.5 GB and 10 s of processor time.
 ///
 /// Two threads, since each reserves address space beside what it uses.
 fn bounded(dir: &Dir, args: &str) -> Output {

@@ -31,7 +31,7 @@ fn spawn(dir: &Dir, args: &[&str]) -> Child {
 
 fn ended(child: Child) -> Run {
     let output: Output = child.wait_with_output().unwrap();
-    Run::of("a worker".to_owned(), output)
+    Run::new("a worker".to_owned(), output)
 }
 
 /// A table without the columns that depend on the clock, which come last.
@@ -174,7 +174,7 @@ fn a_full_disk_fails_a_goal_and_loses_none() {
     let mut shell = Command::new("sh");
     let output =
         shell.current_dir(dir.path("")).args(["-c", &script]).arg(pleach_tests::program()).output().unwrap();
-    let run = Run::of(script, output);
+    let run = Run::new(script, output);
     run.fails(1, &["[1/2] goals/1.png: failed: cannot write runs/1/", "2 of 2 goals failed"]);
     assert!(!dir.path("runs/1/summary.json").exists(), "what is not whole is no result");
     let temporary = |folder: &str| {
@@ -216,7 +216,7 @@ fn gnu_parallel_tries_a_killed_shard_again() {
     let mut script = Command::new(root().join("docs/cluster/parallel.sh"));
     script.current_dir(dir.path("")).env("REAL", pleach_tests::program()).env("PLEACH", "./killed");
     let run =
-        Run::of("parallel.sh".to_owned(), script.arg(GOALS.to_string()).args(&options).output().unwrap());
+        Run::new("parallel.sh".to_owned(), script.arg(GOALS.to_string()).args(&options).output().unwrap());
     let _ = run.ok();
     assert!(dir.path("once").exists(), "one was killed");
     let _ = dir.run(["collect", "runs", "--list", "goals.csv"]).ok();
@@ -242,7 +242,7 @@ fn hyperqueue_loses_nothing_when_a_worker_is_killed() {
     let mut script = Command::new("python3");
     script.current_dir(dir.path("")).arg(root().join("tests/cluster/kill_a_worker.py")).arg(root());
     script.arg(pleach_tests::program()).arg("runs").args(&FIT[1..]);
-    let run = Run::of("kill_a_worker.py".to_owned(), script.output().unwrap());
+    let run = Run::new("kill_a_worker.py".to_owned(), script.output().unwrap());
     assert!(run.ok().contains("one worker killed"), "{run}");
 
     let run = dir.run(["collect", "runs", "--list", "goals.csv", "-o", "all.csv"]);

@@ -70,7 +70,7 @@ fn absurd_ranges_of_seeds_are_refused() {
     assert!(!dir.path("forest").exists());
 }
 
-/// Whoever reads the lines has the first ones long before the last tree is grown.
+/// A reader gets the first lines long before the last tree is grown.
 #[test]
 fn lines_of_seeds_come_as_they_are_made() {
     use std::io::BufRead as _;

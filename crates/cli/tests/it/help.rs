@@ -157,7 +157,7 @@ fn cut_short(line: &str) -> String {
     match line.split(' ').nth(1) {
         Some("fit") => {
             set("--evaluations", "20");
-            // These say themselves where the search begins, and their stems are not dealt anew.
+            // These say themselves where the search begins, and their stems have no draws of their own.
             if !["--evolve-rules", "--volume-from"].iter().any(|option| line.contains(option)) {
                 set("--individual", "8trees");
                 set("--from", "palm");

@@ -20,7 +20,7 @@ fn piped(dir: &Dir, args: &[&str], bytes: &[u8]) -> Run {
     let writer = std::thread::spawn(move || drop(input.write_all(&bytes)));
     let output = child.wait_with_output().unwrap();
     writer.join().unwrap();
-    Run::of(format!("{args:?} with a pipe"), output)
+    Run::new(format!("{args:?} with a pipe"), output)
 }
 
 const QUICK: [&str; 8] = ["--evaluations", "12", "--size", "64", "--from", "acer", "--free", "crown"];
@@ -153,5 +153,5 @@ fn a_colour_profile_that_unpacks_to_a_gigabyte_fits_in_less() {
         target("acer.png").display()
     );
     let output = std::process::Command::new("sh").args(["-c", &script]).output().unwrap();
-    assert_eq!(Run::of("a bomb".to_owned(), output).json()["iou"], 1.0);
+    assert_eq!(Run::new("a bomb".to_owned(), output).json()["iou"], 1.0);
 }

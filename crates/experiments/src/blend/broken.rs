@@ -9,7 +9,7 @@ use pleach_tree::{Kind, Slot, Species};
 /// The palm with each other species: what is broken about a blend.
 pub(super) fn palm(maps: &Maps, rows: &mut Rows) -> anyhow::Result<()> {
     let palm = maps.declared.landmarks().named("palm")?;
-    let ranges = Ranges::of(maps.species())?;
+    let ranges = Ranges::new(maps.species())?;
     for other in (0..maps.species().len()).filter(|&i| i != palm) {
         let pair = (palm, other);
         let ends = [&maps.species()[palm], &maps.species()[other]];

@@ -33,7 +33,7 @@ pub(super) struct Maps {
 }
 
 impl Maps {
-    pub(super) fn of(species: &[Species]) -> anyhow::Result<Self> {
+    pub(super) fn new(species: &[Species]) -> anyhow::Result<Self> {
         let map = |features| BlendMap::new(species.to_vec(), Settings { features, dots: None });
         Ok(Self { declared: map(Encoding::Declared)?, raw: map(Encoding::Raw)? })
     }

@@ -71,8 +71,8 @@ impl Experiment for BlendSpec {
 
     /// A job for each question.
     fn rows(&self, _: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
-        let maps = Maps::of(&self.species()?)?;
-        let most = slice.of(usize::MAX);
+        let maps = Maps::new(&self.species()?)?;
+        let most = slice.take_of(usize::MAX);
         let mut job = |question: &str, make: &dyn Fn(&mut Rows) -> anyhow::Result<()>| {
             let rows = || {
                 let mut rows = Rows(Vec::new());
@@ -96,7 +96,7 @@ impl Experiment for BlendSpec {
     }
 
     fn report(&self, _: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
-        let maps = Maps::of(&self.species()?)?;
+        let maps = Maps::new(&self.species()?)?;
         pictures::figure(&maps, outputs)?;
         pictures::with_palm(&maps, outputs)?;
         Ok(summary(&table.records()?))
@@ -136,7 +136,7 @@ fn leave_one_out(maps: &Maps, most: usize, rows: &mut Rows) -> anyhow::Result<()
     for (i, species) in all.iter().enumerate().take(most) {
         stop::check()?;
         let others: Vec<Species> = all.iter().filter(|s| s.name != species.name).cloned().collect();
-        let without = Maps::of(&others)?;
+        let without = Maps::new(&others)?;
         let code =
             |s: &Species| maps.declared.landmarks().coding().encode(s.generator.as_ref(), s.params.values());
         let nearest = others
@@ -169,7 +169,7 @@ fn unlike(one: &Species, two: &Species) -> f64 {
     const SEEDS: u64 = 4;
     let pair = [one.clone(), two.clone()];
     let overlaps = (1..=SEEDS).map(|seed| {
-        // What does not grow overlaps nothing.
+        // A tree that does not grow has no overlap.
         silhouettes(&pair, seed, DRAWING).map_or(0.0, |drawn| blurred_iou(&drawn[0], &drawn[1], BLUR))
     });
     1.0 - overlaps.sum::<f64>() / SEEDS as f64
@@ -178,7 +178,7 @@ fn unlike(one: &Species, two: &Species) -> f64 {
 /// Random points of the hull: do all grow, and into something like a tree?
 fn validity(maps: &Maps, points: usize, rows: &mut Rows) -> anyhow::Result<()> {
     let map = &maps.declared;
-    let ranges = Ranges::of(maps.species())?;
+    let ranges = Ranges::new(maps.species())?;
     let points = inside(map, points);
     let bar = progress("points", points.len() as u64);
     let verdicts: Vec<(bool, bool)> = points

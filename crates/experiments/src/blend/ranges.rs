@@ -1,4 +1,4 @@
-//! What is still like a tree: within twice the range of the species.
+//! Whether numbers are still like a tree's: within twice the range of the species.
 
 use super::{DRAWING, SEED};
 use pleach_blend::draw::{each_tree, picture};
@@ -11,7 +11,7 @@ pub(super) struct Ranges([(f64, f64); 3]);
 pub(super) const GENEROUS: f64 = 2.0;
 
 impl Ranges {
-    pub(super) fn of(species: &[Species]) -> anyhow::Result<Self> {
+    pub(super) fn new(species: &[Species]) -> anyhow::Result<Self> {
         let known = each_tree(species, SEED, |tree, _| figures(tree))?;
         let range = |i: usize| {
             known

@@ -1,4 +1,4 @@
-//! How alike neighbours are on the way from one species to another.
+//! The similarity of neighbours on the way from one species to another.
 
 use super::maps::{METHODS, Maps, Method};
 use super::ranges::grow;
@@ -20,7 +20,7 @@ pub(super) fn smoothness(maps: &Maps, steps: u32, most: usize, rows: &mut Rows) 
             .par_iter()
             .map(|&pair| {
                 stop::check()?;
-                let line = Line::of(maps, method, pair, steps);
+                let line = Line::new(maps, method, pair, steps);
                 bar.inc(1);
                 line
             })
@@ -54,7 +54,7 @@ struct Line {
 }
 
 impl Line {
-    fn of(maps: &Maps, method: Method, pair: (usize, usize), steps: u32) -> anyhow::Result<Self> {
+    fn new(maps: &Maps, method: Method, pair: (usize, usize), steps: u32) -> anyhow::Result<Self> {
         let at = |i: u32| maps.between(method, pair, f64::from(i) / f64::from(steps));
         let species = (0..=steps).map(at).collect::<anyhow::Result<Vec<_>>>()?;
         let mut rasterizer = Rasterizer::new();

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct IndividualGoal {
-    /// What it is called; its file or its species unless said.
+    /// Its name; by default its file's or its species'.
     name: Option<FileName>,
     /// The picture, from the experiment's folder.
     pub(super) file: Option<PathBuf>,
@@ -29,7 +29,7 @@ pub(super) struct IndividualGoal {
     /// Whether there is a second picture, from the side; of species only.
     #[serde(default)]
     two_views: bool,
-    /// The goals that it stands with in the report.
+    /// Its group of goals in the report.
     group: FileName,
 }
 
@@ -38,7 +38,7 @@ const fn yes() -> bool {
 }
 
 impl IndividualGoal {
-    /// What it is called in the results.
+    /// Its name in the results.
     pub(super) fn name(&self) -> String {
         if let Some(name) = &self.name {
             return name.to_string();
@@ -56,7 +56,7 @@ impl IndividualGoal {
         &self.group
     }
 
-    /// What is wrong with it, if anything.
+    /// How it is spoilt, if it is.
     pub(super) fn check(&self) -> Result<(), &'static str> {
         match (&self.file, self.height.is_some(), &self.species, self.seed.is_some()) {
             (Some(_), true, None, false) if !self.two_views => Ok(()),
@@ -78,7 +78,7 @@ impl IndividualGoal {
         Ok(Some(if self.leaves { species.grow(**seed)? } else { species.grow_bare(**seed)? }))
     }
 
-    /// What is fitted; a first guess finds the species.
+    /// The problem to fit; a first guess finds the species.
     pub(super) fn problem(&self, folder: &Path) -> anyhow::Result<FitProblem> {
         let start = pleach_generators::presets(pleach_generators::default_family());
         let start = start.into_iter().next().context("a generator has species that are built in")?;

@@ -220,7 +220,7 @@ impl IndividualSpec {
         let objective = fitted.settings.objective;
         let fresh =
             fresh_seeds(problem, objective, Limits::default(), &best.genome, FRESH, stop::flag().into())?;
-        let natural = Natural::of(&found.species, front, foliage)?;
+        let natural = Natural::new(&found.species, front, foliage)?;
         if !stop::is_raised() {
             files::make_folder(&folder.join("fits"))?;
             let name = goal.name();

@@ -1,4 +1,4 @@
-//! Whether an individual can be told from the trees that its species draws.
+//! Whether an individual can be distinguished from the trees that its species draws.
 
 use super::SIDE;
 use crate::pictured::draw;
@@ -26,7 +26,7 @@ pub(super) struct Natural {
 
 impl Natural {
     /// Compares the individual of `species`, which stands as `front` shows it.
-    pub(super) fn of(species: &Species, front: &GoalView, foliage: Foliage) -> anyhow::Result<Self> {
+    pub(super) fn new(species: &Species, front: &GoalView, foliage: Foliage) -> anyhow::Result<Self> {
         let own = species.tree_seed.unwrap_or_default();
         let side = GoalView { view: View::degrees(SIDE, 0.0), ..front.clone() };
         let seeds: Vec<u64> = (0..FREE).map(|i| own + FIRST + i).collect();

@@ -1,4 +1,4 @@
-//! What a goal would be without being a tree: shapes that overlap it well.
+//! Shapes that overlap a goal well without being a tree.
 
 use super::SIDE;
 use pleach_silhouette::Bitmap;
@@ -9,7 +9,7 @@ pub(super) const BLOBS: [&str; 5] =
     ["ellipse", "convex hull", "blurred 1/64", "blurred 1/32", "blurred 1/16"];
 
 /// The goal's best ellipse, its filled convex hull, and its ink blurred by parts of the height and cut at half.
-pub(super) fn of(goal: &Bitmap) -> [Bitmap; BLOBS.len()] {
+pub(super) fn blobs_like(goal: &Bitmap) -> [Bitmap; BLOBS.len()] {
     let blurred = |part: f64| blob(goal, f64::from(SIDE) / part);
     [best_ellipse(goal), hull(goal), blurred(64.0), blurred(32.0), blurred(16.0)]
 }

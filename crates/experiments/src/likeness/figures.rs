@@ -37,13 +37,13 @@ pub(super) fn sheet(outputs: &Outputs, spec: &LikenessSpec) -> anyhow::Result<()
         let others = trees.iter().filter(|d| d.seed > tuned && !(d.species == *name && d.seed == seed));
         let mut candidates: Vec<(String, &Seen)> =
             others.map(|d| (format!("{} {}", d.species.replace('_', " "), d.seed), &d.seen)).collect();
-        let shapes = blobs::of(&goal.seen.bitmap).map(Seen::new);
+        let shapes = blobs::blobs_like(&goal.seen.bitmap).map(Seen::new);
         candidates.extend(BLOBS.iter().map(|s| (*s).to_owned()).zip(&shapes));
         for (m, head) in [(0, "by likeness"), (1, "by IoU")] {
             cells.push((format!("goal {}, {head}", name.replace('_', " ")), goal.seen.bitmap.clone()));
             let mut ranked: Vec<(f64, &str, &Seen)> = candidates
                 .iter()
-                .map(|(label, seen)| (measures::of(seen, &goal.seen)[m], label.as_str(), *seen))
+                .map(|(label, seen)| (measures::compare(seen, &goal.seen)[m], label.as_str(), *seen))
                 .collect();
             ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
             let best = ranked.into_iter().take(COLUMNS - 1);

@@ -47,7 +47,7 @@ impl Seen {
 }
 
 /// Every measure of two pictures of one size; all are the same both ways.
-pub(super) fn of(a: &Seen, b: &Seen) -> Values {
+pub(super) fn compare(a: &Seen, b: &Seen) -> Values {
     let likeness = a.descriptor.compare(&b.descriptor);
     let both = a.bitmap.intersection(&b.bitmap);
     let inks = a.bitmap.ink() + b.bitmap.ink();

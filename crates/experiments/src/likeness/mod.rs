@@ -29,7 +29,7 @@ use toml::Spanned;
 struct Answer {
     question: String,
     set: String,
-    /// What another tree of the species had to beat, or the parameter that walked.
+    /// The competitor that another tree of the species had to beat, or the parameter that changed.
     against: String,
     measure: String,
     /// How many the value was made from.
@@ -64,7 +64,7 @@ impl Kind for LikenessSpec {
             let is_own = |row: &Answer| row.question != "walk" && row.set.starts_with("own");
             journal.job(is_own, || rows(|rows| own(self, &all, rows)))?;
         }
-        let walking = &all[..slice.of(all.len())];
+        let walking = &all[..slice.take_of(all.len())];
         journal.job(
             |row: &Answer| row.question == "walk",
             || {
@@ -92,7 +92,7 @@ fn species(names: &[Spanned<SpeciesName>]) -> anyhow::Result<Vec<Species>> {
     names.iter().map(|name| Ok(pleach_generators::species(name.get_ref())?)).collect()
 }
 
-/// What `make` collects.
+/// The results that `make` collects.
 fn rows(make: impl FnOnce(&mut Rows) -> anyhow::Result<()>) -> anyhow::Result<Vec<Answer>> {
     let mut rows = Rows(Vec::new());
     make(&mut rows)?;
@@ -161,7 +161,7 @@ fn moved(set: &str, drawn: &[Drawn], rows: &mut Rows) {
     let ways: [(&str, &dyn Fn(&Bitmap) -> Option<Bitmap>); 2] =
         [("aside by 1/16", &aside), ("mirrored", &mirrored)];
     for (way, change) in ways {
-        let changed = |d: &Drawn| Some(measures::of(&d.seen, &Seen::new(change(&d.seen.bitmap)?)));
+        let changed = |d: &Drawn| Some(measures::compare(&d.seen, &Seen::new(change(&d.seen.bitmap)?)));
         let values: Vec<Values> = drawn.iter().filter_map(changed).collect();
         for (m, measure) in MEASURES.iter().enumerate() {
             let mean = values.iter().map(|v| v[m]).sum::<f64>() / values.len().max(1) as f64;
@@ -179,7 +179,7 @@ fn pairs(drawn: &[Drawn]) -> anyhow::Result<Vec<Vec<Values>>> {
         .enumerate()
         .map(|(g, goal)| {
             stop::check()?;
-            let row = drawn[..=g].iter().map(|other| measures::of(&goal.seen, &other.seen)).collect();
+            let row = drawn[..=g].iter().map(|other| measures::compare(&goal.seen, &other.seen)).collect();
             bar.inc(1);
             Ok(row)
         })

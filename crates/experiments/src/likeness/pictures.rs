@@ -36,7 +36,7 @@ pub(super) fn silhouette(tree: &Tree, frame: &Frame, foliage: bool) -> Bitmap {
     bitmap
 }
 
-/// What `look` sees of each seed of each species.
+/// The result of `look` for each seed of each species.
 fn grown<T: Send>(
     species: &[Species],
     seeds: u64,
@@ -68,7 +68,7 @@ pub(super) fn at_goal_scale(
     let bar = progress("trees", frames.len() as u64);
     let values = grown(species, seeds, true, |tree| {
         let of = |(goal, (_, _, frame)): (&Drawn, &(String, u64, Frame))| {
-            measures::of(&goal.seen, &Seen::new(silhouette(tree, frame, true)))
+            measures::compare(&goal.seen, &Seen::new(silhouette(tree, frame, true)))
         };
         let values = goals.iter().zip(&frames).map(of).collect();
         bar.inc(1);

@@ -73,8 +73,8 @@ pub(super) fn blobs(drawn: &[Drawn], value: impl Fn(usize, usize) -> Values) -> 
     let scores: Vec<Vec<Values>> = drawn
         .par_iter()
         .map(|goal| {
-            let blobs = blobs::of(&goal.seen.bitmap).map(Seen::new);
-            blobs.iter().map(|blob| measures::of(&goal.seen, blob)).collect()
+            let blobs = blobs::blobs_like(&goal.seen.bitmap).map(Seen::new);
+            blobs.iter().map(|blob| measures::compare(&goal.seen, blob)).collect()
         })
         .collect();
     let mut kinds: Vec<Asked> = BLOBS.iter().map(|name| Asked::new(name)).collect();

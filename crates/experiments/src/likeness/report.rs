@@ -109,7 +109,7 @@ fn walks(table: &[Answer], measures: &[&str]) -> String {
     output::table(&rows, &(1..2 + measures.len()).collect::<Vec<_>>())
 }
 
-/// A line a measure: species told apart, the worst blob, the mean of all walks, and what a goal that
+/// One line per measure: species told apart, the worst blob, the mean of all walks, and what a goal that
 /// is moved aside or mirrored has.
 fn ablated(table: &[Answer], measures: &[&str]) -> String {
     let sets = ["own, not tuned on", "own", "own, bare", "own, goal's scale", "reference"];

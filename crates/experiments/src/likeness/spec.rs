@@ -1,4 +1,4 @@
-//! What the file of an experiment about likeness says.
+//! The `experiment.toml` of an experiment about likeness.
 
 use super::line::{Line, MIN_STEPS};
 use crate::spec::Source;

@@ -18,7 +18,7 @@ pub(super) fn lines(species: &[Species], spec: &LikenessSpec) -> anyhow::Result<
     let bar = progress("walks", species.len() as u64);
     let mut lines = Vec::new();
     for one in species {
-        let goal = Goal::of(one)?;
+        let goal = Goal::new(one)?;
         for parameter in &spec.walks {
             let parameter = parameter.get_ref();
             stop::check()?;
@@ -54,7 +54,7 @@ struct Goal {
 }
 
 impl Goal {
-    fn of(species: &Species) -> anyhow::Result<Self> {
+    fn new(species: &Species) -> anyhow::Result<Self> {
         let tree = species.grow(SEED)?;
         let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIDE, SIDE);
         Ok(Self { seen: Seen::new(silhouette(&tree, &frame, true)), frame })
@@ -82,7 +82,7 @@ impl Goal {
                 Limits { stems: usual.stems / 5, leaves: usual.leaves / 5, knots: usual.knots / 5, ..usual };
             let tree = there.grow_with(&Growth { limits, parallel: false, ..Growth::seed(SEED) });
             let look = |tree| Seen::new(silhouette(&tree, &self.frame, true));
-            Ok(tree.ok().map(|tree| (step, measures::of(&look(tree), &self.seen))))
+            Ok(tree.ok().map(|tree| (step, measures::compare(&look(tree), &self.seen))))
         });
         Ok(walked.collect::<anyhow::Result<Vec<_>>>()?.into_iter().flatten().collect())
     }

@@ -23,7 +23,7 @@ use std::time::Duration;
 use verdict::Verdict;
 use worker::Judged;
 
-/// What came of a block of cases. Those from `unclear` to `over_time` should be 0 throughout.
+/// The outcomes of a block of cases. Those from `unclear` to `over_time` should be 0 throughout.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 struct Block {
     area: String,
@@ -48,7 +48,7 @@ impl Block {
     }
 }
 
-/// Where inputs that were found are kept, for who mends it.
+/// Where failing inputs are kept, to be debugged.
 const FINDINGS: &str = "findings";
 /// Most inputs of an area that are kept in a run.
 const SHOWN: usize = 5;
@@ -165,7 +165,7 @@ impl Kind for RobustnessSpec {
     }
 }
 
-/// What there is to say about a verdict that should not be.
+/// The description of a bad verdict.
 fn finding(verdict: &Verdict) -> Option<String> {
     let (what, message) = match verdict {
         Verdict::Accepted | Verdict::Refused => return None,

@@ -2,7 +2,7 @@
 
 use pleach_fit::Stream;
 
-/// What numbers are replaced by: at and beyond the ends of what types hold.
+/// Replacements for numbers: at and beyond the ends of their types.
 const NUMBERS: [&str; 22] = [
     "nan",
     "-nan",
@@ -28,7 +28,7 @@ const NUMBERS: [&str; 22] = [
     "true",
 ];
 
-/// What may not stand in text, or is rarely thought of.
+/// Characters that are not allowed in text, or are often forgotten.
 const ODDITIES: [&str; 10] =
     ["\0", "\u{1}", "\u{1b}[31m", "\u{202e}", "\u{feff}", "\r", "\u{7f}", "\u{10ffff}", "é", "../"];
 
@@ -131,7 +131,7 @@ fn insert(bytes: &mut Vec<u8>, piece: &[u8], draws: &mut Stream) {
     bytes.splice(at..at, piece.iter().copied());
 }
 
-/// Where numbers stand.
+/// Positions of numbers.
 fn numbers(bytes: &[u8]) -> Vec<std::ops::Range<usize>> {
     let is_part = |b: u8| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+');
     let mut list: Vec<std::ops::Range<usize>> = Vec::new();

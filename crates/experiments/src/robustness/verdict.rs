@@ -1,6 +1,6 @@
-//! What may come of a case.
+//! The possible outcomes of a case.
 
-/// What came of a case.
+/// The outcome of a case.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
     /// Taken, and what came of it is sound.

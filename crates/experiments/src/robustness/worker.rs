@@ -20,14 +20,14 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// What came of a case, and how long its thread computed.
+/// The outcome of a case, and its thread's computing time.
 #[derive(Clone, Debug)]
 pub(super) struct Judged {
     pub(super) verdict: Verdict,
     pub(super) cpu: Duration,
 }
 
-/// What a worker is at, for who watches it.
+/// A worker's current case, for its watcher.
 struct Watched {
     case: u64,
     begun: Duration,
@@ -96,7 +96,7 @@ pub(super) fn run(
     Ok(judged)
 }
 
-/// What a worker is at, and how long it has computed for it.
+/// A worker's current case, and the computing time spent on it.
 fn used(slot: &Slot) -> Option<(u64, Duration)> {
     let slot = slot.lock().unwrap_or_else(PoisonError::into_inner);
     let watched = slot.as_ref()?;
@@ -114,7 +114,7 @@ struct Worker {
 }
 
 thread_local! {
-    /// What the last panic of a case on this thread said; none outside of cases.
+    /// The message of the last panic of a case on this thread; `None` outside of cases.
     static SAID: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
@@ -150,13 +150,13 @@ impl Worker {
 /// The verdict on a case; a panic is one.
 fn contained(area: &dyn Area, case: u64, folder: &Path) -> Verdict {
     SAID.set(Some(String::new()));
-    // A case shares nothing that it changes: what a panic leaves half done is dropped with it.
+    // A case shares no state that it changes: half-done work of a panic is dropped with it.
     let verdict = panic::catch_unwind(AssertUnwindSafe(|| area.judge(case, folder)));
     let said = SAID.take().unwrap_or_default();
     verdict.unwrap_or(Verdict::Panicked(said))
 }
 
-/// Keeps what panics of cases say, instead of printing it, while `work` runs.
+/// Keeps the messages of panics of cases, instead of printing them, while `work` runs.
 pub(super) fn quietly<T>(work: impl FnOnce() -> T) -> T {
     let before: Arc<dyn Fn(&panic::PanicHookInfo<'_>) + Send + Sync> = Arc::from(panic::take_hook());
     let otherwise = Arc::clone(&before);
@@ -198,7 +198,7 @@ impl ThreadClock {
     }
 }
 
-/// Most memory that the process has held so far, in megabytes; none where the system does not tell.
+/// Peak memory of the process so far, in megabytes; `None` where the system does not report it.
 pub(super) fn peak_megabytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 /// Seed of the trees that are fitted; own goals are of other seeds.
 const TREE_SEED: u64 = 1;
 
-/// What came of a fit.
+/// The result of a fit.
 pub(super) struct Attempt {
     pub(super) row: Fit,
     pub(super) best: Species,
@@ -35,7 +35,7 @@ pub(super) struct Guesses {
     known: Vec<(Asked, Guessed)>,
 }
 
-/// What a first guess depends on: generators, objective, tree seed, seed.
+/// The inputs of a first guess: generators, objective, tree seed, seed.
 type Asked = (GeneratorChoice, Objective, TreeSeed, u64);
 
 struct Guessed {
@@ -44,7 +44,7 @@ struct Guessed {
 }
 
 impl Guesses {
-    fn of(
+    fn get(
         &mut self,
         problem: &FitProblem,
         settings: &FitSettings,
@@ -104,7 +104,7 @@ pub(super) fn fit(
     let mut asked = problem.fit.clone();
     let (guess, before) = match method.from {
         From::Auto => {
-            let Guessed { found, seconds } = guesses.of(&problem.fit, &search, method.generator())?;
+            let Guessed { found, seconds } = guesses.get(&problem.fit, &search, method.generator())?;
             (Guessing::Known(Box::new(found.clone())), *seconds)
         }
         From::Random => (Guessing::Off, Duration::ZERO),

@@ -15,13 +15,13 @@ use std::path::Path;
 pub(super) struct Problem {
     pub(super) spec: GoalSpec,
     pub(super) name: String,
-    /// What is fitted.
+    /// The problem to fit.
     pub(super) fit: FitProblem,
-    /// What a result is judged by where the goal is spoilt: the same picture unspoilt.
+    /// The unspoilt picture that results are scored against where the goal is spoilt.
     pub(super) clean: Option<FitProblem>,
     /// A picture that the search does not see.
     pub(super) held_out: Option<GoalView>,
-    /// What other trees of the goal's kind score.
+    /// Scores of other trees of the goal's kind.
     pub(super) ceiling: Option<Ceiling>,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct Ceiling {
 
 impl Problem {
     /// Without a ceiling.
-    pub(super) fn of(folder: &Path, spec: &GoalSpec) -> anyhow::Result<Self> {
+    pub(super) fn read(folder: &Path, spec: &GoalSpec) -> anyhow::Result<Self> {
         match spec {
             GoalSpec::Own(goal) => Self::own(spec, goal),
             GoalSpec::File(goal) => Self::file(folder, spec, goal),
@@ -43,11 +43,11 @@ impl Problem {
 
     /// The same with what other trees of its kind score, which takes a while.
     pub(super) fn with_ceiling(folder: &Path, spec: &GoalSpec) -> anyhow::Result<Self> {
-        let problem = Self::of(folder, spec)?;
+        let problem = Self::read(folder, spec)?;
         let ceiling = match spec {
             GoalSpec::Own(goal) => seeds_of(goal)?,
             GoalSpec::File(FileGoal { like: Some(species), bare, .. }) => {
-                seeds_of(&OwnGoal::of(species, LIKE_SEED, *bare))?
+                seeds_of(&OwnGoal::new(species, LIKE_SEED, *bare))?
             }
             GoalSpec::File(goal) => others(folder, goal, &problem.fit.goals[0].goal)?,
         };
@@ -91,7 +91,7 @@ impl Problem {
     }
 }
 
-/// Seed of the own tree that stands for a foreign one when its kind's ceiling is taken.
+/// Seed of our own tree that stands in for a foreign one when the ceiling of its kind is measured.
 const LIKE_SEED: u64 = 11;
 
 /// A problem of the default generator, from the default species.

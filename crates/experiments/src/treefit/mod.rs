@@ -69,7 +69,7 @@ impl Kind for TreefitSpec {
         let repetitions =
             |method: &MethodSpec| if is_slice { 1 } else { method.repetitions.map_or(1, |n| *n) };
         let mut jobs = Vec::new();
-        for goal in self.goals().take(slice.of(self.goals.len())) {
+        for goal in self.goals().take(slice.take_of(self.goals.len())) {
             for method in methods.iter().filter(|method| method.fits(goal.kind())) {
                 jobs.extend((1..=repetitions(method)).map(|repetition| (goal, *method, repetition)));
             }
@@ -94,7 +94,7 @@ impl Kind for TreefitSpec {
 
     fn report(&self, folder: &Path, table: &Table, outputs: &Outputs) -> anyhow::Result<String> {
         sheet::draw(folder, self, outputs)?;
-        Ok(report::of(self, &table.records()?))
+        Ok(report::report(self, &table.records()?))
     }
 }
 

@@ -1,4 +1,4 @@
-//! What it comes to: medians and counts of each method over each kind of goals, and which method wins.
+//! The summary: medians and counts of each method over each kind of goals, and which method wins.
 //!
 //! A goal counts once: its numbers are means over repetitions.
 
@@ -6,7 +6,7 @@ use super::Fit;
 use super::spec::{Kind, MethodSpec, TreefitSpec};
 use pleach_console::output;
 
-/// A number of a row; none where the row has none.
+/// A number of a row, if it has one.
 type Column = fn(&Fit) -> Option<f64>;
 
 /// Columns whose medians are shown: name, decimals, value.
@@ -22,7 +22,7 @@ const SHOWN: [(&str, usize, Column); 7] = [
 
 const FRESH_LIKENESS: Column = |row| Some(row.fresh_likeness?.0);
 
-pub(super) fn of(spec: &TreefitSpec, fits: &[Fit]) -> String {
+pub(super) fn report(spec: &TreefitSpec, fits: &[Fit]) -> String {
     let shown = SHOWN.iter().map(|(name, ..)| *name);
     let heading = ["goals", "method"].into_iter().chain(shown).chain(["near ceiling", "above ellipse"]);
     let mut lines = vec![heading.map(str::to_owned).collect::<Vec<_>>()];
@@ -104,7 +104,7 @@ fn by_goal<'a>(rows: &[&'a Fit]) -> Vec<Vec<&'a Fit>> {
     rows.chunk_by(|a, b| a.goal == b.goal).map(<[_]>::to_vec).collect()
 }
 
-/// The mean of a column; none where no row has it.
+/// The mean of a column; `None` where no row has it.
 fn mean(rows: &[&Fit], column: Column) -> Option<f64> {
     let values: Vec<f64> = rows.iter().filter_map(|row| column(row)).collect();
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)

@@ -19,7 +19,7 @@ pub(super) fn draw(folder: &Path, spec: &TreefitSpec, outputs: &Outputs) -> anyh
     let kept = spec.kept();
     let mut cells = Vec::new();
     for goal in spec.goals() {
-        let problem = Problem::of(folder, goal)?;
+        let problem = Problem::read(folder, goal)?;
         let view = &problem.fit.goals[0];
         let small = |bitmap: &Bitmap| bitmap.downscaled(0.5);
         let drawn = |file: String, further: u64| -> anyhow::Result<Bitmap> {

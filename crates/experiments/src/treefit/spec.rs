@@ -1,4 +1,4 @@
-//! What the benchmark's `experiment.toml` says.
+//! The benchmark's `experiment.toml`.
 
 use crate::spec::{Evaluations, Repetitions, Seed, Source, stem};
 use crate::within::{Azimuth, FileName, List, Meters, Real, Seconds, SpeciesName, Word};
@@ -74,7 +74,7 @@ pub(super) enum GoalSpec {
     File(FileGoal),
 }
 
-/// All that may be said of a goal of either sort.
+/// The options of goals of either sort.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct GoalOptions {
@@ -95,7 +95,7 @@ struct GoalOptions {
 
 #[derive(Clone, Debug)]
 pub(super) struct OwnGoal {
-    /// What it is called, if it is said.
+    /// Its name, if one is given.
     pub(super) name: Option<FileName>,
     /// The species by name.
     pub(super) species: String,
@@ -107,19 +107,19 @@ pub(super) struct OwnGoal {
     pub(super) second_view: Option<f64>,
     /// Azimuth in degrees of a picture that is only compared with.
     pub(super) held_out: Option<f64>,
-    /// What is wrong with the picture.
+    /// How the picture is spoilt.
     pub(super) degraded: Option<Degraded>,
 }
 
 impl OwnGoal {
     /// A whole tree from the front.
-    pub(super) fn of(species: &str, seed: u64, bare: bool) -> Self {
+    pub(super) fn new(species: &str, seed: u64, bare: bool) -> Self {
         let (second_view, held_out) = (None, None);
         Self { name: None, species: species.to_owned(), seed, bare, second_view, held_out, degraded: None }
     }
 }
 
-/// What may be wrong with a picture.
+/// How a picture may be spoilt.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Degraded {
@@ -133,7 +133,7 @@ pub(super) enum Degraded {
 
 #[derive(Clone, Debug)]
 pub(super) struct FileGoal {
-    /// What it is called, if it is said.
+    /// Its name, if one is given.
     name: Option<FileName>,
     /// The picture, from the experiment's folder.
     pub(super) file: PathBuf,
@@ -237,7 +237,7 @@ impl GoalSpec {
         }
     }
 
-    /// What it is called in the results.
+    /// Its name in the results.
     pub(super) fn name(&self) -> String {
         match self {
             Self::File(FileGoal { name: Some(name), .. }) | Self::Own(OwnGoal { name: Some(name), .. }) => {
@@ -262,29 +262,29 @@ impl GoalSpec {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MethodSpec {
-    /// What it is called in the results.
+    /// Its name in the results.
     pub(super) name: String,
     /// The optimiser, at its default settings.
     pub(super) optimizer: Word<Optimizer>,
     /// Where it starts.
     pub(super) from: From,
-    /// The generators that it fits; the default one if it is not said.
+    /// The generators that it fits; by default that of fits.
     generator: Option<Word<GeneratorChoice>>,
     /// Evaluations of a fit.
     pub(super) evaluations: Option<Evaluations>,
     /// Seconds of a fit, its first guess included; such rows depend on the machine.
     pub(super) seconds: Option<Real<Seconds>>,
-    /// What is made small; the default objective if it is not said.
+    /// The objective; by default that of fits.
     pub(super) objective: Option<Word<Objective>>,
-    /// Whether the tree's seed is searched; fixed if not said.
+    /// Whether the tree's seed is searched; by default it is fixed.
     #[serde(default)]
     pub(super) any_seed: bool,
-    /// Whether the result is the one of the last bests whose other seeds are best too; the last best if not said.
+    /// Whether the result is the one of the last bests whose other seeds are best too; by default the last best.
     #[serde(default)]
     pub(super) validates: bool,
-    /// Fits of each goal, seeded 1, 2, …; one if it is not said.
+    /// Fits of each goal, seeded 1, 2, …; one by default.
     pub(super) repetitions: Option<Repetitions>,
-    /// Kinds of goals that it fits; all if it is not said.
+    /// Kinds of goals that it fits; all by default.
     pub(super) goals: Option<List<Kind>>,
 }
 
@@ -307,7 +307,7 @@ impl MethodSpec {
         self.generator.as_ref().map_or_else(default, |word| word.value)
     }
 
-    /// What sort of trees it finds, as files are called.
+    /// The sort of trees that it finds, as in the names of files.
     pub(super) fn sort(&self) -> &'static str {
         match self.from {
             From::Outline => "outline",

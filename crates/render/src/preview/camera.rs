@@ -22,7 +22,7 @@ const FILL: f32 = 0.92;
 
 impl Camera {
     /// The camera from `azimuth` and `elevation` (radians, as in silhouettes: azimuth 0 looks along +y)
-    /// that shows `corners` (in metres) in a picture of so many samples.
+    /// that shows `corners` (in metres) in a picture of this many samples.
     pub(crate) fn around(corners: &[Vec3], azimuth: f32, elevation: f32, width: u32, height: u32) -> Self {
         let ((sin_a, cos_a), (sin_e, cos_e)) = (azimuth.sin_cos(), elevation.sin_cos());
         let right = vec3(cos_a, sin_a, 0.0);

@@ -3,7 +3,7 @@
 use super::scene::Scene;
 use glam::{Vec3, vec3};
 
-/// What the sun sees: a depth buffer along its rays.
+/// The sun's shadow map: a depth buffer along its rays.
 #[derive(Debug)]
 pub(crate) struct Sun {
     /// Unit vector towards the sun.

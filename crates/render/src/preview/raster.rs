@@ -23,7 +23,7 @@ pub(crate) struct DepthBuffer {
 const BAND: usize = 64;
 
 impl DepthBuffer {
-    /// An empty buffer of so many samples.
+    /// An empty buffer of this many samples.
     pub(crate) fn new(width: u32, height: u32) -> Self {
         let size = width as usize * height as usize;
         let bands = (height as usize).div_ceil(BAND);
@@ -58,7 +58,7 @@ impl DepthBuffer {
         for (i, triangle) in triangles.iter().enumerate() {
             let [a, b, c] = triangle.map(|corner| corners[corner as usize]);
             let (top, bottom) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
-            // Written so that what is not a number is left out.
+            // Written so that NaN is left out.
             if !(bottom > 0.0 && top < height as f32) || a.z.min(b.z).min(c.z) <= 0.0 {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! A meshed tree as shading wants it.
+//! A meshed tree, prepared for shading.
 
 use super::crown::Crown;
 use super::raster::DepthBuffer;
@@ -42,7 +42,7 @@ impl<'a> Scene<'a> {
             tolerance: (0.2 * pixel).clamp(2e-4, 0.02),
             min_sides: 5,
             leaves: leaf_style(tree, pixel),
-            // Far fewer than leaves, and the brightest there is: a square is seen for what it is.
+            // Far fewer than leaves, and the brightest part: a square would be recognised.
             blossoms: Some(LeafStyle::Outline),
             parts,
             ..MeshSettings::default()

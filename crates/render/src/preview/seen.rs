@@ -1,4 +1,4 @@
-//! The triangles that a picture shows: of a crown's, those are few.
+//! The visible triangles of a picture: few of a crown's.
 
 use super::raster::{DepthBuffer, NONE};
 use super::scene::Scene;
@@ -6,12 +6,12 @@ use glam::Vec3;
 use pleach_mesh::Vertex;
 use rayon::prelude::*;
 
-/// What is seen of a scene through a camera.
+/// The visible triangles of a scene through a camera.
 #[derive(Debug)]
 pub(super) struct Seen {
     /// Samples across the picture.
     width: usize,
-    /// For each sample the place in `triangles` of what is seen there, or [`NONE`].
+    /// For each sample the index into `triangles` of the one that is visible there, or [`NONE`].
     samples: Vec<u32>,
     triangles: Vec<Triangle>,
     vertices: Vec<Vertex>,
@@ -28,8 +28,8 @@ pub(super) struct Triangle {
 }
 
 impl Seen {
-    /// What is seen in a picture of so many samples, where `project` says where a point is in it: samples right and
-    /// down, and the nearness.
+    /// The visible triangles of a picture of this many samples. `project` gives a point's samples right and down,
+    /// and its nearness.
     pub(super) fn new(scene: &Scene<'_>, width: u32, height: u32, project: impl Fn(Vec3) -> Vec3) -> Self {
         let DepthBuffer { triangle, .. } = scene.draw(width, height, project);
         Self::gather(scene, width, triangle)
@@ -67,7 +67,7 @@ impl Seen {
         Self { width: width as usize, samples, triangles, vertices }
     }
 
-    /// What is seen at a sample.
+    /// The triangle that is visible at a sample.
     pub(super) fn at(&self, x: u32, y: u32) -> Option<&Triangle> {
         let place = self.samples[y as usize * self.width + x as usize];
         (place != NONE).then(|| &self.triangles[place as usize])
@@ -79,7 +79,7 @@ impl Seen {
     }
 }
 
-/// A set of numbers that knows the place of each among the others.
+/// A set of numbers that knows the rank of each.
 #[derive(Debug, Default)]
 struct Numbers {
     /// A bit for each number.

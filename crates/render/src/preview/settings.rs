@@ -2,7 +2,7 @@
 
 use pleach_plant::Color;
 
-/// What is behind the tree.
+/// The background.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Background {
     /// A pale wall, a little darker below.
@@ -14,10 +14,10 @@ pub enum Background {
     Plain(Color),
 }
 
-/// What the tree stands on.
+/// The ground.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ground {
-    /// A floor of which only the tree's shadow is seen.
+    /// A floor that shows only the tree's shadow.
     #[default]
     Shadow,
     /// Short grass.
@@ -37,9 +37,9 @@ pub struct PreviewSettings {
     pub azimuth: f64,
     /// Radians above the horizon, -π/2 to π/2.
     pub elevation: f64,
-    /// What is behind the tree.
+    /// The background.
     pub background: Background,
-    /// What the tree stands on.
+    /// The ground.
     pub ground: Ground,
     /// Whether the tree stays inside the picture from any azimuth, for turntables.
     pub all_around: bool,

@@ -12,9 +12,9 @@ use pleach_mesh::palette::{BarkPattern, linear};
 use pleach_mesh::{Material, Vertex};
 use rayon::prelude::*;
 
-/// Samples across and down a pixel.
+/// Samples per pixel, across and down.
 pub(super) const SAMPLES: u32 = 3;
-/// Light of the sun, of the sky overhead, and what the ground sends back.
+/// Light of the sun, of the sky overhead, and reflected by the ground.
 const SUN: Vec3 = vec3(3.5, 3.2, 2.65);
 const SKY: Vec3 = vec3(0.66, 0.80, 1.02);
 const BOUNCE: Vec3 = vec3(0.30, 0.29, 0.22);
@@ -36,8 +36,8 @@ pub(super) fn picture(scene: &Scene<'_>, settings: &PreviewSettings) -> Picture 
     View { scene, settings, camera, sun: Some(sun), seen }.picture()
 }
 
-/// Points that a picture must show: some of the tree's own, or the rim of all its turns. All of the tree's are told to
-/// `also`, so that one pass does for both.
+/// Points that a picture must show: some of the tree's own, or the rim of all its turns. All points of the
+/// tree are passed to `also`, so that one pass serves both.
 fn outline(scene: &Scene<'_>, all_around: bool, mut also: impl FnMut(Vec3)) -> Vec<Vec3> {
     let step = (scene.count().vertices as usize / 6000).max(1);
     let (mut some, mut number) = (Vec::new(), 0_usize);
@@ -103,7 +103,7 @@ impl View<'_> {
         [r, g, b, (color.w * 255.0).round() as u8]
     }
 
-    /// What is behind the tree in row `y`, in shown light.
+    /// The background in row `y`, in shown light.
     fn wall(&self, y: u32) -> Option<Vec3> {
         match self.settings.background {
             Background::Transparent => None,
@@ -214,7 +214,7 @@ impl View<'_> {
         // Seen from outside only. A smooth normal at the rim may look away, and is still the right one.
         let sky = self.scene.crown.sky_at(at + normal * 0.05);
         let Some(sun) = &self.sun else { return color * even(sky) };
-        // Wrapped around the edge of the shadow: what is drawn as a ball of leaves is not as hard as one.
+        // Wrapped around the edge of the shadow: a ball of leaves is softer than a solid ball.
         let wrapped = (normal.dot(sun.towards) * 0.7 + 0.3).max(0.0);
         let shadow = sun.at(at + normal * 0.02, 2, 1.6);
         color * (SUN * (wrapped * shadow) + self.sky_light(normal, sky))
@@ -268,7 +268,7 @@ impl View<'_> {
     }
 }
 
-/// Part of its colour that a place shows in even light, where so much of the sky is open.
+/// The part of its colour that a place shows in even light, with this much of the sky open.
 fn even(open: f32) -> f32 {
     0.45 + 0.55 * open
 }

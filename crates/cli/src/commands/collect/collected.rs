@@ -1,4 +1,4 @@
-//! A goal, and what was found of it.
+//! Goals with what was found of each.
 
 use super::found::Run;
 use std::path::PathBuf;
@@ -6,21 +6,21 @@ use std::path::PathBuf;
 /// For people, a phrase each.
 pub(super) type Differences = Vec<String>;
 
-/// A goal and what there is of it.
+/// A goal, and the result or the reason that there is none.
 #[derive(Debug)]
 pub(super) struct Collected {
     pub(super) goal: PathBuf,
     pub(super) state: State,
     /// Further folders with a finished fit of it.
     pub(super) also_in: Vec<PathBuf>,
-    /// What about its fit is not as in most.
+    /// Options in which its fit differs from most others.
     pub(super) differences: Differences,
 }
 
 #[derive(Debug)]
 pub(super) enum State {
     Finished(Run),
-    /// Why, as its worker said.
+    /// The reason that its worker gave.
     Failed(String),
     /// With its folder.
     Unfinished(PathBuf),

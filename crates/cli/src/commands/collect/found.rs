@@ -1,4 +1,4 @@
-//! What workers have left below a folder.
+//! Scans a folder for what workers have written.
 
 use super::run_name;
 use super::table::{FAILED, GOAL, REASON, STATE};
@@ -21,7 +21,7 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// What the goal's file hashes to.
+    /// The hash of the goal's file.
     pub(super) fn sha256(&self) -> Option<&str> {
         self.summary["goal_sha256"].as_str()
     }
@@ -45,9 +45,9 @@ pub(super) struct Found {
     pub(super) finished: Vec<Run>,
     /// Run folders with a checkpoint, or with what a killed worker left.
     pub(super) unfinished: Vec<PathBuf>,
-    /// By what the goal's run folder would be called.
+    /// By the name of the goal's run folder.
     pub(super) failures: BTreeMap<String, Failure>,
-    /// Folders that were looked into, so that links do not lead round in circles.
+    /// Folders that have been visited, so that links cannot lead in circles.
     seen: BTreeSet<PathBuf>,
 }
 
@@ -94,7 +94,7 @@ impl Found {
         let header = reader.headers().with_context(cannot)?.clone();
         let at = |name: &str| header.iter().position(|column| column == name);
         let (Some(goal), Some(state), Some(reason)) = (at(GOAL), at(STATE), at(REASON)) else {
-            // Somebody else's table.
+            // Not a table of a batch.
             return Ok(());
         };
         for row in reader.records() {
@@ -111,7 +111,7 @@ impl Found {
     }
 }
 
-/// Whether a file is called as the tables of batches and of their shards are.
+/// Whether a file has the name of a batch's table, or of a shard's.
 fn is_table(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let shard = name.strip_prefix("summary-").and_then(|rest| rest.strip_suffix(".csv"));

@@ -71,7 +71,7 @@ fn name(folder: &Path) -> String {
     folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// `all` by what `key` says of them.
+/// `all`, grouped by `key`.
 fn group<T>(all: &[T], key: impl Fn(&T) -> Option<String>) -> BTreeMap<String, Vec<&T>> {
     let mut groups: BTreeMap<String, Vec<&T>> = BTreeMap::new();
     for one in all {

@@ -1,4 +1,4 @@
-//! `pleach collect`: one table of what many workers left, and what is wrong with it.
+//! `pleach collect`: one table of the results of many workers, and a report of what is missing.
 
 mod array;
 mod collected;
@@ -36,7 +36,7 @@ may differ from goal to goal; all others are compared with those of most goals.
 
 All cases but the last two are for the same `pleach fit` once more, with --resume: it skips what is finished.";
 
-/// Join the results of many workers, and say what is missing
+/// Join the results of many workers, and report what is missing
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Collect {

@@ -1,4 +1,4 @@
-//! What is said of a collection: for people, for scripts, and whether it is complete.
+//! The report of a collection: for people, for scripts, and whether it is complete.
 
 use super::collected::State;
 use super::matched::Matched;
@@ -6,10 +6,10 @@ use crate::text::shown;
 use anyhow::ensure;
 use serde::Serialize;
 
-/// Lines of one kind that people are shown; JSON has all.
+/// Lines of one kind that are shown to people; JSON has all of them.
 const MAX_LINES: usize = 20;
 
-/// A goal with what there is to say of it.
+/// A goal and a remark about it.
 #[derive(Debug, Serialize)]
 struct Line {
     goal: String,
@@ -79,7 +79,7 @@ impl Report {
         }
     }
 
-    /// The kinds of faults, each as it is called, with its lines and what stands between a goal and why.
+    /// The kinds of faults: name, lines, and the word between a goal and its reason.
     fn kinds(&self) -> [(&'static str, &[Line]); 5] {
         [
             ("missing", &self.missing),

@@ -118,7 +118,7 @@ enum Takes {
 struct Choice {
     /// As it is typed.
     flag: &'static str,
-    /// What it asks for.
+    /// Its purpose, for messages.
     what: &'static str,
     takes: Takes,
     /// Whether it was given.
@@ -137,7 +137,7 @@ impl Choice {
     }
 }
 
-/// The table. `--no-leaves`, `--leafy`, `--seed`, `--seeds` and the limits are for everything.
+/// The table. `--no-leaves`, `--leafy`, `--seed`, `--seeds` and the limits apply to every output.
 #[rustfmt::skip]
 static CHOICES: [Choice; 14] = {
     use MeshFeature::{Billboard, Forest, LeafCards, LeafInstances, Levels, Sway, Wind};
@@ -164,7 +164,7 @@ static CHOICES: [Choice; 14] = {
     ]
 };
 
-/// Fails if an option was given that none of `goes` takes: it would do nothing.
+/// Fails if an option was given that none of `goes` takes, since it would do nothing.
 pub(super) fn check(grow: &Grow, goes: &[Goes]) -> anyhow::Result<()> {
     for choice in CHOICES.iter().filter(|choice| (choice.given)(grow)) {
         if goes.iter().any(|goes| choice.takes(*goes)) {

@@ -9,19 +9,19 @@ const MAX_WAITING: u64 = 1024;
 
 /// What threads share.
 struct Shared<T, F> {
-    /// The next seed that nobody has.
+    /// The next seed to work on.
     next: u64,
-    /// The next seed whose result is taken.
+    /// The next seed whose result is handed on.
     due: u64,
-    /// Results whose turn has not come.
+    /// Results that wait for an earlier one.
     waiting: BTreeMap<u64, anyhow::Result<T>>,
     take: F,
     failed: Option<anyhow::Error>,
 }
 
 /// Calls `make` for each of `seeds` on all threads, each with memory of its own, and `take` with the results
-/// in order, each as soon as those before it are taken. No more than a thousand wait. Ends at the first
-/// error, in the order of seeds, of either.
+/// in order, each as soon as those before it are taken. At most a thousand wait. Ends at the first error
+/// of either, in the order of seeds.
 pub(super) fn for_each<W: Default, T: Send>(
     seeds: &Range<u64>,
     make: impl Fn(&mut W, u64) -> anyhow::Result<T> + Sync,

@@ -17,7 +17,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// Height and width of pictures where nothing is said of them.
+/// Default height and width of pictures, in pixels.
 const SIZE: u32 = 1024;
 
 /// Seeds of one command, at most: days of growing.
@@ -56,15 +56,15 @@ pub(crate) struct Grow {
     /// Seed of the tree; the species file's own, or 1, by default
     #[arg(long, value_name = "N", value_parser = input::seed)]
     seed: Option<u64>,
-    /// Grow a tree for every seed from A up to, and without, B
+    /// Grow a tree for every seed from A up to but not including B
     #[arg(long, value_name = "A..B", value_parser = input::seeds, conflicts_with_all = ["seed", "forest"])]
     seeds: Option<Range<u64>>,
     /// File (.json, .png, .glb, .obj, .ply, .stl or .usda), folder, or `-` for standard output; the
     /// working directory by default
     #[arg(short, long, value_name = "PATH", conflicts_with = "stats_only")]
     out: Option<PathBuf>,
-    /// What to write where PATH has no suffix that says it: .json and .png into a folder, .json to
-    /// standard output by default
+    /// The format where the suffix of PATH does not name it: by default .json and .png into a folder,
+    /// .json to standard output
     #[arg(
         long,
         value_enum,
@@ -107,7 +107,7 @@ impl Grow {
         }
     }
 
-    /// What is written; what cannot be is told of before anything grows.
+    /// What is written. Impossible requests fail here, before anything grows.
     fn goes(&self) -> anyhow::Result<Vec<Goes>> {
         let asked = || self.format.map(|format| vec![Goes::Into(format)]);
         let Some(path) = self.out.as_deref() else {
@@ -139,7 +139,7 @@ impl Grow {
         vec![Goes::Into(Format::Json), Goes::Into(Format::Png)]
     }
 
-    /// Standard output takes one thing.
+    /// Only one result can go to standard output.
     fn check_stdout(&self, path: &Path, goes: &[Goes]) -> anyhow::Result<()> {
         if self.seeds.is_some() {
             bail!("several trees need a folder, not standard output");
@@ -224,17 +224,17 @@ impl Grow {
         Growth { limits: self.limits.limits(), foliage: self.foliage(species), ..Growth::seed(seed) }
     }
 
-    /// Whether leaves grow: how they are drawn says so, too.
+    /// Whether leaves grow. `--leaves` decides as well.
     fn foliage(&self, species: &Species) -> Foliage {
         self.mesh.foliage().unwrap_or_else(|| self.leaves.foliage(species))
     }
 
-    /// Takes off what the tree does not wear in the season.
+    /// Removes leaves and blossoms that the tree does not have in the season.
     fn apply_season(&self, species: &Species, tree: &mut Tree) {
         self.mesh.export().palette(species).apply_season(tree);
     }
 
-    /// Writes the file or files that were asked for, and says which they are.
+    /// Writes the requested files, and prints their names.
     fn write_all(&self, species: &Species, seed: u64, tree: &Tree) -> anyhow::Result<Vec<PathBuf>> {
         let mut written = Vec::new();
         for goes in self.goes()? {

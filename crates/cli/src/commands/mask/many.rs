@@ -14,7 +14,7 @@ const TABLE: &str = "masks.csv";
 /// A column's name, and its value of a mask that was made.
 type Column = (&'static str, fn(&Job, &Found) -> String);
 
-/// The columns of the table. All but `file` are empty where there is no mask; then `error` says why.
+/// The columns of the table. Without a mask only `file` and `error` are filled.
 const COLUMNS: [Column; 9] = [
     ("file", |job, _| cell(job.photo)),
     ("mask", |job, _| cell(&job.mask)),

@@ -228,7 +228,7 @@ fn same_file(a: &Path, b: &Path) -> bool {
 fn edges(mask: &Mask) -> String {
     let edges = match &mask.touches.sides()[..] {
         [] => "the crown is all in the picture".to_owned(),
-        sides => format!("the crown touches the frame: {}; what lies beyond is not seen", sides.join(", ")),
+        sides => format!("the crown touches the frame and is cut off: {}", sides.join(", ")),
     };
     format!("{edges}\nconfidence {:.2} of 1", mask.confidence)
 }

@@ -13,7 +13,7 @@ const EXAMPLES: &str = "Examples:
 The page works on this machine alone: nothing that is dropped on it leaves it, and the program answers no other \
 machine and gives no file but those of the page. Ctrl-C ends it.";
 
-/// The usual port. A page keeps what is saved in it by its address, so that the port should stay the same.
+/// The default port. It should stay the same: a browser keeps a page's saved data by its address.
 const PORT: u16 = 7326;
 
 /// Fit, blend and shape trees in a page of the browser

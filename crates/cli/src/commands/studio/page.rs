@@ -1,11 +1,11 @@
-//! The files of the page, and how they are answered with.
+//! The files of the page, by the path of a request.
 
 use include_dir::{Dir, include_dir};
 
-/// What `npm --prefix web run build` has made.
+/// The output of `npm --prefix web run build`.
 static PAGE: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../web/dist");
 
-/// A file of the page by the path of a request, with its type. Only these files can be had, whatever the path.
+/// A file of the page by the path of a request, with its type. No other file is ever served.
 pub(super) fn file(path: &str) -> Option<(&'static [u8], &'static str)> {
     let path = path.split(['?', '#']).next().unwrap_or_default().trim_start_matches('/');
     let path = if path.is_empty() { "index.html" } else { path };

@@ -5,7 +5,7 @@ use anyhow::Context;
 use std::net::{Ipv4Addr, SocketAddr};
 use tiny_http::{Header, Method, Request, Response, StatusCode};
 
-/// What every answer says: the page may load its own files and nothing else, and send nothing anywhere.
+/// Headers of every answer: the page may load only its own files, and send nothing anywhere.
 const HEADERS: [(&str, &str); 5] = [
     (
         "Content-Security-Policy",
@@ -45,7 +45,7 @@ impl Server {
     pub(super) fn serve(&self) -> anyhow::Result<()> {
         loop {
             let request = self.inner.recv().context("the page cannot be served any more")?;
-            // A browser that has gone away is no mistake.
+            // A browser that has closed the connection is not an error.
             let _ = self.answer(request);
         }
     }

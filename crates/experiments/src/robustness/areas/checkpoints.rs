@@ -15,7 +15,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 const LANE: u32 = 4;
-/// Side of the goal in pixels: nobody looks at it.
+/// Side of the goal in pixels; its content does not matter.
 const SIDE: u32 = 16;
 /// Trees that a search may grow.
 const LIMITS: Limits = Limits { stems: 200, leaves: 1_000, knots: 2_000, work: 200_000 };
@@ -31,7 +31,7 @@ pub(in super::super) struct Checkpoints {
 impl Checkpoints {
     pub(in super::super) fn new() -> anyhow::Result<Self> {
         let species = pleach_generators::preset("palm").context("a known species")?;
-        // What is found does not matter: a cone will do.
+        // Any goal will do: a cone.
         let goal = Bitmap::from_fn(SIDE, SIDE, |x, y| x.abs_diff(SIDE / 2) <= y / 3);
         let frame = Frame {
             width: SIDE,
@@ -74,7 +74,7 @@ impl Checkpoints {
     }
 }
 
-/// A search to so many evaluations that saves itself in `file`, and goes on from there if asked to.
+/// A search of this many evaluations that saves itself in `file`, and continues from there if asked to.
 fn searched(
     problem: &FitProblem,
     optimizer: &Optimizer,

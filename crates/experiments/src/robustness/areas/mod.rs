@@ -1,4 +1,4 @@
-//! What is spoilt, and what a sound result is.
+//! The areas of input that are spoilt, and their sound results.
 
 mod checkpoints;
 mod experiments;
@@ -22,17 +22,17 @@ use std::path::Path;
 
 /// Input of one sort.
 pub(super) trait Area: Send + Sync {
-    /// What it is called in the results.
+    /// Its name in the results.
     fn name(&self) -> &'static str;
 
     /// The spoilt input of a case.
     fn input(&self, case: u64) -> Vec<u8>;
 
-    /// What the program makes of the input; files may be written into `folder`.
+    /// Runs the program's code on the input; files may be written into `folder`.
     fn judge(&self, case: u64, folder: &Path) -> Verdict;
 }
 
-/// The draws of a case; areas are told apart by their lanes.
+/// The draws of a case; each area has a lane of its own.
 fn draws(lane: u32, case: u64) -> Stream {
     const SEED: u64 = 1;
     Stream::at(SEED, 0x7262_0000 + lane, case, 0)

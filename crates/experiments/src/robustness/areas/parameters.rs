@@ -20,9 +20,9 @@ enum Spread {
     Search,
     /// Evenly over all that is allowed.
     Allowed,
-    /// Evenly over the orders of magnitude of what is allowed.
+    /// Evenly over the orders of magnitude of the allowed range.
     Orders,
-    /// The ends of what is allowed, zero, and what is next to them.
+    /// The ends of the allowed range, zero, and their neighbours.
     Corners,
 }
 

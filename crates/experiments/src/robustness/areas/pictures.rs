@@ -94,7 +94,7 @@ impl Area for Pictures {
         if goal.bitmap.ink() == 0 || !(height.is_finite() && height > 0.0) {
             return Verdict::Wrong(format!("a goal of {} pixels and height {height}", goal.bitmap.ink()));
         }
-        // Larger ones take long and say the same.
+        // Larger ones take longer and show nothing new.
         if goal.detection.original_size.0.max(goal.detection.original_size.1) <= 4 * SIDE {
             let mask = match Photo::load(&file) {
                 Ok(photo) => Mask::from_photo(&photo, &MaskOptions::default()).map_err(|e| e.to_string()),

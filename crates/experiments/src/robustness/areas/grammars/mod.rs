@@ -1,4 +1,4 @@
-//! Spoilt grammars: text that is none, texts with edits, and syntax trees with parts that moved.
+//! Spoilt grammars: random text, texts with edits, and syntax trees with parts that moved.
 
 mod soup;
 mod trees;
@@ -172,7 +172,7 @@ fn drawn(derived: &Derived<'_>, case: u64) -> Verdict {
 mod tests {
     use super::*;
 
-    /// What people write; the grammar that a search has found is left out.
+    /// Grammars written by people; the one that a search has found is left out.
     const MANUAL: &str = include_str!("../../../../../../docs/grammars.md");
 
     #[test]

@@ -1,11 +1,11 @@
-//! Texts that nobody wrote: any bytes, and words of the language in any order.
+//! Random texts: any bytes, and words of the language in any order.
 
 use pleach_fit::Stream;
 
 /// Longest text in words or bytes.
 const MAX: usize = 400;
 
-/// What grammars are made of.
+/// The words of grammars.
 const WORDS: [&str; 72] = [
     "axiom: ",
     "\naxiom: ",

@@ -11,7 +11,7 @@ use pleach_lsystem::syntax::{
 const EDITS: usize = 6;
 /// Most items that an edit leaves in one place.
 const MAX_ITEMS: usize = 2_000;
-/// Numbers at and beyond the ends of what makes sense.
+/// Numbers at and beyond the ends of sensible ranges.
 const NUMBERS: [f64; 16] = [
     0.0,
     1.0,
