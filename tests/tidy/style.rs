@@ -105,7 +105,6 @@ const KNOWN: &[(&str, &str, usize)] = &[
     ("crates/tree/", "; none for", 1),
     ("crates/tree/", "; none if", 2),
     ("crates/tree/", "; none where", 1),
-    ("crates/tree/", "MOST_", 4),
     ("crates/tree/", "anew", 9),
     ("crates/tree/", "dealt anew", 1),
     ("crates/tree/", "fn of(", 4),
