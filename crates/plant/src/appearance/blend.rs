@@ -61,18 +61,18 @@ mod tests {
     use super::super::{BarkPattern, Season};
     use super::*;
 
-    fn of(bark: u32) -> Appearance {
+    fn with_bark(bark: u32) -> Appearance {
         Appearance { bark: Some(Color::from_hex(bark)), ..Appearance::default() }
     }
 
     #[test]
     fn colours_mix_and_patterns_go_by_weight() {
-        let birch = Appearance { bark_pattern: Some(BarkPattern::Banded), ..of(0xd9_d6_cc) };
+        let birch = Appearance { bark_pattern: Some(BarkPattern::Banded), ..with_bark(0xd9_d6_cc) };
         let oak = Appearance {
             bark_pattern: Some(BarkPattern::Furrowed),
             autumn: Some(Color::from_hex(0xa8_5a_2a)),
             season: Some(Season::Autumn),
-            ..of(0x55_4c_43)
+            ..with_bark(0x55_4c_43)
         };
         let half = Appearance::blend(&[(&birch, 0.5), (&oak, 0.5)]);
         assert_eq!(half.bark_pattern, Some(BarkPattern::Banded), "of equals the first");
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn a_species_that_says_nothing_counts_as_it_is_drawn() {
         let silent = Appearance::default();
-        let white = of(0xff_ff_ff);
+        let white = with_bark(0xff_ff_ff);
         let Some(Color([r, ..])) = Appearance::blend(&[(&silent, 0.99), (&white, 0.01)]).bark else {
             panic!("a colour");
         };
@@ -100,8 +100,8 @@ mod tests {
 
     #[test]
     fn what_never_turns_has_no_say_in_autumn() {
-        let palm = Appearance { evergreen: Some(true), ..of(0x8d_7b_62) };
-        let acer = Appearance { autumn: Some(Color::from_hex(0xc8_54_1f)), ..of(0x71_65_57) };
+        let palm = Appearance { evergreen: Some(true), ..with_bark(0x8d_7b_62) };
+        let acer = Appearance { autumn: Some(Color::from_hex(0xc8_54_1f)), ..with_bark(0x71_65_57) };
         let mostly_acer = Appearance::blend(&[(&palm, 0.4), (&acer, 0.6)]);
         assert_eq!((mostly_acer.evergreen, mostly_acer.autumn), (Some(false), acer.autumn));
         assert_eq!(Appearance::blend(&[(&palm, 0.6), (&acer, 0.4)]).evergreen, Some(true));
