@@ -57,9 +57,6 @@ const RULES: &[Rule] = &[
 /// What is still there, at most this often: folder, phrase, times. An entry that is not needed any more has to go.
 const KNOWN: &[(&str, &str, usize)] = &[
     ("crates/cli/src/commands/fit/", "; none if", 1),
-    ("crates/cli/src/commands/fit/", "; none where", 1),
-    ("crates/cli/src/commands/fit/", "anew", 3),
-    ("crates/cli/src/commands/fit/", "dealt anew", 3),
     ("crates/cli/src/commands/fit/", "made small", 2),
     ("crates/fit/", "; none for", 5),
     ("crates/fit/", "; none if", 17),
@@ -89,15 +86,12 @@ const KNOWN: &[(&str, &str, usize)] = &[
     ("crates/pleach/", "MOST_", 2),
     ("crates/pleach/", "anew", 3),
     ("crates/pleach/", "cannot be had", 2),
-    ("crates/pleach/", "dealt anew", 1),
     ("crates/pleach/", "fn of(", 1),
     ("crates/python/", "fn of(", 1),
     ("crates/python/", "made small", 1),
-    ("crates/python/", "whoever", 1),
     ("crates/tree/", "; none for", 1),
     ("crates/tree/", "fn of(", 4),
     ("crates/web/", "; none for", 1),
-    ("crates/web/", "bytes a pixel", 2),
     ("crates/web/", "fn of(", 1),
 ];
 

@@ -1,5 +1,5 @@
 //! A fit says the same by the program, by Python and in the page: the cases of `tests/data/parity.json`, key by key and
-//! bit by bit. Python's and the page's own tests read the same file; `PLEACH_BLESS=1` writes it anew from the program.
+//! bit by bit. Python's and the page's own tests read the same file; `PLEACH_BLESS=1` writes it again from the program.
 
 use pleach_tests::{Dir, root};
 use serde_json::{Map, Value};

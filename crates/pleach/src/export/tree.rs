@@ -133,7 +133,7 @@ impl Export {
     ) -> Result<Vec<(Material, Vec<u8>)>, ExportError> {
         let mut pictures = Vec::new();
         if self.leaves == LeafForm::Cards {
-            for (material, picture) in leaf_picture::of(tree, palette) {
+            for (material, picture) in leaf_picture::leaf_pictures(tree, palette) {
                 pictures.push((material, png_file::bytes(&picture).map_err(ExportError::Picture)?));
             }
         }
