@@ -91,7 +91,7 @@ impl Fit {
 
     /// What `Evaluator`s are made of.
     pub fn recipe(&self) -> Result<Vec<u8>, JsError> {
-        message::recipe(self.search()?.begun())
+        message::recipe(&self.prepared.options, self.search()?.begun())
     }
 
     /// The next batch in at most `parts` pieces, `elapsed` seconds after the fit began; none once the search is over.

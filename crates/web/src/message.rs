@@ -2,7 +2,8 @@
 
 use crate::error::thrown;
 use pleach::{
-    Begun, Bitmap, FitProblem, FitSettings, Foliage, Frame, Genome, GoalView, Placement, Score, Start, View,
+    Begun, Bitmap, FitOptions, FitProblem, FitSettings, Foliage, Frame, Genome, GoalView, Limits, Placement,
+    Score, Start,
 };
 use pleach::{Evaluator as Scorer, evaluator};
 use pleach_fit::{Evaluate as _, Size};
@@ -13,9 +14,13 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// All that scoring depends on.
 #[derive(Serialize, Deserialize)]
 struct Recipe {
+    /// The options of the fit as JSON: how individuals are scored follows from them.
+    options: String,
     species: String,
     leafy: bool,
     lists: Option<Vec<Vec<f64>>>,
+    /// The most stems, leaves, knots and steps of a tree.
+    limits: (usize, usize, usize, u64),
     /// Width, height and rows of the goal.
     goal: (u32, u32, Vec<u64>),
     /// Metres per pixel, axis and ground.
@@ -31,18 +36,23 @@ struct Piece {
     most: Size,
 }
 
-/// The bytes of the recipe of a fit to one picture, taken from the front.
-pub(crate) fn recipe(begun: &Begun) -> Result<Vec<u8>, JsError> {
+/// The bytes of the recipe of a fit to one picture.
+pub(crate) fn recipe(options: &FitOptions, begun: &Begun) -> Result<Vec<u8>, JsError> {
     let Begun { problem, settings, .. } = begun;
-    let GoalView { goal, frame, registered, .. } = &problem.goals[0];
+    let [GoalView { goal, frame, registered, .. }] = problem.goals.as_slice() else {
+        return Err(thrown("the page fits one picture, and there are several"));
+    };
+    let Limits { stems, leaves, knots, work } = settings.limits;
     let lists = match &settings.start {
         Start::Lists(lists) => Some(lists.clone()),
         Start::Random => None,
     };
     let recipe = Recipe {
+        options: serde_json::to_string(options).map_err(thrown)?,
         species: problem.start.to_toml(&[]),
         leafy: problem.foliage != Foliage::None,
         lists,
+        limits: (stems, leaves, knots, work),
         goal: (goal.width(), goal.height(), goal.words().to_vec()),
         frame: [frame.meters_per_pixel, frame.axis_column, frame.ground_row],
         registered: (registered.scale, registered.offset),
@@ -71,8 +81,9 @@ impl Evaluator {
     /// From what `Fit.recipe` gives.
     #[wasm_bindgen(constructor)]
     pub fn new(recipe: &[u8]) -> Result<Self, JsError> {
-        let Recipe { species, leafy, lists, goal, frame, registered } =
+        let Recipe { options, species, leafy, lists, limits, goal, frame, registered } =
             postcard::from_bytes(recipe).map_err(thrown)?;
+        let options = FitOptions::from_json(&options).map_err(thrown)?;
         let start = pleach::read_species(species.as_bytes(), "the start").map_err(thrown)?;
         let (width, height, words) = goal;
         let [meters_per_pixel, axis_column, ground_row] = frame;
@@ -80,11 +91,14 @@ impl Evaluator {
         let (scale, offset) = registered;
         let frame = Frame { width, height, meters_per_pixel, axis_column, ground_row };
         let registered = Placement { scale, offset, ..Placement::KNOWN };
-        let view = GoalView { registered, ..GoalView::new(goal, View::FRONT, frame) };
+        let view =
+            GoalView { registered, ..GoalView::new(goal, options.view.unwrap_or_default().view(), frame) };
         let foliage = if leafy { Foliage::All } else { Foliage::None };
         let problem = FitProblem { start, goals: vec![view], foliage };
         let start = lists.map_or(Start::Random, Start::Lists);
-        let settings = FitSettings { start, ..FitSettings::default() };
+        let (stems, leaves, knots, work) = limits;
+        let limits = Limits { stems, leaves, knots, work };
+        let settings = FitSettings { start, limits, ..options.search() };
         Ok(Self { inner: evaluator(&problem, &settings).map_err(thrown)? })
     }
 

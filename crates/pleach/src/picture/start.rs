@@ -136,6 +136,13 @@ impl FitOptions {
         self.effort_settings()
     }
 
+    /// The settings of the search alone, but for its start, its limits and its share of the time: what individuals are
+    /// scored by, for a search whose individuals are scored elsewhere.
+    #[must_use]
+    pub fn search(&self) -> FitSettings {
+        self.search_settings(None)
+    }
+
     fn search_settings(&self, shares: Option<&Shares>) -> FitSettings {
         FitSettings {
             optimizer: self.optimizer.clone(),
