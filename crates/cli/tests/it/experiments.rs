@@ -21,11 +21,13 @@ fn generation_time() {
 }
 
 #[test]
+#[ignore = "nightly: half a minute"]
 fn blend() {
     check("blend", &["--repetitions", "1"]);
 }
 
 #[test]
+#[ignore = "nightly: half a minute"]
 fn treefit() {
     check("treefit", &["--repetitions", "2", "--evaluations", "100"]);
 }
@@ -36,6 +38,7 @@ fn needle() {
 }
 
 #[test]
+#[ignore = "nightly: half a minute"]
 fn yao() {
     check("yao", &["--repetitions", "1"]);
 }

@@ -212,6 +212,7 @@ fn examples_that_grow_work() {
 }
 
 #[test]
+#[ignore = "nightly: minutes; that the examples are understood is tested beside the code"]
 fn examples_that_draw_work() {
     run_examples_of(&["render", "mask"]);
 }
@@ -222,6 +223,7 @@ fn examples_of_maps_and_blends_work() {
 }
 
 #[test]
+#[ignore = "nightly: minutes; that the examples are understood is tested beside the code"]
 fn examples_of_fits_work() {
     run_examples_of(&["fit"]);
 }

@@ -138,9 +138,14 @@ fn the_first_guess_can_be_interrupted() {
     let dir = Dir::new();
     let goal = target("treegen_small_pine.png");
     let args = |out: &'static str, more: &[&'static str]| {
-        let args = ["fit", &goal, "--no-leaves", "--size", "64", "--evaluations", "12", "--out", out];
-        // Few numbers are free, so that judging them takes little.
-        [&args[..], &["--free", "ratio"], more].concat().into_iter().map(str::to_owned).collect::<Vec<_>>()
+        let args =
+            ["fit", &goal, "--generator", "fractal", "--size", "64", "--evaluations", "12", "--out", out];
+        // Fractal trees are cheap to guess among, and few free numbers are soon judged.
+        [&args[..], &["--free", "thickness"], more]
+            .concat()
+            .into_iter()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
     };
     let _ = dir.run(args("whole", &[])).ok();
     // The folder is made before the guess, and the checkpoint after it.

@@ -54,7 +54,7 @@ fn the_history_has_likeness_whatever_is_made_small() {
     let dir = Dir::new();
     let goal = target("acer.png");
     for objective in ["balance", "iou"] {
-        let more = ["--evaluations", "240", "--objective", objective];
+        let more = ["--evaluations", "120", "--objective", objective];
         let _ = dir.run(small(&goal, objective, &more)).ok();
         let history = std::fs::read_to_string(dir.path(objective).join("history.csv")).unwrap();
         let mut lines = history.lines();
