@@ -16,7 +16,6 @@ const KNOWN: &[(&str, &[&str], &str)] = &[
         &["kinds.rs", "robustness/areas/experiments.rs", "robustness/mod.rs"],
         "the experiment that spoils files spoils, among others, files of experiments",
     ),
-    ("fit", &[], "to be untied"),
     ("pleach", &["picture/drawn.rs", "picture/report.rs", "picture/sides.rs"], "to be untied"),
     (
         "python",

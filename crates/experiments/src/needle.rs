@@ -132,7 +132,7 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
     let space = SearchSpace::new(Arc::clone(generator), &truth.values, &Freedom::default(), fixed)?;
     // Inactive numbers and choices stay as they are.
     let is_moved =
-        |gene: &&Gene| !gene.is_choice() && gene.of(&truth) != 0.0 && space.is_active(&truth.values, gene);
+        |gene: &&Gene| !gene.is_choice() && gene.get(&truth) != 0.0 && space.is_active(&truth.values, gene);
     let moved: Vec<_> = space.genes().iter().filter(is_moved).collect();
     let evaluator = Evaluator::new(&problem, Objective::Iou, FIT_LIMITS)?.with_height_matching();
     let mut rows = Vec::new();
@@ -142,7 +142,7 @@ fn rows_of(species: &Species, name: &str, spec: &NeedleSpec) -> anyhow::Result<V
             let mut draws = Stream::at(TREE_SEED, LANE, round, draw);
             let mut genome = truth.clone();
             for gene in &moved {
-                let unit = gene.to_unit(gene.of(&truth)) + distance * draws.normal();
+                let unit = gene.to_unit(gene.get(&truth)) + distance * draws.normal();
                 gene.set(&mut genome, gene.from_unit(unit.clamp(0.0, 1.0)));
             }
             genome

@@ -160,7 +160,7 @@ impl RulesSpec {
             ..FitSettings::default()
         };
         let settings =
-            GoalSettings { search, guess: Guessing::Off, judging: None, ..GoalSettings::new(Vec::new()) };
+            GoalSettings { search, guess: Guessing::Off, assessment: None, ..GoalSettings::new(Vec::new()) };
         let started = Instant::now();
         let clock = || started.elapsed();
         let fitted = fit_goal(&problem, &settings, Control::new(&clock, stop::flag()))?;

@@ -1,7 +1,7 @@
 //! Individuals of whole searches, evaluated again: what a fit spends its time on, which is not its goal's own tree.
 //!
 //! They are recorded once, in the target directory, so that two versions of the program evaluate the same ones;
-//! remove `recorded.bin` there to record them anew.
+//! remove `recorded.bin` there to record them again.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pleach_fit::{
@@ -45,10 +45,10 @@ fn record(problem: &FitProblem, evaluator: &Evaluator, start: Start) -> Vec<(Gen
     let mut search = Search::new(method, &start, Arc::new(space.settling(true)));
     search.evaluation_limit = EVALUATIONS;
     let mut asked = Vec::new();
-    while search.ended().is_none() {
+    while !search.has_ended() {
         let batch = search.ask();
-        asked.extend(batch.genomes.iter().map(|genome| (genome.clone(), batch.most)));
-        let scores = evaluator.scores(batch.genomes, batch.most);
+        asked.extend(batch.genomes.iter().map(|genome| (genome.clone(), batch.max_size)));
+        let scores = evaluator.scores(batch.genomes, batch.max_size);
         let _ = search.tell(&scores);
     }
     asked
@@ -65,7 +65,7 @@ fn recorded() -> Vec<Vec<(Genome, Size)>> {
         .map_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../target")), PathBuf::from);
     let file = folder.join("recorded.bin");
     if let Ok(bytes) = std::fs::read(&file) {
-        return postcard::from_bytes(&bytes).expect("what was recorded: remove it to record anew");
+        return postcard::from_bytes(&bytes).expect("what was recorded: remove it to record again");
     }
     let all: Vec<_> = GOALS
         .iter()

@@ -77,8 +77,8 @@ fn efficiencies(goal: &str, start: &Start, evaluations: u64) -> [[f64; 4]; 2] {
 
     let mut pools = THREADS.map(Pool::new);
     let mut times = Vec::new();
-    let mut flying: VecDeque<(Score, [f64; 4])> = VecDeque::new();
-    while search.ended().is_none() {
+    let mut queued: VecDeque<(Score, [f64; 4])> = VecDeque::new();
+    while !search.has_ended() {
         loop {
             let batch = search.ask();
             if batch.genomes.is_empty() {
@@ -86,18 +86,18 @@ fn efficiencies(goal: &str, start: &Start, evaluations: u64) -> [[f64; 4]; 2] {
             }
             for genome in batch.genomes {
                 let before = processor_time();
-                let score = evaluator.scores(slice::from_ref(genome), batch.most)[0];
+                let score = evaluator.scores(slice::from_ref(genome), batch.max_size)[0];
                 let seconds = processor_time() - before;
                 times.push(seconds);
-                flying.push_back((score, pools.each_mut().map(|pool| pool.work(seconds))));
+                queued.push_back((score, pools.each_mut().map(|pool| pool.work(seconds))));
             }
         }
-        // A brood ends with the last of its trees.
-        let landed: Vec<(Score, [f64; 4])> = flying.drain(..search.awaited()).collect();
+        // A batch ends with the last of its trees.
+        let collected: Vec<(Score, [f64; 4])> = queued.drain(..search.awaited()).collect();
         for (i, pool) in pools.iter_mut().enumerate() {
-            pool.now = landed.iter().fold(pool.now, |now, (_, done)| now.max(done[i]));
+            pool.now = collected.iter().fold(pool.now, |now, (_, done)| now.max(done[i]));
         }
-        let _ = search.tell(&landed.iter().map(|(score, _)| *score).collect::<Vec<_>>());
+        let _ = search.tell(&collected.iter().map(|(score, _)| *score).collect::<Vec<_>>());
     }
     let mut waiting = THREADS.map(Pool::new);
     let (first, others) = times.split_at(first.min(times.len()));

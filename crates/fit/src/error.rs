@@ -1,17 +1,17 @@
-//! Why there is no fit.
+//! Errors of a fit.
 
-use crate::checkpoint::CheckpointError;
 use crate::problem::ProblemError;
+use crate::run::CheckpointError;
 use crate::space::SpaceError;
 
-/// Why an observer does not want a fit to go on.
+/// The reason of an observer to refuse a fit.
 pub type ObserverError = Box<dyn std::error::Error + Send + Sync>;
 
-/// Why a fit could not begin or go on.
+/// The reason why a fit could not begin or go on.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
-    /// Goals that cannot be compared with.
+    /// Goals that trees cannot be compared with.
     #[error(transparent)]
     Problem(#[from] ProblemError),
     /// Patterns or start values that do not belong to the generator.
@@ -41,7 +41,10 @@ pub enum FitError {
     /// An observer refused to let the search begin.
     #[error(transparent)]
     Observer(ObserverError),
-    /// The executor failed: a mistake in this crate.
-    #[error("the search failed: {0}")]
-    Search(#[source] Box<dyn std::error::Error + Send + Sync>),
+    /// Growing, drawing or comparing a tree panicked: a mistake in this crate, in the generator or in the evidence.
+    #[error("scoring a tree panicked: {message}")]
+    ScoringPanicked {
+        /// The panic's message; empty if it is not a text.
+        message: String,
+    },
 }

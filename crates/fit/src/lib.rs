@@ -4,106 +4,90 @@
 //!
 //! | idea | items |
 //! | --- | --- |
-//! | what is fitted | [`FitProblem`], [`GoalView`]; what is not known of a picture: [`Unknown`], [`Placement`] |
-//! | what is searched | [`Genome`], [`Score`], [`SearchSpace`], [`Gene`] |
-//! | where the tree stands in its picture | [`Accuracy`], [`register`] |
+//! | the problem | [`FitProblem`], [`GoalView`]; unknowns of a picture: [`Unknown`], [`Placement`] |
+//! | the search space | [`Genome`], [`Score`], [`SearchSpace`], [`Gene`] |
+//! | the place of the tree in its picture | [`Accuracy`], [`register`] |
 //! | a whole fit | [`fit_goal`], [`GoalSettings`], [`Fitted`] |
 //! | the known species that a goal looks like | [`first_guess`], [`GuessLibrary`], [`Candidate`] |
 //! | a fit driven from outside, batch by batch | [`Stepwise`], [`evaluator`] |
 //! | the search alone | [`fit`], [`FitSettings`], [`Control`], [`Outcome`] |
-//! | what is made small | [`Objective`], [`Evaluator`]: grow, draw, score, without allocating |
+//! | the cost of an individual | [`Objective`], [`Evaluator`]: grow, draw, score, without allocating; by other evidence than silhouettes: [`Evidence`] |
 //! | optimisers | [`Optimizer`], [`Method`], [`Search`]; with argmin: [`ArgminSolver`] |
 //! | this very tree | [`individuals`]: draws of single stems, [`IndividualSettings`], [`FoundIndividual`] |
-//! | what a result is worth | [`fresh_seeds`], [`profile()`], [`Verdict`] |
-//! | watching and stopping | [`Observer`], [`Budget`], [`StopReason`], [`Clock`]; ending on time: [`Ending`], [`Kept`] |
+//! | assessment of a result | [`Assessment`], [`fresh_seeds`], [`profile()`], [`Verdict`] |
+//! | watching and stopping | [`Observer`], [`Budget`], [`StopReason`], [`Clock`]; ending on time: [`Deadline`], [`Reserve`] |
 //!
 //! # Invariants
 //!
-//! No generator is known here by name, and no pixel: a fit sees [`pleach_tree::Tree`],
-//! [`pleach_tree::Generator`] and `pleach_silhouette`. Nothing here reads the clock, the environment
-//! or the operating system's randomness, and nothing prints. The same problem, settings and seed
-//! give the same bits on any number of threads, interrupted and resumed or not.
+//! The crate knows no generator by name: a fit sees [`pleach_tree::Tree`], [`pleach_tree::Generator`] and
+//! `pleach_silhouette`. It does not read the clock, the environment or the operating system's randomness, and it
+//! prints nothing. The same problem, settings and seed give the same bits on any number of threads, interrupted and
+//! resumed or not.
 //!
-//! Files of this crate use each other in one direction: problem, space, method, search, evaluator, run.
+//! Files of this crate use each other in one direction, without circles.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
-mod begun;
-mod budget;
-mod cancellable;
-mod checkpoint;
-mod control;
-mod driver;
-mod ending;
-mod error;
-mod evaluate;
+// In the order in which a goal meets them.
+
+/// The assessment of a result: other seeds, number by number, beside other species.
+mod assess;
+/// The cost of one individual: grow its tree, draw it, compare it with the goals.
 mod evaluator;
-mod finalists;
-mod fingerprint;
-mod fit_goal;
-mod flight;
-mod fresh;
-mod genome;
+/// All of these stages in one call, or step by step.
+mod goal;
+/// The first guess: the known species that the goal looks like, as the start of the search.
 mod guess;
-mod history;
+/// This very tree: draws of single stems.
 mod individual;
-mod instead;
-mod judged;
+/// The optimisers: which individuals to try next.
 mod method;
-mod nuisance;
-mod objective;
-mod observer;
-mod optimizer;
+/// What is fitted: pictures of a tree, and what is unknown of them.
 mod problem;
-mod profile;
-mod register;
+/// The place of a tree in its picture, to a small part of a pixel: before the search, and for its result.
+mod registration;
+/// The search of a fit: within its budget, on all threads, saved to checkpoints.
 mod run;
+/// An optimiser at work in a space: asked for individuals, told their scores.
 mod search;
-mod setting;
-mod settings;
-mod solver;
+/// What is searched: the free numbers, their ranges, and the draws of searches.
 mod space;
-mod stepwise;
-mod stream;
+
+/// What the caller has in hand at every stage: clock, stop flag, budget, observers.
+mod control;
+/// The errors of all stages.
+mod error;
 #[cfg(test)]
 mod testing;
-mod verdict;
 
-pub use begun::Begun;
-pub use budget::{Budget, Clock, StopReason};
-pub use cancellable::Until;
-pub use checkpoint::{BodyProblem, CheckpointError, is_checkpoint};
-pub use control::{CheckpointSettings, Control, Outcome};
-pub use ending::{Aftermath, Ending, Kept};
+pub use assess::{
+    Assessment, AssessmentSettings, FreshSeeds, Identifiability, KindVerdict, MIN_VERDICT_SPAN, Mismatch,
+    PROFILE_STEPS, Profile, Spread, Verdict, fresh_seeds, profile, reset_unidentified,
+};
+pub use control::{
+    Budget, COLUMNS, CheckpointSettings, Clock, Column, Control, CostModel, Observer, Outcome,
+    PreparedSearch, Progress, Reserve, Row, StopReason, Until,
+};
 pub use error::{FitError, ObserverError};
-pub use evaluate::Evaluate;
-pub use evaluator::{EvalWorkspace, Evaluator};
-pub use fit_goal::{Fitted, GoalSettings, Guessing, fit_goal, fit_goal_with};
-pub use fresh::{FreshSeeds, Spread, fresh_seeds};
-pub use genome::{Genome, Score, Scored, Size};
+pub use evaluator::{EvalWorkspace, Evaluate, Evaluator, Silhouette, SilhouetteGoal, SilhouetteMemory};
+pub use goal::{Asked, Deadline, Fitted, GoalSettings, Guessing, Stepwise, fit_goal, fit_goal_with};
 pub use guess::{
     Candidate, Drawings, DrawingsError, FirstGuess, Guess, GuessLibrary, GuessSettings, RaceSettings,
     Reference, References, Runner, first_guess,
 };
-pub use history::{COLUMNS, Column, Row};
 pub use individual::{FoundIndividual, IndividualProgress, IndividualSettings, individuals};
-pub use judged::{Judged, Judging};
 pub use method::{
-    Cma, CmaSettings, Evolution, EvolutionSettings, Hewitt, HewittSettings, Merge, Method, MethodSettings,
-    Random, RandomSettings, Rules, RulesSettings, Shade, ShadeSettings, Start,
+    AnyMethod, Cma, CmaSettings, Evolution, EvolutionSettings, Hewitt, HewittSettings, Merge, Method,
+    MethodSettings, Optimizer, Random, RandomSettings, Rules, RulesSettings, SETTINGS, Setting, SettingKind,
+    Shade, ShadeSettings, Start, UnknownOptimizer,
 };
-pub use nuisance::{Azimuth, MAX_OFFSET, MAX_SCALE, Nuisance, Placement, ROUGH_AZIMUTH, Unknown};
-pub use objective::{Objective, UnknownObjective};
-pub use observer::{Observer, Progress};
-pub use optimizer::{AnyMethod, Optimizer, UnknownOptimizer};
-pub use problem::{Accuracy, FitProblem, GoalView, ProblemError, placements};
-pub use profile::{Identifiability, PROFILE_STEPS, Profile, profile, reset_unidentified};
-pub use register::{HEAVY, Steps, register};
-pub use run::{evaluator, fit, settled};
-pub use search::{Search, SearchState};
-pub use setting::{SETTINGS, Setting, SettingKind};
-pub use settings::{FIT_LIMITS, FitSettings};
-pub use solver::{ArgminSolver, AskTell, Batch, EmptyBatch, FitState};
-pub use space::{Freedom, Gene, PRIOR, Place, SearchSpace, SpaceError, TreeSeed, check_freedom};
-pub use stepwise::{Asked, Stepwise};
-pub use stream::Stream;
-pub use verdict::{Kindred, MIN_VERDICT_SPAN, Off, Verdict};
+pub use problem::{
+    Accuracy, Agreement, AnyEvidence, Azimuth, Evidence, FitProblem, Genome, GoalView, MAX_OFFSET, MAX_SCALE,
+    Nuisance, Objective, PlacedTree, Placement, ProblemError, ROUGH_AZIMUTH, Score, Scored, Size, Terms,
+    Unknown, UnknownObjective, placements,
+};
+pub use registration::{HEAVY, Steps, register};
+pub use run::{
+    BodyProblem, CheckpointError, FIT_LIMITS, FitSettings, evaluator, fit, is_checkpoint, settled,
+};
+pub use search::{ArgminSolver, AskTell, Chunk, EmptyChunk, FitState, Search, SearchState};
+pub use space::{Freedom, Gene, PRIOR, Place, SearchSpace, SpaceError, Stream, TreeSeed, check_freedom};

@@ -1,7 +1,7 @@
 //! Small parameter spaces and costs for this crate's own tests.
 
-use crate::evaluate::Evaluate;
-use crate::genome::{Genome, Score, Size};
+use crate::evaluator::Evaluate;
+use crate::problem::{Genome, Score, Size};
 use pleach_tree::param::{Kind, Param, ParamSpace};
 use std::sync::Arc;
 

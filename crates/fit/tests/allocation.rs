@@ -28,7 +28,7 @@ fn warm_evaluations_allocate_nothing() {
             let mut draws = Stream::at(1, 9, 0, i);
             let mut genome = space.individual(base, 1);
             for gene in space.genes() {
-                let unit = gene.to_unit(gene.of(&genome)) + 0.02 * draws.signed();
+                let unit = gene.to_unit(gene.get(&genome)) + 0.02 * draws.signed();
                 gene.set(&mut genome, gene.from_unit(unit));
             }
             genome

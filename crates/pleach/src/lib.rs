@@ -124,12 +124,12 @@ pub use at_full_size::place_at_full_size;
 
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
-    Accuracy, Aftermath, Begun, Budget, COLUMNS, Candidate, Control, Drawings, DrawingsError, Ending,
-    EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem, FitSettings, Fitted, FoundIndividual,
-    Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing, Identifiability,
-    IndividualProgress, IndividualSettings, Judged, Judging, Kept, Objective, Observer, ObserverError,
-    Optimizer, Outcome, Placement, Profile, Progress, Row, RulesSettings, Score, Scored, SearchSpace,
-    Setting, Start, Stepwise, StopReason, TreeSeed, Unknown, Verdict, evaluator, fit, fit_goal,
+    Accuracy, Assessment, AssessmentSettings, Budget, COLUMNS, Candidate, Control, CostModel, Deadline,
+    Drawings, DrawingsError, EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem, FitSettings, Fitted,
+    FoundIndividual, Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing,
+    Identifiability, IndividualProgress, IndividualSettings, Objective, Observer, ObserverError, Optimizer,
+    Outcome, Placement, PreparedSearch, Profile, Progress, Reserve, Row, RulesSettings, Score, Scored,
+    SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed, Unknown, Verdict, evaluator, fit, fit_goal,
     fit_goal_with, individuals,
 };
 

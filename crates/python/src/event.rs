@@ -1,6 +1,6 @@
 //! Events of a running fit, as dicts for a callback of Python's.
 
-use pleach::{Begun, IndividualProgress, Observer, ObserverError, Progress, Row};
+use pleach::{IndividualProgress, Observer, ObserverError, PreparedSearch, Progress, Row};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::mpsc::Sender;
@@ -64,8 +64,8 @@ impl Observer for EventSender {
         let _ = self.0.send(Event::Guessing(done, all));
     }
 
-    fn begun(&mut self, begun: &Begun) -> Result<(), ObserverError> {
-        let names = begun.guess.iter().flat_map(|guess| &guess.names);
+    fn prepared(&mut self, prepared: &PreparedSearch) -> Result<(), ObserverError> {
+        let names = prepared.guess.iter().flat_map(|guess| &guess.names);
         let _ = self.0.send(Event::Begun(names.map(|(name, share)| (name.to_string(), *share)).collect()));
         Ok(())
     }
@@ -81,7 +81,7 @@ impl Observer for EventSender {
 
     fn generation(&mut self, _: &Row) {}
 
-    fn judging(&mut self) {
+    fn assessing(&mut self) {
         let _ = self.0.send(Event::Judging);
     }
 

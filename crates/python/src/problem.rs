@@ -109,7 +109,7 @@ impl NativeProblem {
     #[getter]
     fn start<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         let genome = Genome::new(self.problem.start.params.values().to_vec(), self.seed);
-        numbers(py, self.space.genes().iter().map(|gene| gene.of(&genome)).collect())
+        numbers(py, self.space.genes().iter().map(|gene| gene.get(&genome)).collect())
     }
 
     #[getter]

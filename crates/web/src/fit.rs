@@ -79,11 +79,11 @@ impl Fit {
         let control = Control { observers: vec![&mut callback], ..Control::new(&clock, &stop) };
         let Prepared { problem, settings, .. } = &self.prepared;
         let fit = Stepwise::begin(problem, settings, *library, control).map_err(thrown)?;
-        let begun = fit.begun();
+        let prepared = fit.prepared();
         let looks_like = json!({
-            "looks_like": LooksLike::of(begun.guess.as_ref()),
-            "leaves": begun.problem.foliage != Foliage::None,
-            "species": begun.problem.start.name,
+            "looks_like": LooksLike::of(prepared.guess.as_ref()),
+            "leaves": prepared.problem.foliage != Foliage::None,
+            "species": prepared.problem.start.name,
         });
         self.stage = Stage::Searching(Box::new(fit));
         Ok(looks_like.to_string())
@@ -91,7 +91,7 @@ impl Fit {
 
     /// What `Evaluator`s are made of.
     pub fn recipe(&self) -> Result<Vec<u8>, JsError> {
-        message::recipe(&self.prepared.options, self.search()?.begun())
+        message::recipe(&self.prepared.options, self.search()?.prepared())
     }
 
     /// The next batch in at most `parts` pieces, `elapsed` seconds after the fit began; none once the search is over.
@@ -106,7 +106,7 @@ impl Fit {
         let size = batch.genomes.len().div_ceil(parts.max(1)).max(1);
         let pieces = batch.genomes.chunks(size);
         self.pieces = pieces.clone().map(<[_]>::len).collect();
-        pieces.map(|piece| Ok(Uint8Array::from(message::piece(piece, batch.most)?.as_slice()))).collect()
+        pieces.map(|piece| Ok(Uint8Array::from(message::piece(piece, batch.max_size)?.as_slice()))).collect()
     }
 
     /// Takes what `Evaluator`s gave for the pieces of the last batch, in their order.
@@ -204,8 +204,8 @@ impl Fit {
     }
 
     fn drawing(&self, search: &Stepwise) -> FitDrawing<'_> {
-        let begun = search.begun();
-        self.prepared.drawing(&begun.problem, begun.settings.limits)
+        let prepared = search.prepared();
+        self.prepared.drawing(&prepared.problem, prepared.settings.limits)
     }
 }
 
@@ -222,7 +222,7 @@ impl Observer for Callback<'_> {
         let _ = self.0.call2(&JsValue::NULL, &JsValue::from_f64(done as f64), &JsValue::from_f64(all as f64));
     }
 
-    fn judging(&mut self) {
+    fn assessing(&mut self) {
         let _ = self.0.call1(&JsValue::NULL, &JsValue::from_str("judging"));
     }
 

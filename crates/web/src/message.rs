@@ -2,8 +2,8 @@
 
 use crate::error::thrown;
 use pleach::{
-    Begun, Bitmap, FitOptions, FitProblem, FitSettings, Foliage, Frame, Genome, GoalView, Limits, Placement,
-    Score, Start,
+    Bitmap, FitOptions, FitProblem, FitSettings, Foliage, Frame, Genome, GoalView, Limits, Placement,
+    PreparedSearch, Score, Start,
 };
 use pleach::{Evaluator as Scorer, evaluator};
 use pleach_fit::{Evaluate as _, Size};
@@ -37,8 +37,8 @@ struct Piece {
 }
 
 /// The bytes of the recipe of a fit to one picture.
-pub(crate) fn recipe(options: &FitOptions, begun: &Begun) -> Result<Vec<u8>, JsError> {
-    let Begun { problem, settings, .. } = begun;
+pub(crate) fn recipe(options: &FitOptions, prepared: &PreparedSearch) -> Result<Vec<u8>, JsError> {
+    let PreparedSearch { problem, settings, .. } = prepared;
     let [GoalView { goal, frame, registered, .. }] = problem.goals.as_slice() else {
         return Err(thrown("the page fits one picture, and there are several"));
     };

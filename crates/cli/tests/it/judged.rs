@@ -26,14 +26,14 @@ fn a_fit_says_whether_it_is_good_and_what_to_do_next() {
     let share =
         (number("/fresh_seeds/likeness/mean") - other) / (same - other).max(pleach_fit::MIN_VERDICT_SPAN);
     assert!((number("/verdict/share") - share).abs() < 1e-9);
-    let kind = serde_json::to_value(pleach_fit::Kindred::from_share(share)).unwrap();
+    let kind = serde_json::to_value(pleach_fit::KindVerdict::from_share(share)).unwrap();
     assert_eq!(summary["verdict"]["kind"], kind);
 
     let line = |start: &str| {
         let found = report.lines().find(|line| line.starts_with(start));
         found.unwrap_or_else(|| panic!("no `{start}` in\n{report}"))
     };
-    assert!(line("verdict  ").contains(&pleach_fit::Kindred::from_share(share).to_string()));
+    assert!(line("verdict  ").contains(&pleach_fit::KindVerdict::from_share(share).to_string()));
     let next = line("next     ");
     assert!(next.contains(": pleach ") && next.contains("'my run"), "{next}");
     assert!(line("for this goal, about: ").contains(&format!("another tree of the species {same:.2}")));

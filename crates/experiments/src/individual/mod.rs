@@ -192,7 +192,7 @@ impl IndividualSpec {
         let settings = GoalSettings {
             search: FitSettings { budget, ..FitSettings::default() },
             validates: false,
-            judging: None,
+            assessment: None,
             individual: Some(IndividualSettings::time(whole / 3)),
             ..GoalSettings::new(candidates.to_vec())
         };

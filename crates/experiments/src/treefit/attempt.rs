@@ -119,7 +119,8 @@ pub(super) fn fit(
     let clock = || before + started.elapsed();
     // Judged below, by the whole picture where the goal is spoilt.
     let validates = method.validates;
-    let settings = GoalSettings { search, guess, validates, judging: None, ..GoalSettings::new(Vec::new()) };
+    let settings =
+        GoalSettings { search, guess, validates, assessment: None, ..GoalSettings::new(Vec::new()) };
     let fitted = fit_goal(&asked, &settings, Control::new(&clock, stop::flag()))?;
     let seconds = clock().as_secs_f64();
     let best = fitted.species()?;

@@ -1,8 +1,8 @@
-//! Growing and drawing in memory that is kept.
+//! Memory for growing and comparing trees.
 
-use super::compare::Comparisons;
-use pleach_silhouette::{Bitmap, Detail, Rasterizer};
+use pleach_silhouette::{Detail, Rasterizer};
 use pleach_tree::{CheckedParams, Generator, Growth, StemKind, Tree, Workspace};
+use std::any::Any;
 
 /// Memory that one thread reuses from one evaluation to the next: about the largest tree so far.
 #[derive(Debug)]
@@ -11,12 +11,11 @@ pub struct EvalWorkspace {
     pub(super) values: Vec<f64>,
     pub(super) tree: Tree,
     workspace: Workspace,
-    pub(super) rasterizer: Rasterizer,
-    /// For pictures at twice the goal's size: there half the samples are as many. They are drawn
-    /// as any picture is, so that the drawings of known species that are built in stay as they are.
+    /// Of each goal what its evidence needs.
+    pub(super) evidence: Vec<Box<dyn Any + Send>>,
+    /// For fine silhouettes: at twice the goal's size half the samples are as many. They are drawn as any picture
+    /// is, so that the drawings of known species that are built in stay as they are.
     pub(super) fine: Rasterizer,
-    pub(super) bitmap: Bitmap,
-    pub(super) comparisons: Comparisons,
 }
 
 impl EvalWorkspace {
@@ -24,17 +23,15 @@ impl EvalWorkspace {
     ///
     /// # Panics
     /// If the generator's defaults are not allowed by its own declarations: a mistake there.
-    pub(super) fn new(generator: &dyn Generator) -> Self {
+    pub(super) fn new(generator: &dyn Generator, evidence: Vec<Box<dyn Any + Send>>) -> Self {
         let space = generator.space();
         Self {
             params: space.check(space.defaults()).expect("defaults are allowed values"),
             values: Vec::new(),
             tree: Tree::default(),
             workspace: Workspace::default(),
-            rasterizer: Rasterizer::for_searches(Detail::Half),
+            evidence,
             fine: Rasterizer::with_detail(Detail::Draft),
-            bitmap: Bitmap::default(),
-            comparisons: Comparisons::default(),
         }
     }
 
@@ -44,7 +41,7 @@ impl EvalWorkspace {
             && generator.grow(&self.params, growth, &mut self.workspace, &mut self.tree).is_ok()
     }
 
-    /// Whether the tree stands on one trunk. How far apart several stand may not grow with them.
+    /// Whether the tree stands on one trunk. The distance between several trunks need not grow with them.
     pub(super) fn has_one_trunk(&self) -> bool {
         let mut trunks = self.tree.stems.iter().filter(|stem| stem.kind == StemKind::Trunk);
         trunks.next().is_some() && trunks.next().is_none()
@@ -54,11 +51,5 @@ impl EvalWorkspace {
     #[must_use]
     pub const fn tree(&self) -> &Tree {
         &self.tree
-    }
-
-    /// The silhouette of the last evaluation, in its last view.
-    #[must_use]
-    pub const fn bitmap(&self) -> &Bitmap {
-        &self.bitmap
     }
 }

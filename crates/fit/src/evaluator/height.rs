@@ -1,13 +1,13 @@
 //! Matching the height of trees to the goal's.
 
-use super::compare::PreparedView;
+use crate::problem::GoalView;
 use pleach_silhouette::Projection;
 use pleach_tree::{Foliage, Leaf, Tree};
 
 /// How far a tree's height may be from the goal's before it is resized, in pixels: the tip of a tree
 /// is thinner than a pixel and leaves no ink.
 const TOLERANCE: f64 = 2.0;
-/// Trees that would have to be resized by more than this factor are left to their bad score.
+/// Trees that would have to be resized by more than this factor are scored as they are.
 const MAX_RESIZING: f64 = 100.0;
 
 /// The height of the goal's tree, in metres.
@@ -18,10 +18,9 @@ pub(super) struct GoalHeight {
 }
 
 impl GoalHeight {
-    /// The height that can be seen in `view`: one that is level and without perspective, with paper above
-    /// the tree.
-    pub(super) fn seen(view: &PreparedView) -> Option<Self> {
-        let PreparedView { goal, view, frame, .. } = view;
+    /// The height, if the picture shows it: in a level view without perspective, with paper above the tree.
+    pub(super) fn new(goal: &GoalView) -> Option<Self> {
+        let GoalView { goal, view, frame, .. } = goal;
         let is_level = view.elevation == 0.0 && view.projection == Projection::Orthographic;
         let top = goal.ink_box().map_or(0, |(_, top, _, _)| top);
         let goal = (frame.ground_row - f64::from(top)) * frame.meters_per_pixel;
@@ -29,7 +28,7 @@ impl GoalHeight {
         (is_level && top > 0 && goal > tolerance).then_some(Self { goal, tolerance })
     }
 
-    /// How much larger a tree of `height` metres has to be, if it is not right already.
+    /// The factor that brings a tree of `height` metres to the goal's height; `None` within the tolerance.
     pub(super) fn factor(self, height: f64) -> Option<f64> {
         let factor = self.goal / height;
         let is_off = (height - self.goal).abs() > self.tolerance;
@@ -37,8 +36,8 @@ impl GoalHeight {
     }
 }
 
-/// Metres from the ground to the highest knot or, with leaves, middle line of a leaf: the height to a
-/// pixel or two, at a fraction of the price of [`pleach_tree::Bounds`].
+/// Metres from the ground to the highest knot or, with leaves, middle line of a leaf: the height to a pixel or two,
+/// at a fraction of the cost of [`pleach_tree::Bounds`].
 pub(crate) fn height_of(tree: &Tree, foliage: Foliage) -> f64 {
     let knots = tree.knots.iter().map(|knot| knot.point.z).fold(0.0, f64::max);
     if foliage == Foliage::None {

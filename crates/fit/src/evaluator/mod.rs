@@ -1,37 +1,54 @@
-//! Grow, draw, score: what a fit does a million times.
+//! The cost of one individual: grow its tree, draw it, compare it with the goals.
 
-mod compare;
+mod evaluate;
+mod fine;
 mod grow;
 mod height;
+mod silhouette;
+mod viewpoint;
 
+pub use evaluate::Evaluate;
+pub(crate) use fine::{FineSilhouette, side_for};
 pub use grow::EvalWorkspace;
 pub(crate) use height::height_of;
+pub(crate) use silhouette::{Buffers, blend};
+pub use silhouette::{Silhouette, SilhouetteGoal, SilhouetteMemory};
 
-use crate::evaluate::Evaluate;
-use crate::genome::{Genome, Score, Size};
-use crate::objective::Objective;
-use crate::problem::{FitProblem, ProblemError};
-pub(crate) use compare::{Agreement, Comparisons, Likeness, PreparedView, blend};
+use crate::problem::{
+    Agreement, AnyEvidence, FitProblem, Genome, GoalView, Objective, PlacedTree, PreparedEvidence,
+    ProblemError, Score, Size, Terms,
+};
 use height::GoalHeight;
-use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_silhouette::{Frame, Rasterizer, View};
 use pleach_tree::{Foliage, Generator, Growth, Limits, Tree};
 use rayon::prelude::*;
 use std::num::NonZeroU32;
 use std::sync::{Arc, Mutex, PoisonError};
+use viewpoint::Viewpoint;
 
 /// Scores individuals against the goals of a problem. Shared between threads.
 #[derive(Debug)]
 pub struct Evaluator {
     generator: Arc<dyn Generator>,
-    views: Arc<[PreparedView]>,
+    goals: Arc<[PreparedGoal]>,
     foliage: Foliage,
     objective: Objective,
     limits: Limits,
-    /// Height that every tree is resized to; of several seeds, the first.
+    /// Height of the first goal, and the height that trees are resized to.
+    goal_height: Option<GoalHeight>,
     height: Option<GoalHeight>,
-    /// Trees that an individual is judged by.
+    /// Share of equal pixels of an empty picture.
+    empty_accuracy: f64,
+    /// Trees per individual.
     seeds: u32,
     pool: Mutex<Vec<EvalWorkspace>>,
+}
+
+/// A goal as trees are compared with it.
+#[derive(Debug)]
+struct PreparedGoal {
+    viewpoint: Viewpoint,
+    evidence: Box<dyn PreparedEvidence>,
 }
 
 impl Evaluator {
@@ -41,13 +58,20 @@ impl Evaluator {
     /// See [`ProblemError`].
     pub fn new(problem: &FitProblem, objective: Objective, limits: Limits) -> Result<Self, ProblemError> {
         problem.check()?;
+        let prepare = |(viewpoint, goal): (Viewpoint, &GoalView)| {
+            let evidence = goal.evidence.clone().unwrap_or_else(|| AnyEvidence::new(Silhouette));
+            PreparedGoal { viewpoint, evidence: evidence.prepare(&goal.goal) }
+        };
+        let empty = problem.goals.iter().map(|goal| 1.0 - goal.goal.ink() as f64 / goal.goal.area() as f64);
         Ok(Self {
             generator: Arc::clone(&problem.start.generator),
-            views: PreparedView::of_problem(problem).into(),
+            goals: Viewpoint::from_problem(problem).into_iter().zip(&problem.goals).map(prepare).collect(),
             foliage: problem.foliage,
             objective,
             limits,
+            goal_height: GoalHeight::new(&problem.goals[0]),
             height: None,
+            empty_accuracy: empty.sum::<f64>() / problem.goals.len() as f64,
             seeds: 1,
             pool: Mutex::default(),
         })
@@ -56,31 +80,31 @@ impl Evaluator {
     /// The same for individuals of another generator; shares the prepared goals.
     #[must_use]
     pub(crate) fn with_generator(&self, generator: Arc<dyn Generator>) -> Self {
-        Self { generator, views: Arc::clone(&self.views), pool: Mutex::default(), ..*self }
+        Self { generator, goals: Arc::clone(&self.goals), pool: Mutex::default(), ..*self }
     }
 
-    /// Judges an individual by the mean over `count` trees, of its tree seed and of those after it, so
-    /// that parameters win of which every tree is like the goal and not a lucky one.
+    /// Scores an individual by the mean over `count` trees, of its tree seed and the following ones, so that
+    /// parameters win whose every tree is like the goal, and not one lucky tree.
     #[must_use]
     pub fn with_seeds(self, count: NonZeroU32) -> Self {
         Self { seeds: count.get(), ..self }
     }
 
-    /// Has every tree resized to the height of the first goal's ink before it is compared, if that
-    /// can be seen: in a level view without perspective, with paper above the tree.
+    /// Resizes every tree to the height of the first goal's ink before it is compared, if the picture shows it: in a
+    /// level view without perspective, with paper above the tree.
     ///
     /// A picture shows the height of its tree to a pixel. A search that has to find it again for
     /// every change of the trunk, or of the branches at its tip, spends most of its trials on that.
     #[must_use]
     pub fn with_height_matching(self) -> Self {
-        Self { height: GoalHeight::seen(&self.views[0]), ..self }
+        Self { height: self.goal_height, ..self }
     }
 
-    /// Gives up trees that take more than `work` steps or have more than `leaves` leaves.
+    /// Abandons trees that take more than `work` steps or have more than `leaves` leaves.
     #[must_use]
-    pub(crate) fn with_at_most(self, work: u64, leaves: usize) -> Self {
-        let Limits { work: most, leaves: most_leaves, .. } = self.limits;
-        let limits = Limits { work: most.min(work), leaves: most_leaves.min(leaves), ..self.limits };
+    pub(crate) fn with_limits(self, work: u64, leaves: usize) -> Self {
+        let limits = self.limits;
+        let limits = Limits { work: limits.work.min(work), leaves: limits.leaves.min(leaves), ..limits };
         Self { limits, ..self }
     }
 
@@ -90,22 +114,28 @@ impl Evaluator {
     /// If the generator's defaults are not allowed by its own declarations: a mistake there.
     #[must_use]
     pub fn workspace(&self) -> EvalWorkspace {
-        EvalWorkspace::new(&*self.generator)
+        EvalWorkspace::new(&*self.generator, self.goals.iter().map(|goal| goal.evidence.memory()).collect())
     }
 
     /// Grows `genome`'s tree, draws it and scores it; [`Score::INVALID`] if it does not grow.
     ///
     /// Allocates nothing once `memory` has held a tree as large as this one.
     pub fn evaluate(&self, genome: &Genome, memory: &mut EvalWorkspace) -> Score {
-        self.evaluate_within(genome, Size::ANY, memory, Likeness::IfNeeded)
+        self.evaluate_within(genome, Size::ANY, memory, self.terms())
+    }
+
+    /// The terms that the objective needs.
+    const fn terms(&self) -> Terms {
+        Terms { objective: self.objective, likeness: false }
     }
 
     /// The score of `genome` with its likeness, whatever the objective is.
     pub(crate) fn evaluate_with_likeness(&self, genome: &Genome) -> Score {
-        self.with_memory(|memory| self.evaluate_within(genome, Size::ANY, memory, Likeness::Always))
+        let terms = Terms { likeness: true, ..self.terms() };
+        self.with_memory(|memory| self.evaluate_within(genome, Size::ANY, memory, terms))
     }
 
-    /// [`Evaluator::evaluate`] in memory that is kept from call to call.
+    /// [`Evaluator::evaluate`] in pooled memory.
     pub(crate) fn score(&self, genome: &Genome) -> Score {
         self.with_memory(|memory| self.evaluate(genome, memory))
     }
@@ -115,7 +145,7 @@ impl Evaluator {
         let taken = pool().pop();
         let mut memory = taken.unwrap_or_else(|| self.workspace());
         let result = work(&mut memory);
-        // The next tree may be small, and the one after it.
+        // The next trees may be small.
         memory.tree.release_spare();
         pool().push(memory);
         result
@@ -125,9 +155,9 @@ impl Evaluator {
     fn evaluate_within(
         &self,
         genome: &Genome,
-        most: Size,
+        max_size: Size,
         memory: &mut EvalWorkspace,
-        likeness: Likeness,
+        terms: Terms,
     ) -> Score {
         let own;
         let generator = match &genome.structure {
@@ -139,7 +169,7 @@ impl Evaluator {
                 &*own
             }
         };
-        let mut growth = self.growth(genome.tree_seed, self.foliage, most);
+        let mut growth = self.growth(genome.tree_seed, self.foliage, max_size);
         let Some(Matched { resized, mut magnified }) = self.grow_matched(generator, genome, &growth, memory)
         else {
             return Score::INVALID;
@@ -154,28 +184,28 @@ impl Evaluator {
                 }
                 magnified = 1.0;
             }
-            for view in self.views.iter() {
-                sum.add(&self.draw_and_compare(view, genome, magnified, memory, likeness));
+            for number in 0..self.goals.len() {
+                sum.add(&self.measure(number, genome, magnified, memory, terms));
             }
         }
-        Score { size, resized, ..sum.mean(f64::from(self.seeds) * self.views.len() as f64) }
+        Score { size, resized, ..sum.mean(f64::from(self.seeds) * self.goals.len() as f64) }
     }
 
-    fn growth(&self, seed: u64, foliage: Foliage, most: Size) -> Growth<'static> {
+    fn growth(&self, seed: u64, foliage: Foliage, max_size: Size) -> Growth<'static> {
         let limits = Limits {
-            stems: self.limits.stems.min(most.stems),
-            leaves: self.limits.leaves.min(most.leaves),
-            knots: self.limits.knots.min(most.knots),
+            stems: self.limits.stems.min(max_size.stems),
+            leaves: self.limits.leaves.min(max_size.leaves),
+            knots: self.limits.knots.min(max_size.knots),
             ..self.limits
         };
         Growth { seed, limits, foliage, counts_ahead: true, ..Growth::default() }
     }
 
-    /// Grows `genome`'s tree into `memory` at the height that it should have; none if it does not grow.
+    /// Grows `genome`'s tree into `memory` at the goal's height; `None` if it does not grow.
     ///
-    /// A third to half of all trees are resized, of searched structures most, and growing them again would take up
-    /// to half of the time. So a tree that is nearly right is drawn larger or smaller instead: its branches are
-    /// then off by what does not grow in proportion, the least thickness of twigs, and not by more than can
+    /// A third to half of all trees are resized, and most trees of searched structures; growing them again would take
+    /// up to half of the time. So a tree that is nearly right is drawn larger or smaller instead: its branches are
+    /// then off by what does not grow in proportion, such as the minimum thickness of twigs, which is too little to
     /// be seen.
     fn grow_matched(
         &self,
@@ -192,7 +222,7 @@ impl Evaluator {
         let Some(factor) = wanted.filter(|&factor| generator.resize(&mut memory.values, factor)) else {
             return Some(Matched { resized: 1.0, magnified: 1.0 });
         };
-        let is_flat = || self.views.iter().all(PreparedView::is_orthographic);
+        let is_flat = || self.goals.iter().all(|goal| goal.viewpoint.is_orthographic());
         let is_near = (1.0 / NEAR..NEAR).contains(&factor) && memory.has_one_trunk();
         let in_proportion = genome.structure.is_some() && generator.grows_in_proportion();
         if (is_near || in_proportion) && is_flat() {
@@ -201,29 +231,30 @@ impl Evaluator {
         memory.grow(generator, growth).then_some(Matched { resized: factor, magnified: 1.0 })
     }
 
-    /// Compares the tree in `memory`, `magnified` times as large, with one goal.
-    fn draw_and_compare(
+    /// Compares the tree in `memory`, `magnified` times as large, with goal `number`.
+    fn measure(
         &self,
-        view: &PreparedView,
+        number: usize,
         genome: &Genome,
         magnified: f64,
         memory: &mut EvalWorkspace,
-        likeness: Likeness,
+        terms: Terms,
     ) -> Agreement {
-        let (from, mut frame) = view.placed(&genome.nuisances);
+        let PreparedGoal { viewpoint, evidence } = &self.goals[number];
+        let (view, mut frame) = viewpoint.placed(&genome.nuisances);
         frame.meters_per_pixel /= magnified;
-        let EvalWorkspace { tree, rasterizer, bitmap, comparisons, .. } = memory;
-        rasterizer.draw(tree, &from, &frame, self.foliage.into(), bitmap);
-        view.compare(bitmap, self.objective, likeness, comparisons)
+        let EvalWorkspace { tree, evidence: memories, .. } = memory;
+        let placed = PlacedTree { tree, view, frame, parts: self.foliage.into() };
+        evidence.measure(&placed, terms, &mut *memories[number])
     }
 
-    /// The direction and the frame of each goal, as `genome` says where they are not known.
+    /// The direction and the frame of each goal; unknowns are as in `genome`.
     pub(crate) fn placed(&self, genome: &Genome) -> Vec<(View, Frame)> {
-        self.views.iter().map(|view| view.placed(&genome.nuisances)).collect()
+        self.goals.iter().map(|goal| goal.viewpoint.placed(&genome.nuisances)).collect()
     }
 
-    /// Grows the trees that `genome` is judged by, as they are, and shows them to `look` one by one;
-    /// none if one of them does not grow.
+    /// Grows the trees of all seeds of `genome`, as they are, and calls `look` with each; `None` if one of them does
+    /// not grow.
     pub(crate) fn show(
         &self,
         genome: &Genome,
@@ -242,8 +273,8 @@ impl Evaluator {
         })
     }
 
-    /// Grows `genome`'s own tree at the height that it is compared at, and shows it to `look` with the factor by
-    /// which it is still too small and the direction of each goal; none if it does not grow.
+    /// Grows `genome`'s own tree at the goal's height, and calls `look` with it, the factor by which it is still too
+    /// small, and the direction of each goal; `None` if it does not grow.
     pub(crate) fn show_matched(&self, genome: &Genome, look: impl FnOnce(&Tree, f64, &[View])) -> Option<()> {
         let views: Vec<View> = self.placed(genome).into_iter().map(|(view, _)| view).collect();
         self.with_memory(|memory| {
@@ -254,30 +285,19 @@ impl Evaluator {
         })
     }
 
-    /// Likeness and intersection over union of `picture` with goal number `view`.
-    pub(crate) fn resemblance(&self, view: usize, picture: &Bitmap) -> (f64, f64) {
-        self.with_memory(|memory| {
-            let comparisons = &mut memory.comparisons;
-            let agreement =
-                self.views[view].compare(picture, Objective::Likeness, Likeness::Always, comparisons);
-            (agreement.value, agreement.iou)
-        })
-    }
-
-    /// How much larger a tree of `height` metres has to be, if it is not right already.
+    /// The factor that brings a tree of `height` metres to the goal's height; `None` within the tolerance.
     pub(crate) fn factor_for(&self, height: f64) -> Option<f64> {
         self.height?.factor(height)
     }
 
     /// Share of equal pixels that an empty picture has, in 0..=1; the mean over views.
     #[must_use]
-    pub fn empty_accuracy(&self) -> f64 {
-        let shares = self.views.iter().map(|v| 1.0 - v.goal.ink() as f64 / v.goal.area() as f64);
-        shares.sum::<f64>() / self.views.len() as f64
+    pub const fn empty_accuracy(&self) -> f64 {
+        self.empty_accuracy
     }
 }
 
-/// Trees that are to be resized by less than this factor are drawn at another scale instead.
+/// Trees that would be resized by less than this factor are drawn at another scale instead.
 const NEAR: f64 = 1.15;
 
 /// How a tree was brought to the height of its goal.
@@ -288,12 +308,12 @@ struct Matched {
     magnified: f64,
 }
 
-/// The sum of what was measured in several pictures.
+/// The sum of the terms over several pictures.
 struct Sum {
     cost: f64,
     iou: f64,
     accuracy: f64,
-    /// None once one of the pictures has none.
+    /// `None` if one of the pictures has none.
     likeness: Option<f64>,
 }
 
@@ -320,11 +340,11 @@ impl Sum {
 }
 
 impl Evaluate for Evaluator {
-    fn scores(&self, genomes: &[Genome], most: Size) -> Vec<Score> {
+    fn scores(&self, genomes: &[Genome], max_size: Size) -> Vec<Score> {
         let score = |genome: &Genome| {
-            self.with_memory(|memory| self.evaluate_within(genome, most, memory, Likeness::IfNeeded))
+            self.with_memory(|memory| self.evaluate_within(genome, max_size, memory, self.terms()))
         };
-        // Trees differ a hundredfold in cost: each is a piece of work of its own.
+        // Trees differ a hundredfold in time: each is a task of its own.
         genomes.par_iter().with_max_len(1).map(score).collect()
     }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// A species that a goal may be of, of any family of generators.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The species; its name is what a goal is said to look like.
+    /// The species; its name is reported as what the goal looks like.
     pub species: Species,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Models {
 }
 
 impl Models {
-    /// Those of `candidates`, with evaluators that are like `base`.
+    /// Those of `candidates`, with evaluators like `base`.
     pub(super) fn new(candidates: &[Candidate], base: &Evaluator) -> Self {
         let mut known: Vec<ModelId> = Vec::new();
         let mut models = Self { evaluators: Vec::new(), of_candidate: Vec::new() };

@@ -1,6 +1,6 @@
-//! Drawings of trees that were grown before: what a library need not grow again.
+//! Drawings of trees that a library need not grow again.
 
-use super::library::TreeLooks;
+use super::silhouettes::BothSilhouettes;
 use flate2::Compression;
 use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
@@ -8,34 +8,32 @@ use std::collections::HashMap;
 use std::io::{Read as _, Write as _};
 use std::sync::Arc;
 
-/// Drawings of trees, found by what they are drawings of: the generator, its numbers, the seed, the view, and the
-/// size of the drawing.
+/// Drawings of trees by generator, numbers, seed, view, and size of the drawing.
 ///
-/// They spare growing and change nothing: a first guess is the same bits with them and without, so long as they
-/// were made by the same version. [`GuessLibrary::record`](super::GuessLibrary::record)
-/// makes them.
+/// They save time and do not change a first guess, provided that the same version made them.
+/// [`GuessLibrary::record`](super::GuessLibrary::record) makes them.
 #[derive(Clone, Debug)]
 pub struct Drawings {
-    /// How each looks, or that it does not grow, packed, by its mark.
+    /// Packed silhouettes of each, or that it does not grow, by its key.
     trees: Arc<HashMap<u64, &'static [u8]>>,
 }
 
-/// The drawings are no drawings of this version.
+/// The drawings are not of this version.
 #[derive(Debug, thiserror::Error)]
 #[error("no drawings of this version")]
 pub struct DrawingsError;
 
 impl Drawings {
-    /// Drawings as they were written.
+    /// Reads the bytes of [`GuessLibrary::record`](super::GuessLibrary::record).
     ///
     /// # Errors
-    /// [`DrawingsError`] if they were not.
+    /// [`DrawingsError`] for other bytes.
     pub fn from_bytes(bytes: &'static [u8]) -> Result<Self, DrawingsError> {
         let trees: Vec<(u64, &'static [u8])> = postcard::from_bytes(bytes).map_err(|_| DrawingsError)?;
         Ok(Self { trees: Arc::new(trees.into_iter().collect()) })
     }
 
-    /// How many trees there are drawings of.
+    /// The number of trees.
     #[must_use]
     pub fn len(&self) -> usize {
         self.trees.len()
@@ -47,8 +45,8 @@ impl Drawings {
         self.trees.is_empty()
     }
 
-    /// The looks that are filed under `mark`, none of a tree that does not grow; none if nothing is.
-    pub(super) fn find(&self, mark: u64) -> Option<Option<TreeLooks>> {
+    /// The silhouettes with this key: `Some(None)` for trees that do not grow, `None` for an unknown key.
+    pub(super) fn find(&self, mark: u64) -> Option<Option<BothSilhouettes>> {
         postcard::from_bytes(&self.plain(mark)?).ok()
     }
 
@@ -58,7 +56,7 @@ impl Drawings {
         Some(plain)
     }
 
-    /// Whether `other` has all of these, and the same.
+    /// Whether `other` contains all of these, unchanged.
     #[must_use]
     pub fn are_within(&self, other: &Self) -> bool {
         self.trees.keys().all(|&mark| {
@@ -68,16 +66,17 @@ impl Drawings {
     }
 }
 
-/// Trees by their marks as [`Drawings::from_bytes`] reads them; the same bytes in whatever order they come.
-pub(super) fn pack<'a>(trees: impl Iterator<Item = (u64, &'a Option<TreeLooks>)>) -> Vec<u8> {
-    let mut packed: Vec<(u64, Vec<u8>)> = trees.map(|(mark, looks)| (mark, deflated(looks))).collect();
+/// The bytes of trees by their keys, which do not depend on their order.
+pub(super) fn pack<'a>(trees: impl Iterator<Item = (u64, &'a Option<BothSilhouettes>)>) -> Vec<u8> {
+    let mut packed: Vec<(u64, Vec<u8>)> =
+        trees.map(|(mark, silhouettes)| (mark, deflated(silhouettes))).collect();
     packed.sort_unstable();
     packed.dedup();
     postcard::to_stdvec(&packed).expect("plain values")
 }
 
-fn deflated(looks: &Option<TreeLooks>) -> Vec<u8> {
-    let plain = postcard::to_stdvec(looks).expect("plain values");
+fn deflated(silhouettes: &Option<BothSilhouettes>) -> Vec<u8> {
+    let plain = postcard::to_stdvec(silhouettes).expect("plain values");
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(&plain).and_then(|()| encoder.finish()).expect("memory takes all")
 }

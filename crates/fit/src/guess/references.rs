@@ -1,49 +1,26 @@
-//! What a likeness is worth: what other trees, and no tree at all, would have for the same goal.
+//! Reference values for a likeness: those of other trees, and of the best ellipse, for the same goal.
 
 use super::candidate::Candidate;
+use super::found::{Reference, References};
 use super::library::{Entry, Resemblance};
 use crate::problem::FitProblem;
 use pleach_silhouette::Bitmap;
 use pleach_silhouette::score::best_ellipse;
 use pleach_silhouette::score::likeness::Likeness;
-use serde::Serialize;
-
-/// Likeness and overlap of two silhouettes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Reference {
-    /// Likeness, in 0..=1.
-    pub likeness: f64,
-    /// Intersection over union, in 0..=1.
-    pub iou: f64,
-}
-
-/// What a fit's likeness and overlap stand beside, at the size that the search compares at.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct References {
-    /// The known species that the goal looks like most; none if there is none to compare with.
-    pub species: Option<String>,
-    /// What two trees of that species have, drawn as the goal is: the mean over pairs of seeds. No fit
-    /// of a kind can be asked for more of other seeds.
-    pub same_species: Option<Reference>,
-    /// What a tree of another species has to the goal: the median over species.
-    pub other_species: Option<Reference>,
-    /// What the best single ellipse has to the goal: a shape and no tree.
-    pub best_ellipse: Reference,
-}
 
 impl References {
-    /// From what trees of each candidate have to the goals of `problem`; `named` is the candidate that they look
-    /// like, and `trees` are pictures of it, view by view.
+    /// Reference values for the goals of `problem` from those of each candidate's trees. `named` is the candidate
+    /// that the goals look like, and `trees` are pictures of it, view by view.
     pub(super) fn new(
         problem: &FitProblem,
         candidates: &[Candidate],
-        of_species: &[Vec<Reference>],
+        by_candidate: &[Vec<Reference>],
         named: Option<usize>,
         trees: &[Vec<Bitmap>],
     ) -> Self {
         let others: Vec<Reference> = (0..candidates.len())
             .filter(|&candidate| Some(candidate) != named)
-            .filter_map(|candidate| mean(of_species[candidate].iter().copied()))
+            .filter_map(|candidate| mean(by_candidate[candidate].iter().copied()))
             .collect();
         let pairs = (0..trees.len()).flat_map(|a| (a + 1..trees.len()).map(move |b| (a, b)));
         let same_species = mean(pairs.filter_map(|(a, b)| compare(&trees[a], &trees[b])));
@@ -58,16 +35,16 @@ impl References {
     }
 }
 
-/// What the trees of each of `count` candidates, as it is, have to the goals.
-pub(super) fn of_species(
+/// Likeness and overlap of the unvaried trees of each of `count` candidates.
+pub(super) fn by_candidate(
     count: usize,
     entries: &[Entry],
     found: &[Option<Resemblance>],
 ) -> Vec<Vec<Reference>> {
     let mut lists = vec![Vec::new(); count];
-    for (Entry { attempt, .. }, found) in entries.iter().zip(found) {
-        if let (true, Some(one)) = (attempt.is_species, found) {
-            lists[attempt.candidate].push(Reference { likeness: one.likeness, iou: one.iou });
+    for (Entry { sample, .. }, found) in entries.iter().zip(found) {
+        if let (true, Some(one)) = (sample.is_species, found) {
+            lists[sample.candidate].push(Reference { likeness: one.likeness, iou: one.iou });
         }
     }
     lists

@@ -1,30 +1,29 @@
-//! How much is tried for a first guess.
+//! Settings of a first guess.
 
-/// How much is tried for a first guess.
+/// Settings of a first guess.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GuessSettings {
     /// Varied copies of each candidate.
     pub variants: u32,
-    /// Standard deviation of a varied number, as a part of the number itself.
+    /// Standard deviation of a varied number, relative to the number itself.
     pub spread: f64,
-    /// Trees of each candidate as it is, of different seeds: what names are decided by.
+    /// Unvaried trees of each candidate, of different seeds: they decide the names.
     pub seeds: u32,
-    /// Lists that are returned, at most.
+    /// Upper bound of the lists that are returned.
     pub keep: usize,
-    /// Whether the goal is looked at with leaves and without, and taken for what it is more like; if
-    /// not, `FitProblem::foliage` says it.
+    /// Whether trees with leaves and without are compared with the goal, to find out whether it has leaves; if not,
+    /// `FitProblem::foliage` decides.
     pub detect_leaves: bool,
-    /// How generators compete, where candidates are of several; if not at all, the least cost of a
-    /// candidate's tree decides.
+    /// How generators compete if candidates are of several; `None`: the least cost of a candidate's tree decides.
     pub race: Option<RaceSettings>,
 }
 
 /// How generators compete for a goal: each is searched for a short while.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RaceSettings {
-    /// Generators that take part, at most, but one of every family in any case.
+    /// Upper bound of the generators that take part; one of every family does in any case.
     pub runners: usize,
-    /// Trees that each tries; never more than the whole search may.
+    /// Evaluations of each; at most those of the whole search.
     pub evaluations: u64,
 }
 

@@ -4,78 +4,80 @@ use pleach_tree::{Draw, Individual, StemPath};
 use std::collections::BTreeMap;
 use std::ops::Bound;
 
-/// An individual, with what is known of each of its draws.
+/// An individual, with price and gain of each of its draws.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Chosen {
     pub(super) individual: Individual,
-    kept: BTreeMap<StemPath, Kept>,
+    changes: BTreeMap<StemPath, Change>,
 }
 
-/// Draws of a stem that were worth it.
+/// Price and gain of a stem's draws.
 #[derive(Clone, Copy, Debug)]
-struct Kept {
-    /// What they cost.
+struct Change {
+    /// Their price.
     price: f64,
-    /// By how much they made the cost smaller.
+    /// By how much they lowered the cost.
     gain: f64,
 }
 
 impl Chosen {
     /// Number of stems with draws of their own.
     pub(super) fn len(&self) -> usize {
-        self.kept.len()
+        self.changes.len()
     }
 
     /// Whether the stem has draws of its own.
     pub(super) fn has(&self, path: &StemPath) -> bool {
-        self.kept.contains_key(path)
+        self.changes.contains_key(path)
     }
 
-    /// What all draws cost.
+    /// The price of all draws.
     pub(super) fn price(&self) -> f64 {
-        self.kept.values().map(|kept| kept.price).sum()
+        self.changes.values().map(|change| change.price).sum()
     }
 
-    /// What those cost that [`Self::set`] would leave as they are.
+    /// The price of the draws that [`Self::set`] would not change.
     pub(super) fn price_beside(&self, path: &StemPath, reseeds: bool) -> f64 {
         let stays = |other: &StemPath| if reseeds { !other.is_on(path) } else { other != path };
         // In one order, whichever stems were exchanged first.
-        self.kept.iter().filter(|(other, _)| stays(other)).map(|(_, kept)| kept.price).sum()
+        self.changes.iter().filter(|(other, _)| stays(other)).map(|(_, change)| change.price).sum()
     }
 
-    /// The least by which the draws of any stem made the cost smaller.
-    pub(super) fn least_gain(&self) -> f64 {
-        self.kept.values().map(|kept| kept.gain).fold(f64::INFINITY, f64::min)
+    /// The least gain of any stem's draws.
+    pub(super) fn min_gain(&self) -> f64 {
+        self.changes.values().map(|change| change.gain).fold(f64::INFINITY, f64::min)
     }
 
-    /// Gives a stem another draw, which costs `price` and makes the cost smaller by `gain`. One that `reseeds` the
-    /// stem gives all that it carries their own draws back.
+    /// Gives a stem another draw, with its `price` and `gain`. One that `reseeds` the stem resets the draws of its
+    /// descendants.
     pub(super) fn set(&mut self, path: StemPath, draw: Draw, reseeds: bool, price: f64, gain: f64) {
-        // What is forgotten has its share in what is gained.
-        let before =
-            self.kept.iter().filter(|(other, _)| if reseeds { other.is_on(&path) } else { **other == path });
-        let gain = gain + before.map(|(_, kept)| kept.gain).sum::<f64>();
+        // The gain of reset draws is part of the gain of this one.
+        let before = self
+            .changes
+            .iter()
+            .filter(|(other, _)| if reseeds { other.is_on(&path) } else { **other == path });
+        let gain = gain + before.map(|(_, change)| change.gain).sum::<f64>();
         if reseeds {
             self.individual.clear_above(&path);
-            self.kept.retain(|other, _| !other.is_on(&path));
+            self.changes.retain(|other, _| !other.is_on(&path));
         }
         self.individual.set(path.clone(), draw);
-        self.kept.insert(path, Kept { price, gain });
+        self.changes.insert(path, Change { price, gain });
     }
 
-    /// Gives stems their own draws back until at most `most` have others: first those that gained least.
+    /// Resets the draws of stems until at most `most` are left: those of least gain first.
     pub(super) fn prune(&mut self, most: usize) {
         while self.len() > most {
-            // One that others were chosen on stays, or they would grow from another stem.
+            // A stem whose descendants have draws stays, or they would grow from another stem.
             let carries = |path: &StemPath| {
                 let above = (Bound::Excluded(path), Bound::Unbounded);
-                self.kept.range::<StemPath, _>(above).next().is_some_and(|(next, _)| next.is_on(path))
+                self.changes.range::<StemPath, _>(above).next().is_some_and(|(next, _)| next.is_on(path))
             };
-            let ends = self.kept.iter().filter(|(path, _)| !carries(path));
+            let ends = self.changes.iter().filter(|(path, _)| !carries(path));
             let Some((least, _)) = ends.min_by(|(_, a), (_, b)| a.gain.total_cmp(&b.gain)) else { return };
             let least = least.clone();
             self.individual.unset(&least);
-            self.kept.remove(&least);
+            self.changes.remove(&least);
         }
     }
 }
@@ -102,7 +104,7 @@ mod tests {
         some.prune(4);
         assert_eq!(paths(&some), ["0", "0/3", "0/3/1", "0/f1"]);
         some.prune(2);
-        assert_eq!((paths(&some).len(), some.len(), some.least_gain()), (2, 2, 0.01));
+        assert_eq!((paths(&some).len(), some.len(), some.min_gain()), (2, 2, 0.01));
         // The gain of what carried nothing any more.
         assert_eq!(paths(&some), ["0", "0/3"]);
     }
@@ -120,6 +122,6 @@ mod tests {
         assert_eq!((paths(&turned), turned.price()), (paths(&some), 0.5));
         some.set(path.clone(), draw, true, 0.0, 1.0);
         assert_eq!(paths(&some), ["0/3", "0/4"]);
-        assert_eq!((some.kept[&path].gain, some.least_gain(), some.has(&path)), (1.52, 0.1, true));
+        assert_eq!((some.changes[&path].gain, some.min_gain(), some.has(&path)), (1.52, 0.1, true));
     }
 }

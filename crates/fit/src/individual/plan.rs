@@ -1,17 +1,16 @@
-//! In which order stems are dealt other draws.
+//! The order in which stems get other draws.
 
 use pleach_tree::Tree;
 
-/// Trees of a batch: what is exchanged after it is decided in one order, so it does not follow the number of
-/// threads.
+/// Trees of a batch. Exchanges are decided after a batch, so that they do not depend on the number of threads.
 pub(super) const BATCH: u32 = 8;
 /// Batches of a stage.
 const BATCHES: u32 = 4;
-/// Of the first, in which whole trees are dealt: one candidate each, for the price of as many as it has stems.
+/// Batches of the first stage, in which whole trees are drawn: one candidate per tree, instead of one per stem.
 const FIRST_BATCHES: u32 = 4;
-/// The share of the budget that whole trees may take.
+/// Share of the budget for whole trees.
 const FIRST_SHARE: f64 = 0.12;
-/// Generations with more stems are left as they are.
+/// Generations with more stems are not changed.
 const MAX_UNITS: usize = 6000;
 
 /// Some batches of one kind.
@@ -19,16 +18,16 @@ const MAX_UNITS: usize = 6000;
 pub(super) struct Stage {
     /// The generation of the stems.
     pub(super) generation: u16,
-    /// Whether they are dealt anew, or only turned.
+    /// Whether they are drawn again, or only turned.
     pub(super) reseeds: bool,
-    /// The part of their spread that draws lie away from what they were.
+    /// Distance of new draws from the present ones, relative to their spread.
     pub(super) reach: f64,
     pub(super) batches: u32,
-    /// The used share of the budget at which it ends, whatever is left of it.
+    /// The used share of the budget at which it ends, even if batches are left.
     pub(super) until: f64,
 }
 
-/// The generations beyond the trunks of `tree` whose stems are dealt anew: those that are not too many.
+/// The generations beyond the trunks of `tree` whose stems are drawn again: those with not too many stems.
 pub(super) fn generations(tree: &Tree) -> Vec<u16> {
     let mut of_stems: Vec<u16> = Vec::with_capacity(tree.stems.len());
     let mut counts: Vec<usize> = Vec::new();
@@ -43,7 +42,7 @@ pub(super) fn generations(tree: &Tree) -> Vec<u16> {
     some.map(|(generation, _)| generation).collect()
 }
 
-/// The stages of a tree: whole trees first, then these generations, round and round without end.
+/// The stages of a tree: whole trees first, then these generations in turn, without end.
 pub(super) fn stages(generations: &[u16]) -> impl Iterator<Item = Stage> + '_ {
     let whole = [
         Stage { generation: 0, reseeds: true, reach: 1.0, batches: FIRST_BATCHES, until: FIRST_SHARE },
@@ -73,7 +72,7 @@ mod tests {
         let willow = grown("weeping_willow");
         let chosen = generations(&willow);
         assert!(chosen.contains(&1) && willow.stems.len() > MAX_UNITS, "{chosen:?}");
-        // Without branches whole trees are all there is.
+        // Without branches there are only whole trees.
         assert_eq!(stages(&[]).count(), 2);
         let first: Vec<(u16, bool)> = stages(&[1, 3]).take(8).map(|s| (s.generation, s.reseeds)).collect();
         let round = [(1, true), (1, false), (3, true), (3, false)];

@@ -1,15 +1,15 @@
 //! The search for an individual.
 
 use super::chosen::Chosen;
-use super::hand::{Hand, Scene};
 use super::plan::{self, BATCH, Stage};
-use super::state::{Deal, LEAST_GAIN, State};
+use super::state::{MIN_GAIN, Proposal, State};
+use super::task::{FoundIndividual, IndividualProgress, Task};
 use super::units::Units;
-use super::{FoundIndividual, IndividualProgress, Quest};
-use crate::budget::Clock;
+use super::worker::{Scene, Worker};
+use crate::control::Clock;
 use crate::error::FitError;
-use crate::evaluator::{Evaluator, PreparedView};
-use crate::objective::Objective;
+use crate::evaluator::{Evaluator, SilhouetteGoal};
+use crate::problem::Objective;
 use pleach_silhouette::Layer;
 use pleach_tree::Trial;
 use pleach_tree::{Draw, Spread};
@@ -17,23 +17,23 @@ use rayon::prelude::*;
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
 
-/// The part of the stems with draws of their own that are kept on trial beyond those that may stay: what is
-/// dropped is dropped for many at once, for the price of a tree.
+/// One of this many parts of the allowed stems with draws of their own may be kept beyond the bound for a while:
+/// dropping many at once costs one tree.
 const ON_TRIAL: usize = 4;
-/// The used share of the budget from which on none are.
+/// The used share of the budget from which none are.
 const LAST: f64 = 0.9;
 
-/// Numbers of trials that one tree may use up, so that no two have the same.
+/// Numbers of trials per individual, so that no two have the same.
 const NUMBERS: u32 = 1 << 24;
 
-/// Searches one tree, the one of this number; see [`super::individuals`].
+/// Searches individual number `which`; see [`super::individuals`].
 pub(super) fn search(
-    quest: &Quest<'_>,
+    task: &Task<'_>,
     which: u8,
     clock: &dyn Clock,
-    mut tell: impl FnMut(&IndividualProgress),
+    mut notify: impl FnMut(&IndividualProgress),
 ) -> Result<Option<FoundIndividual>, FitError> {
-    let Quest { problem, genome, settings, limits, stop } = *quest;
+    let Task { problem, genome, settings, limits, stop } = *task;
     let from = clock.elapsed();
     let evaluator = Evaluator::new(problem, Objective::Overlap, limits)?;
     let generator = &problem.start.generator;
@@ -42,18 +42,18 @@ pub(super) fn search(
     if spreads.is_empty() {
         return Ok(None);
     }
-    let views = PreparedView::of_problem(problem);
+    let views = problem.goals.iter().map(|goal| SilhouetteGoal::new(&goal.goal)).collect();
     let placed = evaluator.placed(genome);
-    let scene = Scene { quest, params, views, placed };
-    let hands = Hands::default();
+    let scene = Scene { task, params, views, placed };
+    let workers = Workers::default();
     let mut number = u32::from(which) * NUMBERS;
-    let begun = hands.with(&scene, |hand| {
-        let own = State::new(&scene, Chosen::default(), 0, hand)?;
-        Some(if which == 0 { own } else { dealt_anew(&scene, own, &mut number, &spreads, hand) })
+    let begun = workers.with(&scene, |worker| {
+        let own = State::new(&scene, Chosen::default(), 0, worker)?;
+        Some(if which == 0 { own } else { redrawn(&scene, own, &mut number, &spreads, worker) })
     });
     let Some(mut state) = begun else { return Ok(None) };
     let (mut trees, mut trials) = (0, 0);
-    // The longest batch so far: another that would end late by more than half of it is not begun.
+    // The longest batch so far: a batch that would end late by more than half of it is not started.
     let mut longest = 0.0_f64;
     let passed = || clock.elapsed().saturating_sub(from).as_secs_f64();
     let used = |trees: u64, longest: f64| {
@@ -61,11 +61,11 @@ pub(super) fn search(
         share(passed() + longest / 2.0, settings.time.map(|time| time.as_secs_f64()))
             .max(share(trees as f64, settings.trees.map(|all| all as f64)))
     };
-    let generations = hands.with(&scene, |hand| plan::generations(&hand.tree));
+    let generations = workers.with(&scene, |worker| plan::generations(&worker.tree));
     'stages: for stage in plan::stages(&generations) {
         if state.generation != stage.generation {
             let chosen = state.chosen.clone();
-            let next = hands.with(&scene, |hand| State::new(&scene, chosen, stage.generation, hand));
+            let next = workers.with(&scene, |worker| State::new(&scene, chosen, stage.generation, worker));
             // It has grown before.
             let Some(next) = next else { break };
             state = next;
@@ -76,7 +76,7 @@ pub(super) fn search(
                 break;
             }
             let likeness = state.likeness;
-            tell(&IndividualProgress {
+            notify(&IndividualProgress {
                 number: which,
                 trees,
                 trials,
@@ -90,7 +90,7 @@ pub(super) fn search(
             let begun = passed();
             let numbers: Vec<u32> = (number..number + BATCH).collect();
             number += BATCH;
-            let batch = Batch { scene: &scene, hands: &hands, state: &state, stage, spreads: &spreads };
+            let batch = Batch { scene: &scene, workers: &workers, state: &state, stage, spreads: &spreads };
             let found: Vec<Found> =
                 numbers.par_iter().with_max_len(1).map(|&number| batch.tree(number)).collect();
             if stop.load(Ordering::Relaxed) {
@@ -99,16 +99,16 @@ pub(super) fn search(
             trees += u64::from(BATCH);
             trials += found.iter().map(|found| found.trials).sum::<u64>();
             let better = found.into_iter().flat_map(|found| found.better).collect();
-            keep(&scene, &hands, &mut state, better);
+            keep(&scene, &workers, &mut state, better);
             let on_trial = if used(trees, longest) < LAST { settings.max_stems / ON_TRIAL } else { 0 };
-            state = hands.with(&scene, |hand| pruned(&scene, state, on_trial, hand));
+            state = workers.with(&scene, |worker| pruned(&scene, state, on_trial, worker));
             longest = longest.max(passed() - begun);
         }
     }
-    // The clock may have leapt over the last batches.
-    state = hands.with(&scene, |hand| pruned(&scene, state, 0, hand));
-    // What follows grows trees in memory of its own.
-    drop(hands);
+    // The clock may have jumped over the last batches.
+    state = workers.with(&scene, |worker| pruned(&scene, state, 0, worker));
+    // The code below grows trees in memory of its own.
+    drop(workers);
     let kind = problem.species(genome).map_err(crate::space::SpaceError::Start)?;
     let species = kind.with_individual(genome.tree_seed, state.chosen.individual);
     let before = evaluator.evaluate_with_likeness(genome);
@@ -118,8 +118,14 @@ pub(super) fn search(
     Ok(Some(FoundIndividual { species, before, score, trees, trials, elapsed }))
 }
 
-/// The tree `own` with other draws of its trunks, and so of all that they carry; the same where no such tree grows.
-fn dealt_anew(scene: &Scene<'_>, own: State, number: &mut u32, spreads: &[Spread], hand: &mut Hand) -> State {
+/// The tree `own` with other draws of its trunks, and so of all their descendants; unchanged if no such tree grows.
+fn redrawn(
+    scene: &Scene<'_>,
+    own: State,
+    number: &mut u32,
+    spreads: &[Spread],
+    worker: &mut Worker,
+) -> State {
     const TRIES: usize = 8;
     for _ in 0..TRIES {
         let trial =
@@ -128,64 +134,64 @@ fn dealt_anew(scene: &Scene<'_>, own: State, number: &mut u32, spreads: &[Spread
         let mut chosen = Chosen::default();
         for path in own.paths() {
             let draw = trial.draw(path.address(), 0, &Draw::OWN);
-            // They make the tree another one, and stay.
+            // They make it another tree, and are never dropped.
             chosen.set(path.clone(), draw, true, 0.0, f64::INFINITY);
         }
-        if let Some(state) = State::new(scene, chosen, 0, hand) {
+        if let Some(state) = State::new(scene, chosen, 0, worker) {
             return state;
         }
     }
     own
 }
 
-/// Makes the exchanges that are still worth it, the best first.
-fn keep(scene: &Scene<'_>, hands: &Hands, state: &mut State, mut better: Vec<Better>) {
+/// Makes the exchanges that still lower the cost, the best first.
+fn keep(scene: &Scene<'_>, workers: &Workers, state: &mut State, mut better: Vec<Better>) {
     // Stable, so that ties are in the order of the trees.
     better.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let most = scene.quest.settings.max_stems;
-    for Better { deal, layers, .. } in better {
-        let worth = hands.with(scene, |hand| state.tried_again(scene, &deal, &layers, hand));
-        if worth.cost < state.cost - state.least_gain(deal.unit, most) {
-            state.exchange(&deal, layers, worth);
+    let most = scene.task.settings.max_stems;
+    for Better { proposal, layers, .. } in better {
+        let loss = workers.with(scene, |worker| state.tried_again(scene, &proposal, &layers, worker));
+        if loss.cost < state.cost - state.min_gain(proposal.unit, most) {
+            state.exchange(&proposal, layers, loss);
         }
     }
 }
 
-/// `state` with at most as many stems with draws of their own as there may be; as it is where it has no more than
-/// that and `on_trial`.
-fn pruned(scene: &Scene<'_>, state: State, on_trial: usize, hand: &mut Hand) -> State {
-    let most = scene.quest.settings.max_stems;
+/// `state` with at most the allowed number of stems with draws of their own; unchanged if it has at most `on_trial`
+/// more.
+fn pruned(scene: &Scene<'_>, state: State, on_trial: usize, worker: &mut Worker) -> State {
+    let most = scene.task.settings.max_stems;
     if state.chosen.len() <= most + on_trial {
         return state;
     }
-    // Without some of its draws a tree may have too much of something; without all it has grown before.
+    // Without some of its draws a tree may exceed a limit; without any it has grown before.
     let fewer = (0..=most).rev().find_map(|most| {
         let mut chosen = state.chosen.clone();
         chosen.prune(most);
-        State::new(scene, chosen, state.generation, hand)
+        State::new(scene, chosen, state.generation, worker)
     });
     fewer.unwrap_or(state)
 }
 
-/// A deal that makes the cost smaller.
+/// A proposal that lowers the cost.
 struct Better {
     /// The cost after it.
     cost: f64,
-    deal: Deal,
-    /// What its parts cover, view by view.
+    proposal: Proposal,
+    /// The layers of its parts, view by view.
     layers: Vec<Layer>,
 }
 
-/// What one tree of candidates has brought.
+/// The result of one tree of candidates.
 struct Found {
     trials: u64,
     better: Vec<Better>,
 }
 
-/// Trees that are grown beside each other.
+/// Trees that are grown in parallel.
 struct Batch<'a> {
     scene: &'a Scene<'a>,
-    hands: &'a Hands,
+    workers: &'a Workers,
     state: &'a State,
     stage: Stage,
     spreads: &'a [Spread],
@@ -194,28 +200,28 @@ struct Batch<'a> {
 impl Batch<'_> {
     /// Grows a tree in which all stems of the generation have other draws, and tries them one by one.
     fn tree(&self, number: u32) -> Found {
-        let Self { scene, hands, state, stage, spreads } = *self;
+        let Self { scene, workers, state, stage, spreads } = *self;
         let mut found = Found { trials: 0, better: Vec::new() };
-        if scene.quest.stop.load(Ordering::Relaxed) {
+        if scene.task.stop.load(Ordering::Relaxed) {
             return found;
         }
         let Stage { generation, reseeds, reach, .. } = stage;
         let trial = Trial { generation, number, reach, reseeds, spreads: spreads.to_vec() };
-        hands.with(scene, |hand| {
-            if !hand.grow(scene, &state.chosen.individual.draws().with_trial(trial.clone())) {
+        workers.with(scene, |worker| {
+            if !worker.grow(scene, &state.chosen.individual.draws().with_trial(trial.clone())) {
                 return;
             }
-            let units = Units::new(&hand.tree, generation);
+            let units = Units::new(&worker.tree, generation);
             for (part, unit) in (1..).zip(&units.units) {
                 let Some((known, kept)) = state.find(unit.address) else { continue };
                 let draw = trial.draw(unit.address, unit.level, &kept);
                 let spread = spreads[unit.level.min(spreads.len() - 1)];
-                let deal = Deal { unit: known, draw, reseeds, spread };
-                hand.take(&units, part);
+                let proposal = Proposal { unit: known, draw, reseeds, spread };
+                worker.take(&units, part);
                 found.trials += 1;
-                let Some(worth) = state.tried(scene, &deal, hand) else { continue };
-                if worth.cost < state.cost - LEAST_GAIN {
-                    found.better.push(Better { cost: worth.cost, deal, layers: hand.layers(scene) });
+                let Some(loss) = state.tried(scene, &proposal, worker) else { continue };
+                if loss.cost < state.cost - MIN_GAIN {
+                    found.better.push(Better { cost: loss.cost, proposal, layers: worker.layers(scene) });
                 }
             }
         });
@@ -223,17 +229,17 @@ impl Batch<'_> {
     }
 }
 
-/// Memory that threads take from and give back to.
+/// A pool of memory for threads.
 #[derive(Default)]
-struct Hands(Mutex<Vec<Hand>>);
+struct Workers(Mutex<Vec<Worker>>);
 
-impl Hands {
-    fn with<T>(&self, scene: &Scene<'_>, work: impl FnOnce(&mut Hand) -> T) -> T {
+impl Workers {
+    fn with<T>(&self, scene: &Scene<'_>, work: impl FnOnce(&mut Worker) -> T) -> T {
         let pool = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let taken = pool().pop();
-        let mut hand = taken.unwrap_or_else(|| Hand::new(scene));
-        let result = work(&mut hand);
-        pool().push(hand);
+        let mut worker = taken.unwrap_or_else(|| Worker::new(scene));
+        let result = work(&mut worker);
+        pool().push(worker);
         result
     }
 }

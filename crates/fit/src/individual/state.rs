@@ -1,19 +1,19 @@
-//! The individual so far, as pictures that stems can be exchanged in.
+//! The current individual, as pictures in which stems can be exchanged.
 
 use super::chosen::Chosen;
-use super::hand::{DETAIL, Hand, Scene};
 use super::units::{Unit, Units};
-use crate::evaluator::Comparisons;
+use super::worker::{DETAIL, Scene, Worker};
+use crate::evaluator::Buffers;
 use pleach_silhouette::{Bitmap, Layer, Stack};
 use pleach_tree::{Address, Draw, Spread, StemPath};
 
-/// What all draws together cost at most, if every stem of a generation lay at the edge of its spread.
+/// Upper bound of the price of all draws: every stem of a generation at the edge of its spread.
 const PRICE: f64 = 0.02;
-/// What has to be gained for draws to be exchanged.
-pub(super) const LEAST_GAIN: f64 = 2e-5;
+/// Minimum gain of an exchange of draws.
+pub(super) const MIN_GAIN: f64 = 2e-5;
 
-/// How far below the ground, as a part of the tree's height, a stem may hang that did not hang as low before. No
-/// picture shows what a branch towards the viewer does there.
+/// How far below the ground a stem may reach that did not before, relative to the tree's height. A picture does not
+/// show whether a branch towards the viewer does so.
 const BELOW: f64 = 0.02;
 
 /// A tree cut at one generation.
@@ -25,87 +25,92 @@ pub(super) struct State {
     paths: Vec<StemPath>,
     /// Layers of each unit, view by view.
     layers: Vec<Vec<Layer>>,
-    /// How low what takes the place of each unit may reach, in metres.
+    /// Lowest height that a replacement of each unit may reach, in metres.
     floors: Vec<f64>,
-    panes: Vec<Pane>,
+    views: Vec<ViewState>,
     pub(super) cost: f64,
     pub(super) iou: f64,
     pub(super) likeness: f64,
 }
 
 /// One picture.
-struct Pane {
+struct ViewState {
     stack: Stack,
     picture: Bitmap,
 }
 
 /// Other draws of one unit.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Deal {
+pub(super) struct Proposal {
     pub(super) unit: usize,
     pub(super) draw: Draw,
     pub(super) reseeds: bool,
     pub(super) spread: Spread,
 }
 
-/// What a picture of all views is worth.
+/// Loss of a tree: its cost, and its overlap and likeness.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Worth {
+pub(super) struct Loss {
     pub(super) cost: f64,
     iou: f64,
     likeness: f64,
 }
 
 impl State {
-    /// The tree of `chosen`, cut at `generation`; none if it does not grow.
-    pub(super) fn new(scene: &Scene<'_>, chosen: Chosen, generation: u16, hand: &mut Hand) -> Option<Self> {
-        if !hand.grow(scene, &chosen.individual.draws()) {
+    /// The tree of `chosen`, cut at `generation`; `None` if it does not grow.
+    pub(super) fn new(
+        scene: &Scene<'_>,
+        chosen: Chosen,
+        generation: u16,
+        worker: &mut Worker,
+    ) -> Option<Self> {
+        if !worker.grow(scene, &chosen.individual.draws()) {
             return None;
         }
-        let units = Units::new(&hand.tree, generation);
-        let mut panes: Vec<Pane> = scene
+        let units = Units::new(&worker.tree, generation);
+        let mut views: Vec<ViewState> = scene
             .placed
             .iter()
-            .map(|(_, frame)| Pane { stack: Stack::new(frame, DETAIL), picture: Bitmap::default() })
+            .map(|(_, frame)| ViewState { stack: Stack::new(frame, DETAIL), picture: Bitmap::default() })
             .collect();
-        let height = hand.tree.knots.iter().map(|knot| knot.point.z).fold(0.0, f64::max);
+        let height = worker.tree.knots.iter().map(|knot| knot.point.z).fold(0.0, f64::max);
         let mut layers = Vec::with_capacity(units.units.len());
         let mut floors = Vec::with_capacity(units.units.len());
         for part in 0..=units.units.len() {
-            hand.take(&units, part);
-            let of_part = hand.layers(scene);
-            for (pane, layer) in panes.iter_mut().zip(&of_part) {
-                pane.stack.add(layer);
+            worker.take(&units, part);
+            let of_part = worker.layers(scene);
+            for (view_state, layer) in views.iter_mut().zip(&of_part) {
+                view_state.stack.add(layer);
             }
             if part > 0 {
                 layers.push(of_part);
-                floors.push(hand.lowest().min(-BELOW * height));
+                floors.push(worker.lowest().min(-BELOW * height));
             }
         }
-        for pane in &mut panes {
-            pane.stack.picture(&mut pane.picture);
+        for view_state in &mut views {
+            view_state.stack.picture(&mut view_state.picture);
         }
         let mut by_address: Vec<(u64, usize)> =
             units.units.iter().enumerate().map(|(i, unit)| (unit.address.bits(), i)).collect();
         by_address.sort_unstable();
-        let paths = units.units.iter().map(|Unit { stem, .. }| hand.tree.path_of(*stem)).collect();
+        let paths = units.units.iter().map(|Unit { stem, .. }| worker.tree.path_of(*stem)).collect();
         let (cost, iou, likeness) = (f64::INFINITY, 0.0, 0.0);
         let mut state =
-            Self { generation, chosen, by_address, paths, layers, floors, panes, cost, iou, likeness };
+            Self { generation, chosen, by_address, paths, layers, floors, views, cost, iou, likeness };
         let mut sum = Sum::default();
-        for (view, pane) in state.panes.iter().enumerate() {
-            sum.add(scene, view, &pane.picture, &mut hand.comparisons);
+        for (view, view_state) in state.views.iter().enumerate() {
+            sum.add(scene, view, &view_state.picture, &mut worker.buffers);
         }
-        let worth = sum.mean();
-        state.take(Worth { cost: worth.cost + state.chosen.price(), ..worth });
+        let loss = sum.mean();
+        state.take(Loss { cost: loss.cost + state.chosen.price(), ..loss });
         Some(state)
     }
 
-    fn take(&mut self, worth: Worth) {
-        (self.cost, self.iou, self.likeness) = (worth.cost, worth.iou, worth.likeness);
+    fn take(&mut self, loss: Loss) {
+        (self.cost, self.iou, self.likeness) = (loss.cost, loss.iou, loss.likeness);
     }
 
-    /// Where the units are.
+    /// Paths of the units.
     pub(super) fn paths(&self) -> &[StemPath] {
         &self.paths
     }
@@ -115,87 +120,87 @@ impl State {
         self.paths.len()
     }
 
-    /// The number of the unit at `address`, and what it has drawn.
+    /// The number of the unit at `address`, and its draw.
     pub(super) fn find(&self, address: Address) -> Option<(usize, Draw)> {
         let place = self.by_address.binary_search_by_key(&address.bits(), |&(bits, _)| bits).ok()?;
         let unit = self.by_address[place].1;
         Some((unit, self.chosen.individual.get(&self.paths[unit]).copied().unwrap_or(Draw::OWN)))
     }
 
-    /// What has to be gained by other draws of a unit where at most `most` stems are to have some: more than by
-    /// the least of them.
-    pub(super) fn least_gain(&self, unit: usize, most: usize) -> f64 {
+    /// Minimum gain of other draws of a unit if at most `most` stems may have some: more than the least of their
+    /// gains.
+    pub(super) fn min_gain(&self, unit: usize, most: usize) -> f64 {
         if self.chosen.len() < most || self.chosen.has(&self.paths[unit]) {
-            return LEAST_GAIN;
+            return MIN_GAIN;
         }
-        self.chosen.least_gain().max(LEAST_GAIN)
+        self.chosen.min_gain().max(MIN_GAIN)
     }
 
-    /// What the picture would be worth with `deal`, for which `hand` has taken the part of its tree; none where
-    /// the one picture is the same as before, or plainly further from the goal, and where it would hang too low.
-    pub(super) fn tried(&self, scene: &Scene<'_>, deal: &Deal, hand: &mut Hand) -> Option<Worth> {
-        if hand.lowest() < self.floors[deal.unit] {
+    /// Loss with `proposal`, whose part of a tree `worker` has taken; `None` if the only picture is unchanged or
+    /// clearly further from the goal, or the part reaches too low.
+    pub(super) fn tried(&self, scene: &Scene<'_>, proposal: &Proposal, worker: &mut Worker) -> Option<Loss> {
+        if worker.lowest() < self.floors[proposal.unit] {
             return None;
         }
         let mut sum = Sum::default();
-        for (view, pane) in self.panes.iter().enumerate() {
-            hand.picture.clone_from(&pane.picture);
-            hand.show(scene, view, &pane.stack, &self.layers[deal.unit][view]);
-            if self.panes.len() == 1
-                && !is_worth_a_look(&hand.picture, &pane.picture, &scene.views[view].goal)
+        for (view, view_state) in self.views.iter().enumerate() {
+            worker.picture.clone_from(&view_state.picture);
+            worker.show(scene, view, &view_state.stack, &self.layers[proposal.unit][view]);
+            if self.views.len() == 1
+                && !may_be_better(&worker.picture, &view_state.picture, &scene.views[view].picture)
             {
                 return None;
             }
-            sum.add(scene, view, &hand.picture, &mut hand.comparisons);
+            sum.add(scene, view, &worker.picture, &mut worker.buffers);
         }
-        Some(self.with_prices(sum.mean(), deal))
+        Some(self.with_prices(sum.mean(), proposal))
     }
 
-    /// What the picture would be worth with `deal`, whose parts cover `layers`.
+    /// Loss with `proposal`, whose parts cover `layers`.
     pub(super) fn tried_again(
         &self,
         scene: &Scene<'_>,
-        deal: &Deal,
+        proposal: &Proposal,
         layers: &[Layer],
-        hand: &mut Hand,
-    ) -> Worth {
+        worker: &mut Worker,
+    ) -> Loss {
         let mut sum = Sum::default();
-        for (view, (pane, new)) in self.panes.iter().zip(layers).enumerate() {
-            hand.picture.clone_from(&pane.picture);
-            pane.stack.exchanged(&self.layers[deal.unit][view], new, &mut hand.picture);
-            sum.add(scene, view, &hand.picture, &mut hand.comparisons);
+        for (view, (view_state, new)) in self.views.iter().zip(layers).enumerate() {
+            worker.picture.clone_from(&view_state.picture);
+            view_state.stack.exchanged(&self.layers[proposal.unit][view], new, &mut worker.picture);
+            sum.add(scene, view, &worker.picture, &mut worker.buffers);
         }
-        self.with_prices(sum.mean(), deal)
+        self.with_prices(sum.mean(), proposal)
     }
 
-    fn with_prices(&self, worth: Worth, deal: &Deal) -> Worth {
-        let others = self.chosen.price_beside(&self.paths[deal.unit], deal.reseeds);
-        Worth { cost: worth.cost + others + self.price(deal), ..worth }
+    fn with_prices(&self, loss: Loss, proposal: &Proposal) -> Loss {
+        let others = self.chosen.price_beside(&self.paths[proposal.unit], proposal.reseeds);
+        Loss { cost: loss.cost + others + self.price(proposal), ..loss }
     }
 
-    /// What a stem's draws cost.
-    fn price(&self, deal: &Deal) -> f64 {
-        PRICE * deal.draw.price(&deal.spread) / self.count() as f64
+    /// The price of a stem's draws.
+    fn price(&self, proposal: &Proposal) -> f64 {
+        PRICE * proposal.draw.price(&proposal.spread) / self.count() as f64
     }
 
     /// Exchanges the draws of a unit.
-    pub(super) fn exchange(&mut self, deal: &Deal, layers: Vec<Layer>, worth: Worth) {
-        let (price, gain) = (self.price(deal), self.cost - worth.cost);
-        let Deal { unit, draw, reseeds, .. } = *deal;
+    pub(super) fn exchange(&mut self, proposal: &Proposal, layers: Vec<Layer>, loss: Loss) {
+        let (price, gain) = (self.price(proposal), self.cost - loss.cost);
+        let Proposal { unit, draw, reseeds, .. } = *proposal;
         self.chosen.set(self.paths[unit].clone(), draw, reseeds, price, gain);
-        for ((pane, old), new) in self.panes.iter_mut().zip(&self.layers[unit]).zip(&layers) {
-            pane.stack.exchanged(old, new, &mut pane.picture);
-            pane.stack.remove(old);
-            pane.stack.add(new);
+        for ((view_state, old), new) in self.views.iter_mut().zip(&self.layers[unit]).zip(&layers) {
+            view_state.stack.exchanged(old, new, &mut view_state.picture);
+            view_state.stack.remove(old);
+            view_state.stack.add(new);
         }
         self.layers[unit] = layers;
-        self.take(worth);
+        self.take(loss);
     }
 }
 
-/// Whether `picture` may be worth more than the picture `before`: not if it is the same, or if three of four pixels
-/// that changed are wrong now.
-fn is_worth_a_look(picture: &Bitmap, before: &Bitmap, goal: &Bitmap) -> bool {
+/// Whether `picture` may be better than the picture `before`: not if it is the same, or if three of four changed
+/// pixels are wrong now.
+fn may_be_better(picture: &Bitmap, before: &Bitmap, goal: &Bitmap) -> bool {
     let changed = picture.differing(before);
     let worse = picture.differing(goal) as f64 - before.differing(goal) as f64;
     changed > 0 && worse <= 0.5 * changed as f64
@@ -211,16 +216,16 @@ struct Sum {
 }
 
 impl Sum {
-    fn add(&mut self, scene: &Scene<'_>, view: usize, picture: &Bitmap, comparisons: &mut Comparisons) {
-        let looks = scene.compare(view, picture, comparisons);
+    fn add(&mut self, scene: &Scene<'_>, view: usize, picture: &Bitmap, buffers: &mut Buffers) {
+        let comparison = scene.compare(view, picture, buffers);
         self.views += 1.0;
-        self.cost += 1.0 - looks.value;
-        self.iou += looks.iou;
-        self.likeness += looks.likeness;
+        self.cost += 1.0 - comparison.value;
+        self.iou += comparison.iou;
+        self.likeness += comparison.likeness;
     }
 
-    fn mean(&self) -> Worth {
+    fn mean(&self) -> Loss {
         let Self { views, cost, iou, likeness } = *self;
-        Worth { cost: cost / views, iou: iou / views, likeness: likeness / views }
+        Loss { cost: cost / views, iou: iou / views, likeness: likeness / views }
     }
 }

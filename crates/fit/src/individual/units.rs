@@ -1,8 +1,8 @@
-//! A tree cut into the stems of one generation with all that they carry, and the rest.
+//! A tree cut into the stems of one generation with their descendants, and the rest.
 
 use pleach_tree::{Address, Blob, Leaf, Stem, StemKind, Tree};
 
-/// A stem of the generation, with all that it carries.
+/// A stem of the generation with its descendants.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unit {
     pub(super) address: Address,
@@ -11,7 +11,7 @@ pub(super) struct Unit {
     pub(super) level: usize,
 }
 
-/// The parts of a tree, part 0 what no unit carries, then unit by unit.
+/// The parts of a tree: part 0 is the rest, then unit by unit.
 #[derive(Debug, Default)]
 pub(super) struct Units {
     pub(super) units: Vec<Unit>,
@@ -21,7 +21,7 @@ pub(super) struct Units {
     blobs: Grouped,
 }
 
-/// Numbers of things, part by part.
+/// Indices, part by part.
 #[derive(Debug, Default)]
 struct Grouped {
     /// Where each part begins, and the end of the last.
@@ -30,7 +30,7 @@ struct Grouped {
 }
 
 impl Grouped {
-    /// Groups what is of these parts, each in its order.
+    /// Groups indices by their parts, each group in order.
     fn new(parts: usize, of: impl Iterator<Item = u32> + Clone) -> Self {
         let mut starts = vec![0; parts + 1];
         for part in of.clone() {
@@ -49,7 +49,7 @@ impl Grouped {
         Self { starts, numbers }
     }
 
-    fn of(&self, part: usize) -> impl Iterator<Item = usize> + '_ {
+    fn get(&self, part: usize) -> impl Iterator<Item = usize> + '_ {
         self.numbers[self.starts[part]..self.starts[part + 1]].iter().map(|&number| number as usize)
     }
 }
@@ -84,21 +84,21 @@ impl Units {
         Self { units, stems, leaves, blossoms, blobs }
     }
 
-    /// Copies a part of `tree` to where it can be drawn: without parents.
+    /// Copies a part of `tree` to `out`, without parents, to draw it.
     pub(super) fn copy(&self, tree: &Tree, part: usize, out: &mut Tree) {
         out.clear();
         out.leaf_shapes.extend_from_slice(&tree.leaf_shapes);
         out.blossom_shapes.extend_from_slice(&tree.blossom_shapes);
-        for index in self.stems.of(part) {
+        for index in self.stems.get(part) {
             let stem = &tree.stems[index];
             let first_knot = out.knots.len() as u32;
             out.knots.extend_from_slice(tree.knots_of(stem));
             out.stems.push(Stem { parent: None, first_knot, ..*stem });
         }
         let leaf = |leaf: &Leaf| Leaf { stem: 0, ..*leaf };
-        out.leaves.extend(self.leaves.of(part).map(|index| leaf(&tree.leaves[index])));
-        out.blossoms.extend(self.blossoms.of(part).map(|index| leaf(&tree.blossoms[index])));
-        for index in self.blobs.of(part) {
+        out.leaves.extend(self.leaves.get(part).map(|index| leaf(&tree.leaves[index])));
+        out.blossoms.extend(self.blossoms.get(part).map(|index| leaf(&tree.blossoms[index])));
+        for index in self.blobs.get(part) {
             let blob = &tree.blobs[index];
             let first_vertex = out.blob_vertices.len() as u32;
             let first_triangle = out.blob_triangles.len() as u32;

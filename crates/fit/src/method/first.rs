@@ -1,11 +1,11 @@
-//! What a search begins with.
+//! The first individuals of a search.
 
-use crate::genome::Genome;
+use crate::problem::Genome;
 use crate::space::SearchSpace;
-use crate::stream::Stream;
+use crate::space::Stream;
 
-/// Appends `lists`, if any, and random lists: `count` of them, a tenth where there are lists, which
-/// are worth more than chance. `draws` gives each member its own stream.
+/// Appends `lists`, if any, and random lists: `count` of them, or a tenth of that where there are lists, which are
+/// better than random ones. `draws` gives each member its own stream.
 pub(super) fn first(
     space: &SearchSpace,
     lists: &[Vec<f64>],

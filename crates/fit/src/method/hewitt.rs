@@ -1,6 +1,6 @@
 //! The genetic algorithm of Hewitt 2017, §3.3.2.
 //!
-//! What the text says, and what is done here:
+//! The text, and this implementation:
 //!
 //! | the text | here |
 //! | --- | --- |
@@ -12,22 +12,21 @@
 //! | the two fittest are merged to form the basis of the next generation | [`Merge`] |
 //! | always taking the current best, even if worse than the last generation | the base is never kept |
 //!
-//! The text is silent on every number and on how lists merge. The best individual ever seen is
-//! reported by [`crate::Search`], and plays no part here.
+//! The text gives no numbers and does not say how lists merge. The best individual ever seen is reported by
+//! [`crate::Search`] and not used here.
 
-use super::{Method, MethodSettings, Start, alone, is_individual, ranking};
-use crate::genome::{Genome, Score};
+use super::{Method, MethodSettings, Start, is_individual, only_batch, ranking};
+use crate::problem::{Genome, Score};
+use crate::space::Stream;
 use crate::space::{SearchSpace, TreeSeed};
-use crate::stream::Stream;
 use pleach_tree::Kind;
 use serde::{Deserialize, Serialize};
 
-/// How the two fittest lists become one.
+/// How the two fittest lists are merged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Merge {
-    /// What either changed is changed; where both changed the same slot, the fitter decides. Both
-    /// lists are the base with one change each, so this is the only merge that keeps what made the
-    /// two the fittest.
+    /// The changes of both; where both changed the same slot, that of the fitter. Both lists are the base with one
+    /// change each, so this is the only merge that keeps both changes.
     #[default]
     Both,
     /// Each slot from either list with the same chance (uniform crossover).
@@ -37,7 +36,7 @@ pub enum Merge {
     Mean,
 }
 
-/// Settings of [`Hewitt`]: everything on which the text is silent.
+/// Settings of [`Hewitt`]: everything that the text does not say.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HewittSettings {
     /// Individuals in a generation, at least 2.
@@ -85,7 +84,7 @@ impl Hewitt {
         Self { settings, seed, start, round: 0, base: None }
     }
 
-    /// What the next generation is made from; none before there is one that grows.
+    /// The list that the next generation is made from; `None` before one has grown.
     #[must_use]
     pub const fn base(&self) -> Option<&Genome> {
         self.base.as_ref()
@@ -104,7 +103,7 @@ impl Hewitt {
             return child;
         };
         let gene = &space.genes()[gene];
-        let old = gene.of(base);
+        let old = gene.get(base);
         let least = self.settings.zero_share * (gene.high - gene.low);
         let amount = old.abs().max(least) * self.settings.step * draws.signed();
         let mut value = old + amount;
@@ -115,7 +114,7 @@ impl Hewitt {
         if gene.kind.is_flagged() && draws.chance(self.settings.flip_chance) {
             value = -value;
         }
-        // The text knows no search range: any allowed value may be reached.
+        // The text has no search ranges: any allowed value may be reached.
         let value = match &gene.kind {
             Kind::Choice { .. } => gene.clamp(value),
             _ if gene.is_periodic() => gene.clamp(value),
@@ -129,7 +128,7 @@ impl Hewitt {
         let mut draws = Stream::at(self.seed, 2, self.round, 0);
         let mut merged = best.clone();
         for gene in space.genes() {
-            let [old, a, b] = [base, best, second].map(|genome| gene.of(genome));
+            let [old, a, b] = [base, best, second].map(|genome| gene.get(genome));
             let value = match self.settings.merge {
                 Merge::Both if a == old => b,
                 Merge::Both => a,
@@ -202,7 +201,7 @@ impl Method for Hewitt {
     }
 
     fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
-        let Some(pending) = alone(pending) else { return false };
+        let Some(pending) = only_batch(pending) else { return false };
         let asked = self.base.as_ref().map_or(1, |_| self.settings.population.max(2));
         self.round <= generations
             && self.base.iter().all(|base| is_individual(base, space))

@@ -1,15 +1,15 @@
-//! Random parameter lists, one after the other.
+//! Independent random parameter lists.
 
-use super::{Method, MethodSettings, Start, alone};
-use crate::genome::{Genome, Score};
+use super::{Method, MethodSettings, Start, only_batch};
+use crate::problem::{Genome, Score};
 use crate::space::SearchSpace;
-use crate::stream::Stream;
+use crate::space::Stream;
 use serde::{Deserialize, Serialize};
 
 /// Settings of [`Random`].
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RandomSettings {
-    /// Individuals in a generation: decides only how often progress is told.
+    /// Individuals in a generation: decides only how often progress is reported.
     pub population: usize,
 }
 
@@ -19,7 +19,7 @@ impl Default for RandomSettings {
     }
 }
 
-/// Independent random lists; the start's lists first. What every other method has to beat.
+/// Independent random lists, after the start's lists: the baseline for every other method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Random {
     settings: RandomSettings,
@@ -76,6 +76,6 @@ impl Method for Random {
     fn tell(&mut self, _: &SearchSpace, _: &[Genome], _: &[Score]) {}
 
     fn suits(&self, _: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
-        alone(pending).is_some() && self.round <= generations + 1
+        only_batch(pending).is_some() && self.round <= generations + 1
     }
 }

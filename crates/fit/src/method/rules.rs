@@ -1,17 +1,17 @@
 //! A search over structures and their numbers: genetic programming, in islands.
 //!
-//! How a structure is changed is the family's affair ([`pleach_tree::Variation`]); here is the search
-//! around it. Individuals are a structure and its parameter list. Islands of some structures each keep
-//! their best (an elitist population, as the default optimiser's); a child is a variation of one parent,
-//! or of two of the same island, seldom of another. An island that no longer improves becomes a copy of
-//! the best one, or begins again from nothing, alternately, so that a short search ends with more
-//! trials about its best structure and a long one sees others.
+//! The family decides how a structure is changed ([`pleach_tree::Variation`]); this is the search around it.
+//! Individuals are a structure and its parameter list. Islands of some structures each keep their best (an elitist
+//! population, as the default optimiser's); a child is a variation of one parent, or of two of the same island,
+//! seldom of another. An island that no longer improves becomes a copy of the best one or starts again from random
+//! structures, alternately, so that a short search ends with more trials around its best structure and a long one
+//! tries others.
 
-use super::{Method, MethodSettings, Start, alone, is_individual};
-use crate::genome::{Genome, Score, Scored};
-use crate::objective::Objective;
+use super::{Method, MethodSettings, Start, is_individual, only_batch};
+use crate::problem::Objective;
+use crate::problem::{Genome, Score, Scored};
+use crate::space::Stream;
 use crate::space::{SearchSpace, TreeSeed};
-use crate::stream::Stream;
 use pleach_tree::math;
 use pleach_tree::{Key, Variation};
 use rayon::prelude::*;
@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 /// Settings of [`Rules`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RulesSettings {
-    /// Populations that evolve alone.
+    /// Populations that evolve separately.
     pub islands: usize,
     /// Individuals of an island that survive a generation.
     pub parents: usize,
@@ -35,8 +35,8 @@ pub struct RulesSettings {
 }
 
 impl RulesSettings {
-    /// What a search over rules makes small if nobody says otherwise. Chosen by experiment: with
-    /// [`Objective::Balance`] grammars look like their goals and lie worse on them than an ellipse.
+    /// The default objective of a search over rules. Chosen by experiment: with [`Objective::Balance`] grammars look
+    /// like their goals and lie worse on them than an ellipse.
     pub const OBJECTIVE: Objective = Objective::Overlap;
 }
 
@@ -72,7 +72,7 @@ const FIRST: u32 = 0;
 const CHILD: u32 = 1;
 /// Part of the cost that counts as progress.
 const GAIN: f64 = 2e-3;
-/// Parents are drawn from the best of an island: a power, 1 draws all alike.
+/// How much better individuals are preferred as parents: an exponent; 1 draws all of them equally often.
 const GREED: f64 = 1.6;
 /// Chance that a child has two parents, and that the second is of another island.
 const CROSS: f64 = 0.25;
@@ -109,7 +109,7 @@ impl Rules {
         let structure = if lists.is_empty() {
             variation.fresh(Key::root(draws.bits()))
         } else {
-            // The start itself, and what one to three changes make of it.
+            // The start itself, and variations of it by one to three changes.
             let changes = if member < lists.len() { 0 } else { 1 + draws.below(3) };
             (0..changes).fold(variation.own(), |text, _| variation.vary(&text, Key::root(draws.bits())))
         };
@@ -150,7 +150,7 @@ impl Rules {
             let value = if gene.is_choice() || gene.is_azimuth() && draws.chance(0.2) {
                 gene.random(draws)
             } else {
-                gene.from_unit(gene.to_unit(gene.of(&child)) + STEP * draws.normal())
+                gene.from_unit(gene.to_unit(gene.get(&child)) + STEP * draws.normal())
             };
             gene.set(&mut child, value);
         }
@@ -224,7 +224,7 @@ impl Method for Rules {
             .flat_map(|(island, count)| (0..count).map(move |m| (island, m)))
             .collect();
         let make = |&(island, member): &(usize, usize)| {
-            // Without a family that offers variation there is nothing to vary, and `fit` has said so.
+            // `fit` refuses families without variation.
             let Some(variation) = space.variation() else { return space.individual(space.base(), 0) };
             if self.islands[island].population.is_empty() {
                 return self.first(island, member, space, variation);
@@ -249,7 +249,7 @@ impl Method for Rules {
     }
 
     fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
-        let Some(pending) = alone(pending) else { return false };
+        let Some(pending) = only_batch(pending) else { return false };
         let population = || self.islands.iter().flat_map(|island| &island.population);
         self.round <= generations
             && self.islands.len() == self.settings.islands.max(1)

@@ -1,8 +1,8 @@
 //! One free number.
 
-use crate::genome::Genome;
-use crate::nuisance::Nuisance;
-use crate::stream::Stream;
+use crate::problem::Genome;
+use crate::problem::Nuisance;
+use crate::space::Stream;
 use pleach_tree::math;
 use pleach_tree::param::Scale;
 use pleach_tree::{Kind, Slot};
@@ -16,12 +16,12 @@ pub enum Place {
     Nuisance {
         /// Which of them.
         number: usize,
-        /// What it is.
+        /// Its meaning.
         nuisance: Nuisance,
     },
 }
 
-/// One free number: what it means and where a search may look.
+/// One free number: its meaning and its range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gene {
     /// Where the number is.
@@ -30,7 +30,7 @@ pub struct Gene {
     pub kind: Kind,
     /// How numbers are compared.
     pub scale: Scale,
-    /// The number that stands for the absence of what it is about, if there is one.
+    /// The value that stands for absence of the feature, if there is one.
     pub neutral: Option<f64>,
     /// Smallest value that searches try.
     pub low: f64,
@@ -39,11 +39,11 @@ pub struct Gene {
 }
 
 impl Gene {
-    /// From this factor between its ends on, a range of numbers that are compared by ratio is searched
-    /// so. Below, equal steps find the same.
+    /// A range of numbers that are compared by ratio is searched by ratio from this factor between its ends on.
+    /// Below, equal steps find the same.
     const LOG_FROM: f64 = 20.0;
 
-    /// The slot in the generator's parameter space; none for a nuisance.
+    /// The slot in the generator's parameter space; `None` for a nuisance.
     #[must_use]
     pub const fn slot(&self) -> Option<Slot> {
         match self.place {
@@ -54,14 +54,14 @@ impl Gene {
 
     /// The number in `genome`.
     #[must_use]
-    pub fn of(&self, genome: &Genome) -> f64 {
+    pub fn get(&self, genome: &Genome) -> f64 {
         match self.place {
             Place::Slot(slot) => genome.values[slot.index()],
             Place::Nuisance { number, .. } => genome.nuisances[number],
         }
     }
 
-    /// Makes `value` the number in `genome`, as it is.
+    /// Sets the number in `genome` to `value`, unchecked.
     pub fn set(&self, genome: &mut Genome, value: f64) {
         match self.place {
             Place::Slot(slot) => genome.values[slot.index()] = value,
@@ -69,7 +69,7 @@ impl Gene {
         }
     }
 
-    /// Whether the number is an azimuth, of which none is simpler than another.
+    /// Whether the number is an azimuth.
     pub(crate) const fn is_azimuth(&self) -> bool {
         matches!(self.place, Place::Nuisance { nuisance: Nuisance::Azimuth, .. })
     }
@@ -87,7 +87,7 @@ impl Gene {
         self.scale != Scale::Linear && self.low > 0.0 && self.high / self.low >= Self::LOG_FROM
     }
 
-    /// Whether the number is the name of a thing, so that neighbours are no more alike than others.
+    /// Whether the number is a choice, so that neighbors are no more alike than others.
     #[must_use]
     pub const fn is_choice(&self) -> bool {
         self.kind.is_choice()
@@ -99,13 +99,13 @@ impl Gene {
         self.kind.is_flagged() && self.low < 0.0 && 0.0 < self.high
     }
 
-    /// The number that stands for absence, if there is one and it is in range.
+    /// The value that stands for absence, if there is one and it is in range.
     #[must_use]
     pub fn neutral(&self) -> Option<f64> {
         self.neutral.filter(|neutral| (self.low..=self.high).contains(neutral))
     }
 
-    /// Whether there is but one value.
+    /// Whether there is only one value.
     #[must_use]
     pub fn is_constant(&self) -> bool {
         self.high <= self.low

@@ -1,59 +1,22 @@
 //! Which numbers a search may change, and how far.
 
+mod freedom;
 mod gene;
 mod prior;
+mod stream;
 mod unknown;
 
+use freedom::free_slots;
+pub use freedom::{Freedom, SpaceError, TreeSeed, check_freedom};
 pub use gene::{Gene, Place};
 pub use prior::PRIOR;
 use prior::Prior;
+pub use stream::Stream;
 
-use crate::genome::Genome;
 use crate::problem::FitProblem;
-use crate::stream::Stream;
-use pleach_tree::param::Problem;
+use crate::problem::Genome;
 use pleach_tree::{Generator, ParamSpace, Slot, Variation};
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// Which slots are free, by the patterns of [`ParamSpace::select`]: a slot (`length[1]`), a
-/// parameter (`length`), a group (`leaves`), or `level:N`.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Freedom {
-    /// Only these are free; all are if the list is empty.
-    pub free: Vec<String>,
-    /// These keep the value of the start, whatever `free` says.
-    pub fix: Vec<String>,
-}
-
-/// Which tree is grown from the parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum TreeSeed {
-    /// The same for every individual, as in the dissertation (§3.3.2).
-    Fixed(u64),
-    /// Part of the genome: searched like the parameters.
-    Any,
-}
-
-/// Why there is nothing to search in.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SpaceError {
-    /// A pattern that names no parameter.
-    #[error("`{pattern}` {problem}")]
-    Pattern {
-        /// As it was given.
-        pattern: String,
-        /// What is wrong with it.
-        problem: Problem,
-    },
-    /// Every slot is fixed, and the tree's seed too.
-    #[error("no parameter is free: nothing to search")]
-    NothingFree,
-    /// A start whose values do not belong to this generator.
-    #[error("start values: {0}")]
-    Start(#[from] pleach_tree::param::SlotError),
-}
 
 /// Directions in which a list is tried if an azimuth is not known.
 const DIRECTIONS: usize = 8;
@@ -65,45 +28,18 @@ pub struct SearchSpace {
     generator: Option<Arc<dyn Generator>>,
     genes: Vec<Gene>,
     base: Vec<f64>,
-    /// What nuisances are where nothing is said.
+    /// Default values of nuisances.
     usual: Vec<f64>,
     tree_seed: TreeSeed,
     settles: bool,
-    /// What draws numbers to where the search starts, if anything does.
+    /// The prior around the start, if there is one.
     prior: Option<Prior>,
-    /// What a word of a structure costs, where structures are searched.
+    /// Cost of a word of a structure, where structures are searched.
     price: f64,
 }
 
-/// Tells whether every pattern of `freedom` names parameters of `params`, and something is left to
-/// search.
-///
-/// # Errors
-/// The first pattern that names none, or [`SpaceError::NothingFree`]: what [`crate::fit`] would say
-/// after a first guess.
-pub fn check_freedom(params: &ParamSpace, freedom: &Freedom, tree_seed: TreeSeed) -> Result<(), SpaceError> {
-    let is_any_free = free_slots(params, freedom)?.contains(&true);
-    if is_any_free || tree_seed == TreeSeed::Any { Ok(()) } else { Err(SpaceError::NothingFree) }
-}
-
-/// For each slot whether it is free.
-fn free_slots(params: &ParamSpace, freedom: &Freedom) -> Result<Vec<bool>, SpaceError> {
-    let mut is_free = vec![freedom.free.is_empty(); params.len()];
-    for (patterns, value) in [(&freedom.free, true), (&freedom.fix, false)] {
-        for pattern in patterns {
-            let slots = params
-                .select(pattern)
-                .map_err(|problem| SpaceError::Pattern { pattern: pattern.clone(), problem })?;
-            for slot in slots {
-                is_free[slot.index()] = value;
-            }
-        }
-    }
-    Ok(is_free)
-}
-
 impl SearchSpace {
-    /// Lanes of [`Stream::at`] up to this number are left to optimisers.
+    /// Number of bits of a random tree seed.
     const SEED_BITS: u32 = 31;
 
     /// The free slots of `generator`; all others keep the values of `base`.
@@ -123,7 +59,7 @@ impl SearchSpace {
         Ok(space)
     }
 
-    /// The free slots of a problem's generator, and what is not known of its goals' views.
+    /// The free slots of a problem's generator, and the unknowns of its goals' views.
     ///
     /// # Errors
     /// As [`SearchSpace::new`].
@@ -178,7 +114,7 @@ impl SearchSpace {
                 }
             })
             .filter(|gene| !gene.is_constant())
-            // After the slots, so that without nuisances no draw of a search is another.
+            // After the slots, so that nuisances do not change the draws of a search without them.
             .chain(nuisances)
             .collect();
         if genes.is_empty() && tree_seed != TreeSeed::Any {
@@ -227,36 +163,35 @@ impl SearchSpace {
         self
     }
 
-    /// Has the search draw numbers to the nearest of `lists`: see [`SearchSpace::prior_cost`].
+    /// Adds a prior of this weight around the nearest of `lists`: see [`SearchSpace::prior_cost`].
     #[must_use]
-    pub fn drawn_to(mut self, lists: &[Vec<f64>], weight: f64) -> Self {
+    pub fn with_prior(mut self, lists: &[Vec<f64>], weight: f64) -> Self {
         self.prior = (weight > 0.0 && !lists.is_empty()).then(|| Prior { lists: lists.to_vec(), weight });
         self
     }
 
-    /// What the search adds to the cost of `genome` for being unlike what it started from and for the length of
-    /// its structure: 0 unless [`SearchSpace::drawn_to`] or [`SearchSpace::priced`] have said otherwise.
+    /// The cost that the search adds to that of `genome`: for its distance from the start and for the length of its
+    /// structure. 0 without [`SearchSpace::with_prior`] and [`SearchSpace::priced`].
     #[must_use]
     pub fn prior_cost(&self, genome: &Genome) -> f64 {
         let length = |structure: &String| self.variation().map_or(0, |v| v.length(structure)) as f64;
         let price = genome.structure.as_ref().map_or(0.0, |structure| self.price * length(structure));
-        price + self.prior.as_ref().map_or(0.0, |prior| prior.of(&self.genes, &genome.values))
+        price + self.prior.as_ref().map_or(0.0, |prior| prior.cost(&self.genes, &genome.values))
     }
 
-    /// Has every word of a structure cost `price`.
+    /// Adds a cost of `price` per word of a structure.
     #[must_use]
     pub fn priced(self, price: f64) -> Self {
         Self { price, ..self }
     }
 
-    /// How structures are changed; none if they cannot be.
+    /// The variation of structures; `None` if they cannot be changed.
     #[must_use]
     pub fn variation(&self) -> Option<&dyn Variation> {
         self.generator.as_ref()?.variation()
     }
 
-    /// Whether the structure of `genome`, if it has one of its own, can be read: what comes from a file
-    /// may be anything.
+    /// Whether the structure of `genome`, if it has one of its own, can be read: one from a file may be anything.
     pub(crate) fn has_structure(&self, genome: &Genome) -> bool {
         let is_one = |structure: &String| {
             let generator = self.variation().and_then(|v| v.generator(structure));
@@ -277,7 +212,7 @@ impl SearchSpace {
         &self.params
     }
 
-    /// The values that slots have which are not free.
+    /// The values of slots that are not free.
     #[must_use]
     pub fn base(&self) -> &[f64] {
         &self.base
@@ -289,8 +224,8 @@ impl SearchSpace {
         self.tree_seed
     }
 
-    /// The individual with these values where slots are free and the base's elsewhere, and the tree
-    /// seed of the problem (`seed` where any will do); nuisances are what is usual.
+    /// The individual with these values where slots are free and the base's elsewhere, and the tree seed of the
+    /// problem (`seed` where it is free); nuisances have their defaults.
     #[must_use]
     pub fn individual(&self, values: &[f64], seed: u64) -> Genome {
         let mut genome = Genome { nuisances: self.usual.clone(), ..Genome::new(self.base.clone(), seed) };
@@ -326,10 +261,10 @@ impl SearchSpace {
         Self { settles, ..self }
     }
 
-    /// Takes from `genome` the variations of size that no single tree shows, where they are free.
+    /// Sets the free variations of size in `genome` to zero: no single tree shows them.
     ///
-    /// The first tree that a search likes stands at one end of such a variation or the other, and
-    /// trees of other seeds would be larger or smaller than the goal without anyone having asked.
+    /// The first good tree of a search is at one end of such a variation, and trees of other seeds would be larger or
+    /// smaller than the goal for no reason.
     pub fn settle(&self, genome: &mut Genome) {
         for slot in self.hidden_jitters(&genome.values) {
             genome.values[slot.index()] = 0.0;
@@ -347,7 +282,7 @@ impl SearchSpace {
         self.params.size_jitters().filter(may_go).collect()
     }
 
-    /// A random parameter list: every free number drawn as [`Gene::random`] says.
+    /// A random parameter list: every free number is drawn by [`Gene::random`].
     #[must_use]
     pub fn random(&self, stream: &mut Stream) -> Genome {
         let mut genome = self.individual(&self.base, 0);
@@ -366,8 +301,8 @@ impl SearchSpace {
         if self.genes.iter().any(Gene::is_azimuth) { DIRECTIONS } else { 1 }
     }
 
-    /// Turns the pictures of `genome` whose azimuth is not known: the first of them to the `part`-th of
-    /// [`SearchSpace::directions`] in its range, the others anywhere in theirs.
+    /// Sets the unknown azimuths of `genome`: the first to the `part`-th of [`SearchSpace::directions`] in its range,
+    /// the others anywhere in theirs.
     pub(crate) fn turn(&self, genome: &mut Genome, part: usize, stream: &mut Stream) {
         for (i, gene) in self.genes.iter().filter(|gene| gene.is_azimuth()).enumerate() {
             let unit = stream.unit();

@@ -1,8 +1,8 @@
-//! The numbers of a problem that are not the tree's: what is not known of its views.
+//! The nuisance parameters of a problem: the unknowns of its views.
 
 use super::gene::{Gene, Place};
-use crate::nuisance::Nuisance;
 use crate::problem::GoalView;
+use crate::problem::Nuisance;
 use pleach_tree::Kind;
 use pleach_tree::param::Scale;
 
@@ -11,7 +11,7 @@ pub(super) fn genes(goals: &[GoalView]) -> (Vec<Gene>, Vec<f64>) {
     let numbers = goals.iter().flat_map(|goal| goal.unknown.numbers(&goal.view));
     let gene = |(number, (nuisance, low, high, usual))| {
         let place = Place::Nuisance { number, nuisance };
-        // Of azimuths none is simpler than another; an error of the frame may be absent.
+        // An azimuth has no neutral value; an error of the frame may be absent.
         let neutral = (nuisance != Nuisance::Azimuth).then_some(0.0);
         let kind = Kind::real(low, high);
         (Gene { place, kind, scale: Scale::Linear, neutral, low, high }, usual)

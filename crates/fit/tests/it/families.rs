@@ -115,13 +115,13 @@ fn a_race_can_be_interrupted() {
 #[test]
 fn the_search_is_over_the_generator_that_was_chosen() {
     let problem = goal_of_pole(&pole("goal", 25.0, 0.2));
-    let Fitted { best, judged, outcome, problem: fitted_problem, .. } = fitted(&problem);
+    let Fitted { best, assessment, outcome, problem: fitted_problem, .. } = fitted(&problem);
     assert_eq!(fitted_problem.start.generator.family(), "pole");
     let [height, girth] = best.genome.values[..] else { panic!("a pole has two numbers") };
     assert!((height - 25.0).abs() < 1.5 && (girth - 0.2).abs() < 0.02, "{height} {girth}");
     assert!(best.score.iou > 0.95, "{:?} after {}", best.score, outcome.evaluations);
     // Poles of all seeds are the same.
-    let judged = judged.unwrap();
+    let judged = assessment.unwrap();
     assert_eq!(judged.held_out.unwrap().cost.sd, 0.0);
     assert!(judged.references.same_species.is_some() && judged.references.other_species.is_some());
     assert!(judged.profiles.iter().all(|profile| profile.slot.index() < 2));

@@ -82,7 +82,7 @@ fn a_best_that_does_not_grow_from_other_seeds_is_not_returned() {
         assert_eq!(failing(&fitted.species().unwrap()), [0; 0], "{validates}");
         let girth = fitted.best.genome.values[1];
         assert!((0.1..=TOO_THICK).contains(&girth) && (validates || girth > 0.11), "{girth}");
-        assert!(fitted.judged.unwrap().held_out.is_some());
+        assert!(fitted.assessment.unwrap().held_out.is_some());
     }
 }
 

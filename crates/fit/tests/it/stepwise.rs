@@ -26,7 +26,7 @@ fn stepped(workers: usize) -> Fitted {
     let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
     let control = || Control::new(&clock, &stop);
     let mut fit = Stepwise::begin(&problem, &settings, GuessLibrary::new(), control()).unwrap();
-    let elsewhere = evaluator(&fit.begun().problem, &fit.begun().settings).unwrap();
+    let elsewhere = evaluator(&fit.prepared().problem, &fit.prepared().settings).unwrap();
     let mut seconds = 0;
     while fit.ended(Duration::from_secs(seconds)).is_none() {
         let batch = fit.ask(workers);
@@ -35,7 +35,7 @@ fn stepped(workers: usize) -> Fitted {
             .genomes
             .iter()
             .rev()
-            .flat_map(|one| elsewhere.scores(std::slice::from_ref(one), batch.most))
+            .flat_map(|one| elsewhere.scores(std::slice::from_ref(one), batch.max_size))
             .collect();
         scores.reverse();
         // Time passes by leaps: it decides how large batches are, and nothing else.
@@ -60,7 +60,7 @@ fn steps_have_the_bits_of_one_call_for_any_number_of_workers() {
             history.map(|row| (row.evaluations, row.best_cost.to_bits(), row.likeness)).collect()
         };
         assert_eq!(rows(&steps), rows(&whole));
-        let fresh = |fitted: &Fitted| fitted.judged.as_ref().unwrap().held_out;
+        let fresh = |fitted: &Fitted| fitted.assessment.as_ref().unwrap().held_out;
         assert_eq!(fresh(&steps), fresh(&whole));
     }
 }
@@ -72,15 +72,15 @@ fn what_is_stopped_early_is_judged_all_the_same() {
     let control = || Control::new(&clock, &stop);
     let mut fit = Stepwise::begin(&problem, &settings, GuessLibrary::new(), control()).unwrap();
     assert!(fit.best().is_none() && fit.likeness().is_none());
-    let elsewhere = evaluator(&fit.begun().problem, &fit.begun().settings).unwrap();
+    let elsewhere = evaluator(&fit.prepared().problem, &fit.prepared().settings).unwrap();
     let batch = fit.ask(2);
-    let scores = elsewhere.scores(&batch.genomes, batch.most);
+    let scores = elsewhere.scores(&batch.genomes, batch.max_size);
     let _ = fit.tell(&scores, Duration::from_secs(1));
     assert_eq!(fit.evaluations(), scores.len() as u64);
     assert!(fit.used(Duration::from_secs(1)).unwrap() < 1.0);
     let fitted = fit.finish(control()).unwrap();
     assert_eq!(fitted.outcome.stop, StopReason::Interrupted);
-    assert!(fitted.judged.is_some());
+    assert!(fitted.assessment.is_some());
     // Nobody has scored anything: nothing grew.
     let nothing = Stepwise::begin(&problem, &settings, GuessLibrary::new(), control()).unwrap();
     assert!(nothing.finish(control()).is_err());

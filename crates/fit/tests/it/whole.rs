@@ -2,9 +2,10 @@
 
 use crate::common::goal_of;
 use pleach_fit::{
-    Aftermath, Begun, Budget, Candidate, CheckpointSettings, Control, Ending, FitError, FitProblem,
-    FitSettings, Fitted, GoalSettings, GuessLibrary, Guessing, Identifiability, IndividualSettings, Judging,
-    Observer, ObserverError, Progress, Start, StopReason, fit, fit_goal, fit_goal_with,
+    AssessmentSettings, Budget, Candidate, CheckpointSettings, Control, CostModel, Deadline, FitError,
+    FitProblem, FitSettings, Fitted, GoalSettings, GuessLibrary, Guessing, Identifiability,
+    IndividualSettings, Observer, ObserverError, PreparedSearch, Progress, Start, StopReason, fit, fit_goal,
+    fit_goal_with,
 };
 use pleach_tree::Limits;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -48,9 +49,9 @@ impl Observer for Steps<'_> {
         self.step("guessing");
     }
 
-    fn begun(&mut self, begun: &Begun) -> Result<(), ObserverError> {
-        assert_eq!(begun.problem.start.name, begun.guess.as_ref().unwrap().nearest[0].name);
-        self.step("begun");
+    fn prepared(&mut self, prepared: &PreparedSearch) -> Result<(), ObserverError> {
+        assert_eq!(prepared.problem.start.name, prepared.guess.as_ref().unwrap().nearest[0].name);
+        self.step("prepared");
         if self.raise_at == "refused" { Err("no room".into()) } else { Ok(()) }
     }
 
@@ -58,8 +59,8 @@ impl Observer for Steps<'_> {
         self.step("progress");
     }
 
-    fn judging(&mut self) {
-        self.step("judging");
+    fn assessing(&mut self) {
+        self.step("assessing");
     }
 }
 
@@ -75,28 +76,28 @@ fn watched(raise_at: &'static str) -> (Result<Fitted, FitError>, Vec<&'static st
 fn every_step_is_told_and_each_can_be_the_last() {
     let (whole, seen) = watched("");
     let whole = whole.unwrap();
-    assert_eq!(seen, ["guessing", "begun", "progress", "judging"]);
-    assert!(whole.judged.is_some() && whole.outcome.stop == StopReason::Evaluations);
+    assert_eq!(seen, ["guessing", "prepared", "progress", "assessing"]);
+    assert!(whole.assessment.is_some() && whole.outcome.stop == StopReason::Evaluations);
 
-    for at in ["guessing", "begun"] {
+    for at in ["guessing", "prepared"] {
         let (result, seen) = watched(at);
         assert!(matches!(result, Err(FitError::Interrupted)), "{at}");
-        assert!(!seen.contains(&"judging"));
+        assert!(!seen.contains(&"assessing"));
     }
     // What was found until then is kept, and what is half judged is not.
-    for at in ["progress", "judging"] {
+    for at in ["progress", "assessing"] {
         let (result, _) = watched(at);
         if at == "progress" {
             assert!(matches!(result, Err(FitError::Interrupted)), "before the first tree");
             continue;
         }
         let fitted = result.unwrap();
-        assert!(fitted.judged.is_none() && fitted.outcome.stop == StopReason::Interrupted);
+        assert!(fitted.assessment.is_none() && fitted.outcome.stop == StopReason::Interrupted);
         assert_eq!(Some(&fitted.best), fitted.outcome.best.as_ref());
     }
     let (result, seen) = watched("refused");
     assert_eq!(result.unwrap_err().to_string(), "no room");
-    assert_eq!(seen, ["guessing", "begun"]);
+    assert_eq!(seen, ["guessing", "prepared"]);
 }
 
 #[test]
@@ -128,9 +129,9 @@ fn the_search_is_the_same_as_by_hand_and_the_library_changes_nothing() {
 #[test]
 fn without_a_guess_the_problem_is_as_it_is() {
     let problem = goal_of("palm", 4, 64);
-    let plain = GoalSettings { guess: Guessing::Off, judging: None, ..settings(60) };
+    let plain = GoalSettings { guess: Guessing::Off, assessment: None, ..settings(60) };
     let fitted = run(&problem, &plain);
-    assert!(fitted.guess.is_none() && fitted.judged.is_none() && fitted.references().is_none());
+    assert!(fitted.guess.is_none() && fitted.assessment.is_none() && fitted.references().is_none());
     assert_eq!(fitted.settings.start, Start::Random);
     assert_eq!(fitted.outcome.stop, StopReason::Evaluations);
 
@@ -142,9 +143,9 @@ fn without_a_guess_the_problem_is_as_it_is() {
     assert!(matches!(error, FitError::NothingGrew { evaluations: 60 }), "{error}");
 }
 
-/// Judging has its share of the time; what is left in the end is for this very tree.
+/// The assessment has its share of the time; what is left in the end is for this very tree.
 #[test]
-fn a_late_judging_does_less_and_says_so() {
+fn a_late_assessment_does_less_and_reports_it() {
     let problem = goal_of("palm", 4, 64);
     let timed = |judging: f64, individual: f64, after: Option<f64>| {
         let plain = GoalSettings { guess: Guessing::Off, candidates: Vec::new(), ..settings(60) };
@@ -154,13 +155,18 @@ fn a_late_judging_does_less_and_says_so() {
             ..plain.search.clone()
         };
         let time = |seconds: f64| Duration::from_secs_f64(seconds);
-        let judging = Judging { time: Some(time(judging)), ..Judging::default() };
+        let assessment = AssessmentSettings { time: Some(time(judging)), ..AssessmentSettings::default() };
         let takes_rest = after.is_some();
         let individual = IndividualSettings { takes_rest, ..IndividualSettings::time(time(individual)) };
-        let none = Aftermath::default();
-        let ending = after.map(|after| Ending { after: time(after), writing: none, further: none });
-        let settings =
-            GoalSettings { search, judging: Some(judging), individual: Some(individual), ending, ..plain };
+        let none = CostModel::default();
+        let deadline = after.map(|after| Deadline { after: time(after), result: none, further: none });
+        let settings = GoalSettings {
+            search,
+            assessment: Some(assessment),
+            individual: Some(individual),
+            deadline,
+            ..plain
+        };
         let stop = AtomicBool::new(false);
         let ticks = std::sync::atomic::AtomicU64::new(0);
         // A hundredth of a second from look to look.
@@ -168,15 +174,15 @@ fn a_late_judging_does_less_and_says_so() {
         fit_goal(&problem, &settings, Control::new(&clock, &stop)).unwrap()
     };
     let not_tried = |fitted: &Fitted| {
-        let profiles = &fitted.judged.as_ref().unwrap().profiles;
+        let profiles = &fitted.assessment.as_ref().unwrap().profiles;
         profiles.iter().filter(|profile| profile.seen == Identifiability::NotTried).count()
     };
-    let seeds = |fitted: &Fitted| fitted.judged.as_ref().unwrap().held_out.unwrap().count;
+    let seeds = |fitted: &Fitted| fitted.assessment.as_ref().unwrap().held_out.unwrap().count;
     let (short, long) = (timed(0.02, 1.0, None), timed(100.0, 1.0, None));
     assert!((2..16).contains(&seeds(&short)) || rayon::current_num_threads() > 7, "{}", seeds(&short));
-    assert!(not_tried(&short) > 0 && short.judged.as_ref().unwrap().put_back.is_empty());
+    assert!(not_tried(&short) > 0 && short.assessment.as_ref().unwrap().put_back.is_empty());
     assert_eq!((seeds(&long), not_tried(&long)), (16, 0));
-    assert!(!long.judged.as_ref().unwrap().put_back.is_empty());
+    assert!(!long.assessment.as_ref().unwrap().put_back.is_empty());
     // What is left makes the search for this very tree longer, if it is to.
     let (alone, with_rest) = (timed(5.0, 1.0, None), timed(5.0, 1.0, Some(10.0)));
     let trees = |fitted: &Fitted| fitted.individuals[0].trees;
@@ -215,7 +221,7 @@ fn other_seeds_choose_among_the_last_bests() {
         let plain = settings(200);
         let optimizer = optimizer.parse().unwrap();
         let search = FitSettings { optimizer, seed, start: Start::Random, ..plain.search.clone() };
-        run(&problem, &GoalSettings { search, validates, guess: Guessing::Off, judging: None, ..plain })
+        run(&problem, &GoalSettings { search, validates, guess: Guessing::Off, assessment: None, ..plain })
     };
     let mut others = 0;
     for seed in 1..5 {

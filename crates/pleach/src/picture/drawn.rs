@@ -45,7 +45,7 @@ pub struct FitDrawing<'a> {
 }
 
 impl Prepared {
-    /// Draws trees of `problem`: that of a [`pleach_fit::Begun`] or a [`pleach_fit::Fitted`], in frames as they are
+    /// Draws trees of `problem`: that of a [`pleach_fit::PreparedSearch`] or a [`pleach_fit::Fitted`], in frames as they are
     /// known there.
     #[must_use]
     pub fn drawing(&self, problem: &FitProblem, limits: Limits) -> FitDrawing<'_> {

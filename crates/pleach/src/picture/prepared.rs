@@ -9,7 +9,7 @@ use super::volume::Outlined;
 use super::words::{MaskFrom, Tone};
 use crate::plan::{DRAWING, Shares};
 use pleach_fit::{
-    Accuracy, Aftermath, Control, FitError, FitProblem, Fitted, GoalSettings, GoalView, GuessLibrary,
+    Accuracy, Control, CostModel, FitError, FitProblem, Fitted, GoalSettings, GoalView, GuessLibrary,
     Unknown, fit_goal_with,
 };
 use pleach_silhouette::{GoalOptions, Polarity, View};
@@ -110,7 +110,7 @@ impl FitOptions {
             settings,
             shares,
         };
-        Ok(prepared.with_aftermath(DRAWING, DRAWING))
+        Ok(prepared.with_result_cost(DRAWING, DRAWING))
     }
 
     /// The goal's picture.
@@ -149,7 +149,7 @@ impl Prepared {
     /// for the tree of the kind and for an individual, `further` for each further individual. Where time is bounded,
     /// the fit leaves time for it.
     #[must_use]
-    pub fn with_aftermath(self, writing: Aftermath, further: Aftermath) -> Self {
+    pub fn with_result_cost(self, writing: CostModel, further: CostModel) -> Self {
         let settings = match self.shares {
             Some(shares) => shares.bound(self.settings, writing, further),
             None => self.settings,

@@ -320,7 +320,7 @@ impl Prepared {
 
         let outcome = &fitted.outcome;
         let settings = &fitted.settings;
-        let judged = fitted.judged.as_ref();
+        let judged = fitted.assessment.as_ref();
         let (full, working) = (&self.goal.full, &self.goal.working);
         let frame = full.original_frame(&drawing.frame());
         let seconds = outcome.elapsed.as_secs_f64();
@@ -462,7 +462,7 @@ impl LooksLike {
 }
 
 impl IdentifiabilityCounts {
-    fn new(judged: &pleach_fit::Judged) -> Self {
+    fn new(judged: &pleach_fit::Assessment) -> Self {
         let count = |seen| judged.profiles.iter().filter(|profile| profile.seen == seen).count();
         Self {
             determined: count(Identifiability::Determined),
@@ -498,7 +498,7 @@ fn individual(found: &FoundIndividual, tree: &FittedTree) -> IndividualReport {
 
 fn parameters(fitted: &Fitted, species: &Species) -> Vec<ParameterReport> {
     let space = species.generator.space();
-    let profiles = fitted.judged.iter().flat_map(|judged| &judged.profiles);
+    let profiles = fitted.assessment.iter().flat_map(|assessment| &assessment.profiles);
     profiles
         .map(|profile| ParameterReport {
             slot: space.slot_name(profile.slot),

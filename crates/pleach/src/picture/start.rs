@@ -152,7 +152,7 @@ impl FitOptions {
                 evaluations: self.evaluations,
                 generations: self.generations,
                 target_iou: self.target_iou,
-                kept: None,
+                reserve: None,
             },
             seed: self.seed,
             tree_seed: self.tree_seed,

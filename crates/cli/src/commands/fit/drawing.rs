@@ -2,7 +2,7 @@
 
 use crate::files;
 use pleach::{FitDrawing, GoalPair};
-use pleach_fit::Aftermath;
+use pleach_fit::CostModel;
 use pleach_mesh::Palette;
 use pleach_render::{Preview, PreviewSettings, png_file};
 use pleach_silhouette::{Bitmap, picture};
@@ -14,15 +14,15 @@ use std::time::Duration;
 pub(super) const RENDER_SIZE: u32 = 512;
 
 /// What it takes to draw, score, paint and write the tree of a result.
-pub(super) fn writing(goal: &GoalPair) -> Aftermath {
+pub(super) fn writing(goal: &GoalPair) -> CostModel {
     let ratio = goal.full.height_in_pixels() / goal.working.height_in_pixels();
-    let spread = if ratio > 1.0 { REGISTERED * ratio } else { 0.0 };
-    Aftermath { fixed: PAINTED + scored(goal), trees: PAINTED_TREES, spread }
+    let parallel = if ratio > 1.0 { REGISTERED * ratio } else { 0.0 };
+    CostModel { fixed: PAINTED + scored(goal), serial: PAINTED_TREES, parallel }
 }
 
 /// What it takes to draw and score a further individual.
-pub(super) fn writing_further(goal: &GoalPair) -> Aftermath {
-    Aftermath { fixed: scored(goal), trees: FURTHER_TREES, spread: 0.0 }
+pub(super) fn writing_further(goal: &GoalPair) -> CostModel {
+    CostModel { fixed: scored(goal), serial: FURTHER_TREES, parallel: 0.0 }
 }
 
 /// What a score card and its pictures take, by the size of the goal.

@@ -1,13 +1,13 @@
-//! What a judged result says in its species file and in `parameters.csv`.
+//! What the assessment of a result says in its species file and in `parameters.csv`.
 
-use pleach_fit::{Genome, Identifiability, Judged, PROFILE_STEPS};
+use pleach_fit::{Assessment, Genome, Identifiability, PROFILE_STEPS};
 use pleach_tree::{ParamSpace, Slot};
 
 /// Comments of the species file: what the goal does not show.
-pub(super) fn comments(judged: &Judged, space: &ParamSpace) -> Vec<String> {
+pub(super) fn comments(assessment: &Assessment, space: &ParamSpace) -> Vec<String> {
     let sentences = [
-        ("One picture shows one size, so no other is grown: 0 are", &judged.settled),
-        ("Not seen in the goal, so as where the search started:", &judged.put_back),
+        ("One picture shows one size, so no other is grown: 0 are", &assessment.settled),
+        ("Not seen in the goal, so as where the search started:", &assessment.put_back),
     ];
     let of = |(start, slots): (&str, &Vec<Slot>)| {
         let names: Vec<String> = slots.iter().map(|&slot| space.slot_name(slot)).collect();
@@ -17,7 +17,7 @@ pub(super) fn comments(judged: &Judged, space: &ParamSpace) -> Vec<String> {
 }
 
 /// Rows of `parameters.csv`, the header first.
-pub(super) fn table(judged: &Judged, best: &Genome, space: &ParamSpace) -> Vec<Vec<String>> {
+pub(super) fn table(assessment: &Assessment, best: &Genome, space: &ParamSpace) -> Vec<Vec<String>> {
     let [small, large] = PROFILE_STEPS.map(|step| format!("{:.0}%", 100.0 * step));
     let header = vec![
         "parameter".to_owned(),
@@ -28,7 +28,7 @@ pub(super) fn table(judged: &Judged, best: &Genome, space: &ParamSpace) -> Vec<V
         format!("cost_rise_down_{large}"),
         format!("cost_rise_up_{large}"),
     ];
-    let rows = judged.profiles.iter().map(|profile| {
+    let rows = assessment.profiles.iter().map(|profile| {
         let seen = match profile.seen {
             Identifiability::Determined => "determined",
             Identifiability::Loosely => "loosely",

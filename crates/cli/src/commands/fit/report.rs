@@ -4,7 +4,7 @@ use super::names::RUNS;
 use super::run_folder::names::SHEET;
 use super::{individual, several, views};
 use pleach::{FitReport, IdentifiabilityCounts};
-use pleach_fit::{Judging, Kindred, References};
+use pleach_fit::{AssessmentSettings, KindVerdict, References};
 use std::path::Path;
 
 /// The score card that ends a fit, the verdict, and what to do next. `goal` is the picture and `folder`
@@ -18,7 +18,11 @@ pub(super) fn report(summary: &FitReport, goal: &Path, folder: &Path) -> String 
             "{} other seeds{}: likeness {:.3} ± {:.3}, IoU {:.3} ± {:.3}, {:.2} ± {:.2} % of pixels (an empty \
              picture {:.2} %)\n",
             fresh.count,
-            if fresh.count < Judging::default().seeds { " (there was time for no more)" } else { "" },
+            if fresh.count < AssessmentSettings::default().seeds {
+                " (there was time for no more)"
+            } else {
+                ""
+            },
             fresh.likeness.mean,
             fresh.likeness.sd,
             fresh.iou.mean,
@@ -95,14 +99,14 @@ fn verdict(summary: &FitReport, goal: &Path, folder: &Path) -> String {
     }
     let best = quoted(&folder.join("best.toml"));
     let next = match (verdict.kind, verdict.tree) {
-        (Kindred::OfItsKind, _) => {
+        (KindVerdict::OfItsKind, _) => {
             format!("twenty more trees: pleach grow {best} --seeds 0..20 -o forest/")
         }
         // One lucky tree.
-        (_, Kindred::OfItsKind) if summary.robust == 1 => {
+        (_, KindVerdict::OfItsKind) if summary.robust == 1 => {
             format!("have every seed look like the goal: {fit} --robust 4 --timeout 5m")
         }
-        (Kindred::Roughly, _) => format!("more time: {fit} --continue --timeout 5m"),
+        (KindVerdict::Roughly, _) => format!("more time: {fit} --continue --timeout 5m"),
         _ => format!(
             "look at {}, then more time: {fit} --continue --timeout 5m",
             quoted(&folder.join("overlay.png"))

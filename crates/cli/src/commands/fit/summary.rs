@@ -52,10 +52,10 @@ pub(super) fn write(
             report.scores.iou, report.scores.pixel_accuracy
         ),
     ];
-    if let Some(judged) = &fitted.judged {
+    if let Some(assessment) = &fitted.assessment {
         let space = kind.species.generator.space();
-        comments.extend(judged::comments(judged, space));
-        write_table(&claim.file("parameters.csv"), judged::table(judged, &fitted.best.genome, space))?;
+        comments.extend(judged::comments(assessment, space));
+        write_table(&claim.file("parameters.csv"), judged::table(assessment, &fitted.best.genome, space))?;
     }
     write_species(&claim.file("best.toml"), &kind.species, &comments)?;
     write_silhouette(&claim.file("best.png"), kind.over_file())?;

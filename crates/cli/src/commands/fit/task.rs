@@ -85,7 +85,7 @@ impl Task {
         drop(source);
         goal::say(&self.goal, &prepared.goal, fit.verbose);
         let (writing, further) = (drawing::writing(&prepared.goal), drawing::writing_further(&prepared.goal));
-        let prepared = prepared.with_aftermath(writing, further);
+        let prepared = prepared.with_result_cost(writing, further);
         let mut claim = self.folder.clone().claim(mode, &request)?;
 
         let clock = || started.elapsed();

@@ -7,7 +7,9 @@ use super::run_folder::Claim;
 use crate::{files, memory, output};
 use indicatif::{ProgressBar, ProgressStyle};
 use pleach::{FitDrawing, Prepared};
-use pleach_fit::{Begun, CheckpointError, IndividualProgress, Observer, ObserverError, Progress, Row};
+use pleach_fit::{
+    CheckpointError, IndividualProgress, Observer, ObserverError, PreparedSearch, Progress, Row,
+};
 use std::time::Duration;
 
 /// Watches one fit, and makes room for it in its folder once its search begins.
@@ -18,7 +20,7 @@ pub(super) struct Watch<'a> {
     says: bool,
     guessing: Option<ProgressBar>,
     search: Option<Search<'a>>,
-    judging: Option<ProgressBar>,
+    assessing: Option<ProgressBar>,
     individual: Option<ProgressBar>,
 }
 
@@ -31,23 +33,23 @@ struct Search<'a> {
 
 impl<'a> Watch<'a> {
     pub(super) fn new(claim: &'a mut Claim, prepared: &'a Prepared, says: bool) -> Self {
-        Self { claim, prepared, says, guessing: None, search: None, judging: None, individual: None }
+        Self { claim, prepared, says, guessing: None, search: None, assessing: None, individual: None }
     }
 
-    fn begin(&mut self, begun: &Begun) -> anyhow::Result<()> {
+    fn begin(&mut self, search: &PreparedSearch) -> anyhow::Result<()> {
         end(&mut self.guessing);
-        if let (Some(guess), true) = (&begun.guess, self.says) {
+        if let (Some(guess), true) = (&search.guess, self.says) {
             output::note(guess::said(guess, self.prepared.detects_leaves));
             guess::raced(guess).into_iter().for_each(output::note);
         }
         // The drawings that the goal was compared with.
         memory::give_back_the_rest();
         self.claim.begin()?;
-        let drawing = self.prepared.drawing(&begun.problem, begun.settings.limits);
+        let drawing = self.prepared.drawing(&search.problem, search.settings.limits);
         if let Some(mask) = &self.prepared.goal.mask {
             files::write_whole(&self.claim.file("mask.png"), |file| Ok(mask.bitmap.write_png(file)?))?;
         }
-        self.search = Some(Search { bar: Bar::new(&begun.settings), live: Live::new(), drawing });
+        self.search = Some(Search { bar: Bar::new(&search.settings), live: Live::new(), drawing });
         Ok(())
     }
 }
@@ -65,8 +67,8 @@ impl Observer for Watch<'_> {
         bar.set_position(done as u64);
     }
 
-    fn begun(&mut self, begun: &Begun) -> Result<(), ObserverError> {
-        Ok(self.begin(begun)?)
+    fn prepared(&mut self, prepared: &PreparedSearch) -> Result<(), ObserverError> {
+        Ok(self.begin(prepared)?)
     }
 
     fn progress(&mut self, progress: &Progress<'_>) {
@@ -88,18 +90,18 @@ impl Observer for Watch<'_> {
         }
     }
 
-    fn judging(&mut self) {
+    fn assessing(&mut self) {
         self.search = None;
         let bar = if output::is_watched() { ProgressBar::new_spinner() } else { ProgressBar::hidden() };
         bar.enable_steady_tick(Duration::from_millis(100));
         bar.set_message("judging the result: other seeds, and every parameter");
-        self.judging = Some(bar);
+        self.assessing = Some(bar);
     }
 
     fn individual(&mut self, progress: &IndividualProgress) {
         const STEPS: f64 = 1000.0;
         self.search = None;
-        end(&mut self.judging);
+        end(&mut self.assessing);
         let bar = self.individual.get_or_insert_with(|| {
             let bar =
                 if output::is_watched() { ProgressBar::new(STEPS as u64) } else { ProgressBar::hidden() };
@@ -125,7 +127,7 @@ fn end(bar: &mut Option<ProgressBar>) {
 impl Drop for Watch<'_> {
     fn drop(&mut self) {
         end(&mut self.guessing);
-        end(&mut self.judging);
+        end(&mut self.assessing);
         end(&mut self.individual);
     }
 }

@@ -5,15 +5,14 @@
 //! [`crate::Gene::to_unit`], is drawn from and moved to what was good. What a coordinate stands
 //! for is said in `coding.rs`; `margin.rs` keeps whole numbers and choices moving.
 //!
-//! Individuals come back changed: resized to the goal's height, variations of size set to zero
-//! ([`crate::Search`]). The distribution learns from the numbers *as it drew them*. To it, that change
-//! is part of the function: draws that differ only in size cost the same, so the direction is flat,
-//! and harmless. Learning from the changed numbers would put all of a generation onto one surface, and
-//! the covariance would collapse towards it for no other reason. Only the mean of a beginning, the
-//! best of the lists told first, is taken as it was told.
+//! Individuals come back changed: resized to the goal's height, variations of size set to zero ([`crate::Search`]).
+//! The distribution learns from the numbers *as it drew them*. To it, that change is part of the function: draws that
+//! differ only in size cost the same, so the direction is flat, and harmless. Learning from the changed numbers would
+//! put all of a generation onto one surface, and the covariance would collapse towards it for no other reason. Only
+//! the first mean, the best of the first lists, is taken as it was drawn.
 //!
-//! Where any tree seed will do, the distribution has a seed: that of the best individual since it
-//! began. A share of [`CmaSettings::reseed`] of its individuals have a new one.
+//! Where the tree seed is free, the distribution has a seed: that of the best individual since it began. A share of
+//! [`CmaSettings::reseed`] of its individuals have a new one.
 
 mod coding;
 mod distribution;
@@ -22,10 +21,10 @@ mod normal;
 mod strategy;
 
 use super::first::{first, given};
-use super::{Method, MethodSettings, Start, alone, ranking};
-use crate::genome::{Genome, Score};
+use super::{Method, MethodSettings, Start, only_batch, ranking};
+use crate::problem::{Genome, Score};
+use crate::space::Stream;
 use crate::space::{SearchSpace, TreeSeed};
-use crate::stream::Stream;
 use distribution::Distribution;
 use serde::{Deserialize, Serialize};
 use strategy::Strategy;
@@ -37,13 +36,13 @@ pub struct CmaSettings {
     pub population: usize,
     /// Random lists at a beginning, the best of which is the first mean.
     pub first: usize,
-    /// Largest chance that a number of a random list which may be zero is set to zero.
+    /// Largest probability that a number of a random list that may be zero is set to zero.
     pub sparsity: f64,
     /// First step σ around the best random list, as a part of search ranges.
     pub step: f64,
     /// First step σ around the best of the lists that the search was given.
     pub near_step: f64,
-    /// Share of individuals with a new tree seed, if any will do.
+    /// Share of individuals with a new tree seed, if the seed is free.
     pub reseed: f64,
     /// Generations without a gain of a thousandth, over 10 + 30 n / population, after which it
     /// restarts.
@@ -72,7 +71,7 @@ pub struct Cma {
     start: Start,
     round: u64,
     restarts: u32,
-    /// None before lists have shown where to begin.
+    /// `None` before the first lists have scores.
     state: Option<State>,
     /// The standard normal draws of the individuals that are being evaluated, one after the other.
     zs: Vec<f64>,
@@ -95,7 +94,7 @@ const SAMPLE: u32 = 1;
 
 /// Part of the cost that counts as progress.
 const GAIN: f64 = 1e-3;
-/// Most individuals in a generation, however often it restarts.
+/// Upper bound of the individuals in a generation, however often it restarts.
 const MAX: usize = 4096;
 
 impl Cma {
@@ -136,7 +135,7 @@ impl Cma {
             return None;
         }
         let genes = space.genes();
-        let mean = genes.iter().map(|gene| coding::encode(gene, gene.of(&members[best]))).collect();
+        let mean = genes.iter().map(|gene| coding::encode(gene, gene.get(&members[best]))).collect();
         let sigma = if self.is_given() { self.settings.near_step } else { self.settings.step };
         let population = self.population(genes.len());
         let mut distribution = Distribution::new(mean, sigma);
@@ -236,7 +235,7 @@ impl Method for Cma {
     }
 
     fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
-        let Some(pending) = alone(pending) else { return false };
+        let Some(pending) = only_batch(pending) else { return false };
         let n = space.genes().len();
         let asked = self.state.as_ref().map_or(0, |_| pending);
         let state_suits = |state: &State| {

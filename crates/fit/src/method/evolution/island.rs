@@ -1,11 +1,10 @@
-//! One population and what it has learnt.
+//! One population, and the operators and steps that have worked in it.
 
-use super::super::is_individual;
 use super::operators::{Offspring, Operator, Variation};
 use super::settings::EvolutionSettings;
-use crate::genome::{Genome, Score, Scored};
-use crate::space::SearchSpace;
-use crate::stream::Stream;
+use crate::method::is_individual;
+use crate::problem::{Genome, Score, Scored};
+use crate::space::{SearchSpace, Stream};
 use pleach_tree::math;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
@@ -20,7 +19,7 @@ pub(super) struct Island {
     weight: Vec<f64>,
     /// How much each operator has helped recently.
     operator_credit: Vec<f64>,
-    /// Where the children come from of each brood that is out, oldest first.
+    /// The origin of the children of each batch in flight, oldest first.
     offspring: VecDeque<Vec<Offspring>>,
     /// Children since the best became better by more than [`GAIN`] of its cost.
     stagnation: u64,
@@ -53,8 +52,8 @@ impl Island {
         self.population.first()
     }
 
-    /// Broods that wait for their scores.
-    pub(super) fn out(&self) -> usize {
+    /// Batches without scores.
+    pub(super) fn in_flight(&self) -> usize {
         self.offspring.len()
     }
 
@@ -62,8 +61,8 @@ impl Island {
         self.stagnation
     }
 
-    /// Puts `newborn` among the population and keeps the best `most`; of equal costs only one, since
-    /// it is the same tree.
+    /// Adds `newborn` to the population and keeps the best `most`; of equal costs only one, since they are
+    /// the same tree.
     pub(super) fn settle(&mut self, newborn: Vec<Scored>, most: usize) {
         if self.population.is_empty() {
             self.mark = f64::INFINITY;
@@ -79,12 +78,12 @@ impl Island {
         }
     }
 
-    /// Counts `children` towards stagnation: they are about to be told.
+    /// Counts `children` towards stagnation, before their scores are known.
     pub(super) const fn age(&mut self, children: usize) {
         self.stagnation += children as u64;
     }
 
-    /// Whether this can be an island of a search in `space`: see [`super::Method::suits`].
+    /// Whether this can be an island of a search in `space`: see [`crate::Method::suits`].
     pub(super) fn suits(
         &self,
         space: &SearchSpace,
@@ -98,8 +97,8 @@ impl Island {
             && (self.steps.iter().chain(&self.weight).chain(&self.operator_credit))
                 .all(|number| number.is_finite() && *number > 0.0);
         let is_new = self.operator_credit.is_empty() && self.steps.is_empty() && self.weight.is_empty();
-        // Champions that meet may be more than survive a generation.
-        let most = settings.parents.max(2).max(settings.lanes.saturating_add(1));
+        // The elites that meet may be more than survive a generation.
+        let most = settings.parents.max(2).max(settings.islands.saturating_add(1));
         (has_learnt || (is_new && self.offspring.is_empty()))
             && self.stagnation <= children
             && self.population.len() <= most
@@ -128,7 +127,7 @@ impl Island {
     }
 
     /// Appends `size` children to `members`; `draws` gives each its own stream.
-    pub(super) fn breed(
+    pub(super) fn make_children(
         &mut self,
         space: &SearchSpace,
         settings: &EvolutionSettings,
@@ -143,7 +142,7 @@ impl Island {
             steps: &self.steps,
             weight: &self.weight,
             operator_credit: &self.operator_credit,
-            greed: settings.greed,
+            selection_pressure: settings.selection_pressure,
         };
         let children = (0..size).map(|member| self.child(&variation, draws(member as u32)));
         let (genomes, offspring): (Vec<_>, Vec<_>) = children.unzip();

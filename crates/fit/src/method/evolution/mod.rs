@@ -7,11 +7,11 @@
 //!   and shrinks without (the one-fifth rule, Rechenberg 1973, number by number), and is chosen the
 //!   more often the more it has helped;
 //! - other children cross two parents, go along the difference of two others (Storn and Price 1997),
-//!   move everything a little, draw a number again from its whole range, or set one to zero. How often
-//!   each operator is tried follows from what it has brought (`operators.rs`);
+//!   move everything a little, draw a number again from its whole range, or set one to zero. Each operator is
+//!   chosen the more often the more it has gained (`operators.rs`);
 //! - reals, whole numbers, switches and choices are changed each in its own way, and numbers that the
 //!   tree does not depend on ([`pleach_tree::Generator::is_active`]) are left alone;
-//! - the population begins with the best of a batch of random lists, in which numbers that may be
+//! - the population begins with the best of many random lists, in which numbers that may be
 //!   zero often are: variations, bends and splits are absent from most trees;
 //! - a population that has not improved for a while ends its *island*. Its best joins an archive of
 //!   elites, and the next island begins with new random lists; after a few islands the elites
@@ -27,9 +27,8 @@ pub use settings::EvolutionSettings;
 
 use super::first::first;
 use super::{Method, MethodSettings, Start, is_individual};
-use crate::genome::{Genome, Score, Scored};
-use crate::space::SearchSpace;
-use crate::stream::Stream;
+use crate::problem::{Genome, Score, Scored};
+use crate::space::{SearchSpace, Stream};
 use island::Island;
 use serde::{Deserialize, Serialize};
 
@@ -39,13 +38,13 @@ pub struct Evolution {
     settings: EvolutionSettings,
     seed: u64,
     start: Start,
-    /// Broods that have been told.
-    round: u64,
+    /// Batches that have been told.
+    batches: u64,
     islands_begun: u64,
     island: Island,
-    /// Broods of children of the island that have been told.
-    broods: u64,
-    /// Whether what was told last ended a generation.
+    /// Batches of children of the island that have been told.
+    island_batches: u64,
+    /// Whether the batch that was told last ended a generation.
     ended: bool,
     /// The best of each island since the elites last met, theirs included.
     elites: Vec<Scored>,
@@ -55,9 +54,9 @@ pub struct Evolution {
 const FIRST: u32 = 0;
 const CHILD: u32 = 1;
 
-/// The lag grows by one after so many broods of an island: at its beginning every tree teaches much, and a
-/// child that is bred a moment later is the better for it.
-const BROODS_A_LAG: u64 = 40;
+/// Staleness grows by one per this many batches of an island: at its beginning every score teaches much, and
+/// a child that is made a moment later is better for it.
+const BATCHES_PER_STALENESS: u64 = 40;
 
 impl Evolution {
     /// Starts from the lists of `start` and variations of them, or from random lists.
@@ -67,10 +66,10 @@ impl Evolution {
             settings,
             seed,
             start,
-            round: 0,
+            batches: 0,
             islands_begun: 0,
             island: Island::default(),
-            broods: 0,
+            island_batches: 0,
             ended: false,
             elites: Vec::new(),
         }
@@ -79,7 +78,7 @@ impl Evolution {
     /// The individuals that an island begins with.
     fn begin(&self, space: &SearchSpace, members: &mut Vec<Genome>) {
         let lists = if self.islands_begun == 0 { self.start.lists() } else { &[] };
-        let draws = |member| Stream::at(self.seed, FIRST, self.round, member);
+        let draws = |member| Stream::at(self.seed, FIRST, self.batches, member);
         first(space, lists, self.settings.first.max(2), self.settings.sparsity, draws, members);
     }
 
@@ -89,25 +88,24 @@ impl Evolution {
         self.island.stagnation() > patience
     }
 
-    /// Broods of a generation.
-    fn broods_a_generation(&self) -> u64 {
-        self.settings.children.max(1).div_ceil(self.settings.brood.max(1)) as u64
+    fn batches_per_generation(&self) -> u64 {
+        self.settings.children.max(1).div_ceil(self.settings.batch.max(1)) as u64
     }
 
-    /// Children of brood `number` of an island: the last of a generation may be smaller than the others.
-    fn brood_size(&self, number: u64) -> usize {
-        let before = (number % self.broods_a_generation()) as usize * self.settings.brood.max(1);
-        self.settings.brood.max(1).min(self.settings.children.max(1) - before)
+    /// Size of batch `number` of an island: the last of a generation may be smaller than the others.
+    fn batch_size(&self, number: u64) -> usize {
+        let before = (number % self.batches_per_generation()) as usize * self.settings.batch.max(1);
+        self.settings.batch.max(1).min(self.settings.children.max(1) - before)
     }
 
     /// Ends the island and prepares the next.
-    fn change_lanes(&mut self) {
+    fn start_next_island(&mut self) {
         self.elites.extend(self.island.best().cloned());
         self.island = Island::default();
-        self.broods = 0;
+        self.island_batches = 0;
         self.ended = true;
         self.islands_begun += 1;
-        if self.elites.len() > self.settings.lanes.max(1) {
+        if self.elites.len() > self.settings.islands.max(1) {
             self.island.settle(std::mem::take(&mut self.elites), usize::MAX);
         }
     }
@@ -138,13 +136,13 @@ impl Method for Evolution {
         "evolution"
     }
 
-    fn lag(&self) -> usize {
-        // Islands begin and end with nothing out.
+    fn max_staleness(&self) -> usize {
+        // Islands begin and end with no batch in flight.
         if self.island.is_empty() || self.has_stagnated() {
             return 0;
         }
-        let grown = 1 + usize::try_from(self.broods / BROODS_A_LAG).unwrap_or(usize::MAX);
-        grown.min(self.settings.lag)
+        let grown = 1 + usize::try_from(self.island_batches / BATCHES_PER_STALENESS).unwrap_or(usize::MAX);
+        grown.min(self.settings.staleness)
     }
 
     fn ask(&mut self, space: &SearchSpace, members: &mut Vec<Genome>) {
@@ -152,15 +150,15 @@ impl Method for Evolution {
             self.begin(space, members);
             return;
         }
-        // Both are counted when they are told; what is out will be by then.
-        let out = self.island.out() as u64;
-        let (round, size) = (self.round + out, self.brood_size(self.broods + out));
-        let draws = |member| Stream::at(self.seed, CHILD, round, member);
-        self.island.breed(space, &self.settings, size, draws, members);
+        // Batches are counted when they are told; those in flight come before this one.
+        let in_flight = self.island.in_flight() as u64;
+        let (batch, size) = (self.batches + in_flight, self.batch_size(self.island_batches + in_flight));
+        let draws = |member| Stream::at(self.seed, CHILD, batch, member);
+        self.island.make_children(space, &self.settings, size, draws, members);
     }
 
     fn tell(&mut self, _: &SearchSpace, members: &[Genome], scores: &[Score]) {
-        self.round += 1;
+        self.batches += 1;
         let newborn = members.iter().zip(scores).filter(|(_, score)| score.cost < f64::INFINITY);
         let newborn = newborn.map(|(genome, score)| Scored { genome: genome.clone(), score: *score });
         if self.island.is_empty() {
@@ -171,10 +169,10 @@ impl Method for Evolution {
         self.island.learn(scores);
         self.island.age(scores.len());
         self.island.settle(newborn.collect(), self.settings.parents);
-        self.broods += 1;
-        self.ended = self.broods.is_multiple_of(self.broods_a_generation());
-        if self.island.out() == 0 && self.has_stagnated() {
-            self.change_lanes();
+        self.island_batches += 1;
+        self.ended = self.island_batches.is_multiple_of(self.batches_per_generation());
+        if self.island.in_flight() == 0 && self.has_stagnated() {
+            self.start_next_island();
         }
     }
 
@@ -183,12 +181,12 @@ impl Method for Evolution {
     }
 
     fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
-        let broods = (generations + 1).saturating_mul(self.broods_a_generation());
+        let max_batches = (generations + 1).saturating_mul(self.batches_per_generation());
         let children = (generations + 1).saturating_mul(self.settings.children.max(1) as u64);
-        self.round <= broods
-            && self.broods <= broods
+        self.batches <= max_batches
+            && self.island_batches <= max_batches
             && self.islands_begun <= generations
-            && self.elites.len() <= self.settings.lanes.max(1)
+            && self.elites.len() <= self.settings.islands.max(1)
             && self.elites.iter().all(|elite| is_individual(&elite.genome, space))
             && self.island.suits(space, &self.settings, children, pending)
     }

@@ -1,8 +1,8 @@
 //! How children differ from their parents.
 
-use crate::genome::{Genome, Scored};
+use crate::problem::{Genome, Scored};
+use crate::space::Stream;
 use crate::space::{Gene, Place, SearchSpace, TreeSeed};
-use crate::stream::Stream;
 use pleach_tree::math;
 use serde::{Deserialize, Serialize};
 
@@ -24,10 +24,10 @@ pub(super) enum Operator {
     Resample,
     /// One or two numbers to zero.
     Zero,
-    /// Another tree of the same parameters, if any tree will do; otherwise as [`Operator::StepOne`].
+    /// Another tree seed with the same parameters, if the seed is free; otherwise as [`Operator::StepOne`].
     Seed,
-    /// The same tree from elsewhere: some of what is not known of the views by their steps. Beside the numbers of a
-    /// tree they are few, so that other operators seldom move them. Not tried where all views are known.
+    /// The same tree from elsewhere: some nuisances by their steps. There are few of them beside the numbers of a
+    /// tree, so that other operators seldom move them. Not tried without nuisances.
     Place,
 }
 
@@ -63,12 +63,12 @@ pub(super) struct Variation<'a> {
     pub(super) steps: &'a [f64],
     pub(super) weight: &'a [f64],
     pub(super) operator_credit: &'a [f64],
-    pub(super) greed: f64,
+    pub(super) selection_pressure: f64,
 }
 
 /// Chance that a step of a switch is a change of sign and not of magnitude.
 const FLIP: f64 = 0.1;
-/// A step is normal with a few far leaps: parts of the gene's step of a normal and of a Cauchy number.
+/// A step is normal with a few long jumps: weights of a normal and of a Cauchy number, in steps of the gene.
 const NEAR: f64 = 0.7;
 const FAR: f64 = 0.05;
 const FARTHEST: f64 = 20.0;
@@ -113,7 +113,7 @@ impl Variation<'_> {
                 let scale = 1.0 / (read.len() as f64).sqrt();
                 for &g in read.iter().filter(|&&g| !self.gene(g).is_choice()) {
                     let gene = self.gene(g);
-                    let unit = gene.to_unit(gene.of(&child)) + scale * self.steps[g] * draws.normal();
+                    let unit = gene.to_unit(gene.get(&child)) + scale * self.steps[g] * draws.normal();
                     gene.set(&mut child, gene.from_unit(unit));
                 }
             }
@@ -129,7 +129,7 @@ impl Variation<'_> {
                 for _ in 0..1 + draws.below(2) {
                     let candidate = |&g: &usize| {
                         let gene = self.gene(g);
-                        let neutral = gene.neutral().filter(|&neutral| gene.of(&child) != neutral)?;
+                        let neutral = gene.neutral().filter(|&neutral| gene.get(&child) != neutral)?;
                         Some((gene, neutral))
                     };
                     let candidates: Vec<(&Gene, f64)> = read.iter().filter_map(candidate).collect();
@@ -149,7 +149,7 @@ impl Variation<'_> {
         let share = if draws.chance(0.5) { 0.1 } else { 0.5 };
         for gene in read.iter().map(|&g| self.gene(g)) {
             if draws.chance(share) {
-                gene.set(child, gene.of(from));
+                gene.set(child, gene.get(from));
             }
         }
         self.step(read, child, draws);
@@ -177,12 +177,12 @@ impl Variation<'_> {
         &self.space.genes()[number]
     }
 
-    /// A parent, the better the likelier.
+    /// A parent: better ones are more probable.
     fn parent(&self, draws: &mut Stream) -> usize {
-        (self.population.len() as f64 * math::pow(draws.unit(), self.greed)) as usize
+        (self.population.len() as f64 * math::pow(draws.unit(), self.selection_pressure)) as usize
     }
 
-    /// An operator, as likely as its credit.
+    /// An operator, with a probability proportional to its credit.
     fn choose(&self, has_places: bool, draws: &mut Stream) -> Operator {
         let tried = |by: &Operator| has_places || *by != Operator::Place;
         let credits = Operator::ALL.iter().zip(self.operator_credit).filter(|(by, _)| tried(by));
@@ -199,7 +199,7 @@ impl Variation<'_> {
     /// Changes a gene by its step.
     fn move_by_step(&self, number: usize, child: &mut Genome, draws: &mut Stream) {
         let gene = self.gene(number);
-        let old = gene.of(child);
+        let old = gene.get(child);
         let value = if gene.is_choice() {
             // Any of the others.
             let next = (old - gene.low + 1.0 + draws.below(gene.count() as usize - 1) as f64) % gene.count();
@@ -219,15 +219,15 @@ impl Variation<'_> {
 /// Moves `gene` of `child` by `factor` of the way from `from` to `to`; a choice becomes that of `to`.
 fn along(gene: &Gene, child: &mut Genome, to: &Genome, from: &Genome, factor: f64) {
     let value = if gene.is_choice() {
-        gene.of(to)
+        gene.get(to)
     } else {
-        let difference = gene.to_unit(gene.of(to)) - gene.to_unit(gene.of(from));
-        gene.from_unit(gene.to_unit(gene.of(child)) + factor * difference)
+        let difference = gene.to_unit(gene.get(to)) - gene.to_unit(gene.get(from));
+        gene.from_unit(gene.to_unit(gene.get(child)) + factor * difference)
     };
     gene.set(child, value);
 }
 
-/// The number of one of `weights`, as likely as its weight.
+/// An index into `weights`, with a probability proportional to its weight.
 fn weighted(weights: impl Iterator<Item = f64> + Clone, draws: &mut Stream) -> usize {
     let mut left = draws.unit() * weights.clone().sum::<f64>();
     let mut last = 0;

@@ -1,10 +1,10 @@
 //! Recently successful factors and rates.
 
-use crate::stream::Stream;
+use crate::space::Stream;
 use serde::{Deserialize, Serialize};
 
-/// The success history of Tanabe and Fukunaga 2013, §III: means of the scale factors F and crossover
-/// rates CR that made better children, one pair a generation, the oldest overwritten.
+/// The success history of Tanabe and Fukunaga 2013, §III: means of the scale factors F and crossover rates CR that
+/// made better children, one pair per generation; the oldest is overwritten.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct History {
     factors: Vec<f64>,
@@ -56,7 +56,7 @@ impl History {
     pub(super) fn learn(&mut self, successes: &[Success]) {
         let sum = |of: fn(&Success) -> f64| successes.iter().map(|s| s.gain * of(s)).sum::<f64>();
         let total = sum(|_| 1.0);
-        // Equal costs take the parent's place too, and say nothing of the factors.
+        // Trials of equal cost replace their target too, and say nothing about the factors.
         if total > 0.0 {
             self.factors[self.next] = sum(|s| s.factor * s.factor) / sum(|s| s.factor);
             self.rates[self.next] = sum(|s| s.rate) / total;

@@ -1,36 +1,36 @@
-//! Differential evolution that learns its factors: SHADE (Tanabe and Fukunaga 2013).
+//! Differential evolution with learned factors: SHADE (Tanabe and Fukunaga 2013).
 //!
-//! Every individual is the target of one trial a generation. The trial takes part of its numbers,
-//! each with the chance CR and one for certain, from
+//! Every individual is the target of one trial per generation. The trial takes part of its numbers, each with the
+//! chance CR and one for certain, from
 //!
 //! ```text
 //! x + F (b − x) + F (r − s)
 //! ```
 //!
-//! where x is the target, b one of the best, r another individual, and s another or one of the
-//! archive, which keeps targets that were beaten; all in the units of [`crate::Gene::to_unit`].
-//! It takes the target's place if it is no worse. F and CR are drawn around what has served
-//! (§III of the paper, [`memory`]). Beyond the range a number goes half the way to its end.
+//! where x is the target, b one of the best, r another individual, and s another or one of the archive, which keeps
+//! targets that were beaten; all in the units of [`crate::Gene::to_unit`]. It takes the target's place if it is no
+//! worse. F and CR are drawn around values that were successful (§III of the paper, [`memory`]). Beyond the range a
+//! number goes half the way to its end.
 //!
-//! Where the paper has nothing but real numbers, and where trees need more:
+//! The paper has real numbers only; for trees:
 //!
 //! - whole numbers are rounded; a choice is that of b or of r, with equal chances;
-//! - where any tree seed will do, the trial keeps the target's, save in a share of
-//!   [`ShadeSettings::reseed`] of trials: half of those take that of b, half a new one;
-//! - the population is the best of a batch of random lists, or the start's lists with variations of
-//!   them: a fifth of the numbers moved by some tenth of their range;
-//! - told individuals count as they are told: resized to the goal's height or with variations of size
-//!   set to zero ([`crate::Search`]), so that differences are those of trees that were drawn;
+//! - where the tree seed is free, the trial keeps the target's, save in a share of [`ShadeSettings::reseed`] of
+//!   trials: half of those take that of b, half a new one;
+//! - the population is the best of many random lists, or the start's lists with variations of them: a fifth of the
+//!   numbers moved by some tenth of their range;
+//! - individuals count as they were drawn: resized to the goal's height or with variations of size set to zero
+//!   ([`crate::Search`]), so that differences are those of trees that were drawn;
 //! - a population in which nothing has been replaced by anything better for
 //!   [`ShadeSettings::patience`] generations restarts from random lists.
 
 mod memory;
 
 use super::first::{first, given};
-use super::{Method, MethodSettings, Start, alone, is_individual, ranking};
-use crate::genome::{Genome, Score, Scored};
+use super::{Method, MethodSettings, Start, is_individual, only_batch, ranking};
+use crate::problem::{Genome, Score, Scored};
+use crate::space::Stream;
 use crate::space::{SearchSpace, TreeSeed};
-use crate::stream::Stream;
 use memory::{History, Success};
 use serde::{Deserialize, Serialize};
 
@@ -41,7 +41,7 @@ pub struct ShadeSettings {
     pub population: usize,
     /// Random lists at a beginning, of which the best are the population.
     pub first: usize,
-    /// Largest chance that a number of a random list which may be zero is set to zero.
+    /// Largest probability that a number of a random list that may be zero is set to zero.
     pub sparsity: f64,
     /// Pairs of factors and rates that are remembered: H of the paper.
     pub history: usize,
@@ -49,7 +49,7 @@ pub struct ShadeSettings {
     pub best: f64,
     /// Beaten targets that are kept, in populations.
     pub archive: f64,
-    /// Share of trials with another tree seed than the target's, if any will do.
+    /// Share of trials with another tree seed than the target's, if the seed is free.
     pub reseed: f64,
     /// Generations without a success after which a population restarts.
     pub patience: u64,
@@ -80,7 +80,7 @@ pub struct Shade {
     population: Vec<Scored>,
     archive: Vec<Genome>,
     history: History,
-    /// Factor and rate of each trial that is being evaluated; none while lists are.
+    /// Factor and rate of each trial that is being evaluated; empty while lists are.
     trials: Vec<Trial>,
     idle: u64,
 }
@@ -138,7 +138,7 @@ impl Shade {
                     let step = VARIED_STEP * draws.normal();
                     let value = match gene.is_choice() {
                         true => gene.random(&mut draws),
-                        false => gene.from_unit(gene.to_unit(gene.of(&genome)) + step),
+                        false => gene.from_unit(gene.to_unit(gene.get(&genome)) + step),
                     };
                     gene.set(&mut genome, value);
                 }
@@ -174,9 +174,9 @@ impl Shade {
                 continue;
             }
             let value = if gene.is_choice() {
-                gene.of(if draws.chance(0.5) { best } else { to })
+                gene.get(if draws.chance(0.5) { best } else { to })
             } else {
-                let unit = |genome: &Genome| gene.to_unit(gene.of(genome));
+                let unit = |genome: &Genome| gene.to_unit(gene.get(genome));
                 let old = unit(&child);
                 let new = old + factor * (unit(best) - old) + factor * (unit(to) - unit(from));
                 gene.from_unit(if gene.is_periodic() {
@@ -288,7 +288,7 @@ impl Method for Shade {
     }
 
     fn suits(&self, space: &SearchSpace, generations: u64, pending: &[usize]) -> bool {
-        let Some(pending) = alone(pending) else { return false };
+        let Some(pending) = only_batch(pending) else { return false };
         let population = self.population.iter().map(|scored| &scored.genome);
         let most = self.settings.population.max(MIN);
         let room = (self.settings.archive * self.population.len() as f64) as usize;
@@ -299,7 +299,7 @@ impl Method for Shade {
             && self.archive.len() <= room
             && population.chain(&self.archive).all(|genome| is_individual(genome, space))
             && self.history.suits(self.settings.history)
-            // Trials that were told stay until the next are asked for.
+            // Trials with scores stay until the next are asked for.
             && (self.trials.is_empty() || pending == 0 || pending == self.trials.len())
             && (self.trials.is_empty() || pending == 0 || pending == self.population.len())
             && (pending == 0 || is_asked)

@@ -1,0 +1,255 @@
+//! The verdict on a fit, in words.
+//!
+//! A likeness says little by itself: how like each other two trees of one species are depends on the species. So the
+//! rule is the position of a fit between the likeness of another species' tree to the goal (0) and that of two trees
+//! of the goal's own species (1), see [`crate::References`]:
+//!
+//! | where | verdict |
+//! | --- | --- |
+//! | from [`OF_ITS_KIND`] | of its kind |
+//! | from [`ROUGHLY`] | roughly of its kind |
+//! | from [`NOT_AT_ALL`] | not of its kind |
+//! | below | no more like the goal than another species |
+//!
+//! What counts is the likeness of fresh seeds: parameters are of a kind if all their trees are.
+
+use crate::guess::References;
+use pleach_silhouette::score::Crown;
+use pleach_tree::math;
+use serde::Serialize;
+use std::fmt;
+
+/// From here on a fit is of its kind: within the accuracy of the mean over a few pairs of trees.
+const OF_ITS_KIND: f64 = 0.85;
+/// From here on it is so roughly: nearer to the kind than to other species.
+const ROUGHLY: f64 = 0.5;
+/// Below it, it might as well be a tree of another species.
+const NOT_AT_ALL: f64 = 0.1;
+/// Minimum difference of likeness between 0 and 1 of the rule: where two trees of a species are no more alike than
+/// two of any, the rule would divide by zero.
+pub const MIN_VERDICT_SPAN: f64 = 0.05;
+
+/// A crown is too wide, or its tree too tall, from this factor on, and too narrow from its inverse.
+const SIZE_OFF: f64 = 1.1;
+/// Ink in the box around the tree, as a factor of the goal's, from which a tree is too dense.
+const DENSITY_OFF: f64 = 1.15;
+/// By this part of the goal's height the crown begins too high or too low.
+const BARE_OFF: f64 = 0.08;
+
+/// Whether trees are of the goal's kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum KindVerdict {
+    /// As like the goal as two trees of one species are.
+    OfItsKind,
+    /// Nearer to that than to another species.
+    Roughly,
+    /// Nearer to another species.
+    NotOfItsKind,
+    /// No more like the goal than another species.
+    NoMoreThanAnother,
+}
+
+/// The largest mismatch between the shapes of a fit and its goal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mismatch {
+    /// The tree is wider than the goal.
+    TooWide,
+    /// It is narrower.
+    TooNarrow,
+    /// It is taller.
+    TooTall,
+    /// It is lower.
+    TooLow,
+    /// It has more ink in its box.
+    TooDense,
+    /// It has less.
+    TooSparse,
+    /// Its trunk is bare to a greater height.
+    StartsTooHigh,
+    /// Its trunk is bare to a lesser height.
+    StartsTooLow,
+}
+
+/// The verdict on a fit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// Whether the trees of its parameters are of the goal's kind.
+    pub kind: KindVerdict,
+    /// Whether the fitted tree itself is: with a lucky seed, it is better.
+    pub tree: KindVerdict,
+    /// Position of the likeness that `kind` is about, between another species (0) and two trees of one species (1).
+    pub share: f64,
+    /// The largest mismatch of the fitted tree's shape, if there is one.
+    pub off: Option<Mismatch>,
+}
+
+impl KindVerdict {
+    /// The verdict on a likeness at `share`: see the rule above.
+    #[must_use]
+    pub fn from_share(share: f64) -> Self {
+        if share >= OF_ITS_KIND {
+            Self::OfItsKind
+        } else if share >= ROUGHLY {
+            Self::Roughly
+        } else if share >= NOT_AT_ALL {
+            Self::NotOfItsKind
+        } else {
+            Self::NoMoreThanAnother
+        }
+    }
+}
+
+impl fmt::Display for KindVerdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::OfItsKind => "of its kind: as like the goal as two trees of one species are",
+            Self::Roughly => "roughly of its kind: more like the goal than another species is",
+            Self::NotOfItsKind => "not of its kind: little more like the goal than another species",
+            Self::NoMoreThanAnother => "no more like the goal than another species",
+        })
+    }
+}
+
+impl Mismatch {
+    /// The largest mismatch between `crown` and `goal`, each relative to its tolerance, if it exceeds that.
+    #[must_use]
+    pub fn new(crown: &Crown, goal: &Crown) -> Option<Self> {
+        let factor = |a: f64, b: f64, most: f64| {
+            if a > 0.0 && b > 0.0 { math::ln(a / b) / math::ln(most) } else { 0.0 }
+        };
+        let density = |crown: &Crown| crown.ink / (crown.width * crown.height).max(1e-9);
+        let bare = |crown: &Crown| crown.bare_height / crown.height.max(1e-9);
+        let measured = [
+            (factor(crown.width, goal.width, SIZE_OFF), Self::TooWide, Self::TooNarrow),
+            (factor(crown.height, goal.height, SIZE_OFF), Self::TooTall, Self::TooLow),
+            (factor(density(crown), density(goal), DENSITY_OFF), Self::TooDense, Self::TooSparse),
+            ((bare(crown) - bare(goal)) / BARE_OFF, Self::StartsTooHigh, Self::StartsTooLow),
+        ];
+        let worst = measured.into_iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+        (worst.0.abs() >= 1.0).then_some(if worst.0 > 0.0 { worst.1 } else { worst.2 })
+    }
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::TooWide => "the crown is too wide",
+            Self::TooNarrow => "the crown is too narrow",
+            Self::TooTall => "the tree is too tall",
+            Self::TooLow => "the tree is too low",
+            Self::TooDense => "the crown is too dense",
+            Self::TooSparse => "the crown is too sparse",
+            Self::StartsTooHigh => "the crown starts too high",
+            Self::StartsTooLow => "the crown starts too low",
+        })
+    }
+}
+
+impl Verdict {
+    /// The verdict on a fit whose tree has a likeness of `tree` to the goal, and trees of other seeds a mean of
+    /// `fresh`, `None` if there are none. `None` without a species to compare with.
+    #[must_use]
+    pub fn new(
+        tree: f64,
+        fresh: Option<f64>,
+        references: &References,
+        crown: &Crown,
+        goal: &Crown,
+    ) -> Option<Self> {
+        let one = references.same_species?.likeness;
+        let other = references.other_species.unwrap_or(references.best_ellipse).likeness;
+        let share = |likeness: f64| (likeness - other) / (one - other).max(MIN_VERDICT_SPAN);
+        let of_kind = share(fresh.unwrap_or(tree));
+        Some(Self {
+            kind: KindVerdict::from_share(of_kind),
+            tree: KindVerdict::from_share(share(tree)),
+            share: of_kind,
+            off: Mismatch::new(crown, goal),
+        })
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.kind)?;
+        self.off.map_or(Ok(()), |off| write!(f, "; {off}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::guess::Reference;
+
+    const CROWN: Crown = Crown { ink: 0.2, height: 0.9, width: 0.6, centroid_height: 0.5, bare_height: 0.2 };
+
+    fn references(same: f64, other: f64) -> References {
+        let reference = |likeness| Reference { likeness, iou: 0.5 };
+        References {
+            species: Some("acer".to_owned()),
+            same_species: Some(reference(same)),
+            other_species: Some(reference(other)),
+            best_ellipse: reference(0.3),
+        }
+    }
+
+    #[test]
+    fn every_verdict_begins_at_its_edge() {
+        let before = |edge: f64| edge.next_down();
+        let cases = [
+            (OF_ITS_KIND, KindVerdict::OfItsKind, KindVerdict::Roughly),
+            (ROUGHLY, KindVerdict::Roughly, KindVerdict::NotOfItsKind),
+            (NOT_AT_ALL, KindVerdict::NotOfItsKind, KindVerdict::NoMoreThanAnother),
+        ];
+        for (edge, at, below) in cases {
+            assert_eq!((KindVerdict::from_share(edge), KindVerdict::from_share(before(edge))), (at, below));
+        }
+        assert_eq!(KindVerdict::from_share(7.0), KindVerdict::OfItsKind);
+        assert_eq!(KindVerdict::from_share(-7.0), KindVerdict::NoMoreThanAnother);
+    }
+
+    #[test]
+    fn fresh_seeds_decide_and_references_say_where() {
+        let of = |tree, fresh, references: &References| Verdict::new(tree, fresh, references, &CROWN, &CROWN);
+        let verdict = of(0.8, Some(0.55), &references(0.8, 0.3)).unwrap();
+        assert_eq!(
+            (verdict.kind, verdict.tree, verdict.off),
+            (KindVerdict::Roughly, KindVerdict::OfItsKind, None)
+        );
+        assert!((verdict.share - 0.5).abs() < 1e-12);
+        assert_eq!(of(0.8, None, &references(0.8, 0.3)).unwrap().kind, KindVerdict::OfItsKind);
+        // The same likeness is worth less where trees of one species are more alike.
+        assert_eq!(of(0.5, None, &references(0.9, 0.3)).unwrap().kind, KindVerdict::NotOfItsKind);
+        // Two trees of the species are no more alike than others are.
+        let odd = of(0.32, None, &references(0.2, 0.3)).unwrap();
+        assert_eq!(odd.kind, KindVerdict::NotOfItsKind);
+        let none = References { same_species: None, ..references(0.8, 0.3) };
+        assert_eq!(of(0.8, None, &none), None);
+    }
+
+    #[test]
+    fn what_is_most_off_is_said_from_its_edge_on() {
+        let off = |crown: Crown| Mismatch::new(&crown, &CROWN);
+        assert_eq!(off(CROWN), None);
+        let wide = |by: f64| Crown { width: by * CROWN.width, ink: by * CROWN.ink, ..CROWN };
+        assert_eq!(off(wide(SIZE_OFF + 1e-9)), Some(Mismatch::TooWide));
+        assert_eq!(off(wide(SIZE_OFF - 1e-9)), None);
+        assert_eq!(off(wide(1.0 / SIZE_OFF - 1e-9)), Some(Mismatch::TooNarrow));
+        let inked = |by: f64| Crown { ink: by * CROWN.ink, ..CROWN };
+        assert_eq!(off(inked(DENSITY_OFF + 1e-9)), Some(Mismatch::TooDense));
+        assert_eq!(off(inked(1.0 / DENSITY_OFF - 1e-9)), Some(Mismatch::TooSparse));
+        assert_eq!(off(inked(DENSITY_OFF - 1e-9)), None);
+        let bare = |by: f64| Crown { bare_height: CROWN.bare_height + by * CROWN.height, ..CROWN };
+        assert_eq!(off(bare(BARE_OFF + 1e-9)), Some(Mismatch::StartsTooHigh));
+        assert_eq!(off(bare(-BARE_OFF - 1e-9)), Some(Mismatch::StartsTooLow));
+        // Twice the density weighs more than a width that is off by an eighth.
+        assert_eq!(
+            off(Crown { width: 1.125 * CROWN.width, ink: 0.5 * CROWN.ink, ..CROWN }),
+            Some(Mismatch::TooSparse)
+        );
+        // Nothing drawn at all: no numbers, no nonsense.
+        assert_eq!(Mismatch::new(&Crown::default(), &CROWN), Some(Mismatch::StartsTooLow));
+    }
+}

@@ -1,0 +1,144 @@
+//! The stages of a whole fit before and after its search.
+
+use super::deadline::TimeLeft;
+use super::settings::{Fitted, GoalSettings, Guessing};
+use crate::assess::{AssessmentSettings, Assessor, best_kind};
+use crate::control::{Control, Outcome, PreparedSearch, StopReason, Until};
+use crate::error::FitError;
+use crate::evaluator::Evaluator;
+use crate::guess::GuessLibrary;
+use crate::individual::{IndividualSettings, individuals};
+use crate::problem::FitProblem;
+use crate::registration::{Closeness, with_registered_frames};
+use crate::run::{FitSettings, evaluator_in, search_space};
+use crate::space::SpaceError;
+use pleach_tree::Limits;
+use std::sync::atomic::Ordering;
+
+/// Whether former bests of such a search may be validated on other seeds.
+fn validates(search: &FitSettings) -> bool {
+    search.objective.uses_likeness() && search.rules.is_none() && search.optimizer.keeps_to_plausible()
+}
+
+/// Assesses the result of a search, unless the flag of `control` is raised, and searches for this very tree.
+pub(crate) fn conclude(
+    mut prepared: PreparedSearch,
+    mut outcome: Outcome,
+    settings: &GoalSettings,
+    library: &mut GuessLibrary,
+    mut control: Control<'_>,
+) -> Result<Fitted, FitError> {
+    let found = outcome.best.clone().filter(|best| best.score.cost.is_finite());
+    let Some(mut best) = found else {
+        return Err(match outcome.stop {
+            StopReason::Interrupted => FitError::Interrupted,
+            _ => FitError::NothingGrew { evaluations: outcome.evaluations },
+        });
+    };
+    if best.genome.structure.is_some() {
+        // From here on it is a fit of the generator that was found.
+        prepared.problem.start = prepared.problem.species(&best.genome).map_err(SpaceError::Start)?;
+        best.genome.structure = None;
+    }
+    let evaluate = || {
+        let evaluator = Evaluator::new(&prepared.problem, prepared.settings.objective, Limits::DEFAULT)?;
+        evaluator.evaluate_with_likeness(&best.genome);
+        Ok(())
+    };
+    let left =
+        TimeLeft::new(settings.deadline, settings.individual, outcome.elapsed, control.clock, evaluate)?;
+    if settings.validates && validates(&prepared.settings) {
+        let mut finalists = outcome.finalists.clone();
+        finalists.push(best.clone());
+        let share = settings.assessment.and_then(|how| left.for_assessment(how.time));
+        let late = share.map(|share| control.clock.elapsed() + share / 2);
+        let until = Until::from(control.stop).or_late(control.clock, late);
+        match best_kind(&prepared.problem, prepared.settings.objective, &finalists, until) {
+            Ok(kind) => best = finalists.swap_remove(kind),
+            Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
+            Err(error) => return Err(error),
+        }
+    }
+    let evaluator = Evaluator::new(&prepared.problem, prepared.settings.objective, Limits::DEFAULT)?;
+    prepared.problem = with_registered_frames(&prepared.problem, &evaluator, &best.genome, Closeness::Result);
+    drop(evaluator);
+    let mut assessment = None;
+    if settings.assessment.is_some() && control.stop.load(Ordering::Relaxed) {
+        outcome.stop = StopReason::Interrupted;
+    } else if let Some(how) = settings.assessment {
+        control.observers.iter_mut().for_each(|observer| observer.assessing());
+        let (clock, stop) = (control.clock, control.stop);
+        let how = AssessmentSettings { time: left.for_assessment(how.time), ..how };
+        let (finalists, candidates) = (&outcome.finalists, &settings.candidates);
+        let assessor = Assessor { prepared: &prepared, finalists, settings: how, candidates, clock, stop };
+        match assessor.assess(&best, library) {
+            Ok((kept, found)) => (best, assessment) = (kept, Some(found)),
+            // The search may have ended by itself, the fit has not.
+            Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
+            Err(error) => return Err(error),
+        }
+    }
+    let mut found = Vec::new();
+    let time = left.for_individuals();
+    let individual = settings.individual.map(|how| IndividualSettings { time, ..how });
+    if individual.is_some() && control.stop.load(Ordering::Relaxed) {
+        outcome.stop = StopReason::Interrupted;
+    } else if let Some(how) = individual {
+        let Control { clock, stop, observers, .. } = &mut control;
+        let notify = |progress: &_| observers.iter_mut().for_each(|observer| observer.individual(progress));
+        match individuals(&prepared.problem, &best.genome, how, *clock, stop, notify) {
+            Ok(individuals) => found = individuals,
+            Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
+            Err(error) => return Err(error),
+        }
+    }
+    let PreparedSearch { problem, settings, guess } = prepared;
+    Ok(Fitted { problem, settings, guess, outcome, best, assessment, individuals: found })
+}
+
+/// Makes the first guess, registers the frames and lets the observers accept what the search begins with.
+pub(crate) fn begin(
+    problem: &FitProblem,
+    settings: &GoalSettings,
+    library: &mut GuessLibrary,
+    control: &mut Control<'_>,
+) -> Result<PreparedSearch, FitError> {
+    let search = &settings.search;
+    let guess = match &settings.guess {
+        Guessing::Off => None,
+        Guessing::Known(guess) => Some((**guess).clone()),
+        Guessing::Compare(how) => {
+            let (stop, observers) = (control.stop, &mut control.observers);
+            let notify = |done, all| observers.iter_mut().for_each(|observer| observer.guessing(done, all));
+            Some(library.first_guess(problem, search, &settings.candidates, how, stop, notify)?)
+        }
+    };
+    let mut prepared = match guess {
+        None => PreparedSearch { problem: problem.clone(), settings: search.clone(), guess: None },
+        Some(guess) => PreparedSearch {
+            problem: guess.problem(problem),
+            settings: FitSettings { start: guess.start(), ..search.clone() },
+            guess: Some(guess),
+        },
+    };
+    // Register by the tree that the search starts from; a search from random lists has none yet.
+    if let Some(list) = prepared.settings.start.lists().first()
+        && prepared.settings.rules.is_none()
+    {
+        let space = search_space(&prepared.problem, &prepared.settings)?;
+        let genome = space.individual(list, prepared.settings.seed);
+        let evaluator = evaluator_in(&space, &prepared.problem, &prepared.settings)?;
+        prepared.problem = with_registered_frames(&prepared.problem, &evaluator, &genome, Closeness::Search);
+    }
+    // Where no stem can get other draws, the search has the time that was meant for individuals.
+    let start = &prepared.problem.start;
+    if let (Some(timeout), Some(individual)) = (&mut prepared.settings.budget.timeout, settings.individual)
+        && start.generator.spreads(start.params.values()).is_empty()
+    {
+        *timeout += individual.time.unwrap_or_default();
+    }
+    for observer in &mut control.observers {
+        observer.prepared(&prepared).map_err(FitError::Observer)?;
+    }
+    Ok(prepared)
+}

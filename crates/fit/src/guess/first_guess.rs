@@ -1,0 +1,135 @@
+//! A first guess, step by step.
+
+use super::candidate::Candidate;
+use super::comparison::pictures_of;
+use super::found::{FirstGuess, References};
+use super::goal_context::{GoalContext, known_views, likeness_evaluator};
+use super::library::{GuessLibrary, compare};
+use super::near::Near;
+use super::race;
+use super::ranking::{confidence, first_of, ranked, scored};
+use super::references;
+use super::settings::GuessSettings;
+use crate::error::FitError;
+use crate::problem::{FitProblem, with_values};
+use crate::run::FitSettings;
+use crate::space::SpaceError;
+use pleach_tree::Foliage;
+use std::sync::atomic::AtomicBool;
+
+/// Compares the goals of `problem` with trees of all `candidates`. `progress` is called with the numbers of trees
+/// that are grown and of all.
+///
+/// Of `settings` the seed, tree seed, objective and limits are used. `problem.start` is not.
+///
+/// # Errors
+/// A problem that [`Evaluator::new`] refuses, [`FitError::NoStart`] if no candidate grows, or
+/// [`FitError::Interrupted`] once `stop` is raised.
+pub fn first_guess(
+    problem: &FitProblem,
+    settings: &FitSettings,
+    candidates: &[Candidate],
+    guess: &GuessSettings,
+    stop: &AtomicBool,
+    progress: impl FnMut(usize, usize),
+) -> Result<FirstGuess, FitError> {
+    GuessLibrary::new().first_guess(problem, settings, candidates, guess, stop, progress)
+}
+
+/// Seeds of each candidate for references alone.
+const REFERENCE_SEEDS: u32 = 1;
+impl GuessLibrary {
+    /// [`first_guess`] with the trees of this library, which grows missing ones.
+    ///
+    /// # Errors
+    /// As [`first_guess`].
+    pub fn first_guess(
+        &mut self,
+        problem: &FitProblem,
+        settings: &FitSettings,
+        candidates: &[Candidate],
+        guess: &GuessSettings,
+        stop: &AtomicBool,
+        mut progress: impl FnMut(usize, usize),
+    ) -> Result<FirstGuess, FitError> {
+        let known = known_views(problem);
+        let evaluator = likeness_evaluator(&known, settings)?;
+        let context = GoalContext::new(&known, candidates, &evaluator, settings, stop, self.prepared.clone());
+        let preview = self.preview(&known, settings, candidates, guess, stop, &mut progress)?;
+        let (entries, foliage, found) = match &preview {
+            None => self.seen(&context, guess, &mut progress)?,
+            Some(preview) => {
+                let wanted = [Foliage::All, Foliage::None].map(|one| one == preview.foliage);
+                let near = Near::few(&context, &preview.costs);
+                let entries = self.entries(&context, guess, wanted, &near, &mut progress)?;
+                (entries, preview.foliage, compare(&context, entries, preview.foliage, &near)?)
+            }
+        };
+        let keep = guess.keep.max(1);
+        let (mut costs, alike) = ranked(&context, (entries, &found), keep);
+        let mut by_candidate = references::by_candidate(candidates.len(), entries, &found);
+        if let Some(preview) = preview {
+            preview.complete(&mut costs, &mut by_candidate);
+        }
+        // A tree that looks like the goal may still stand beside it: the objective of the search decides.
+        let known = FitProblem { foliage, ..known.clone() };
+        let mut all = race::contenders(&context, scored(&known, &context, alike)?, &costs, keep);
+        if let (Some(how), 2..) = (guess.race, all.len()) {
+            all = race::race(&known, &context, how, all, &mut progress)?;
+        }
+        let Some(winner) = all.first() else { return Err(FitError::NoStart) };
+        let values = winner.lists[0].values.clone();
+        let mut species =
+            with_values(&candidates[winner.candidate].species, values).map_err(SpaceError::Start)?;
+        let family = context.family(winner.candidate);
+        for (candidate, cost) in costs.iter_mut().enumerate() {
+            if context.family(candidate) != family {
+                *cost = f64::INFINITY;
+            }
+        }
+        let named = first_of(&costs);
+        if let Some(named) = named {
+            species.appearance = candidates[named].species.appearance;
+        }
+        let pictures = pictures_of(&context, named, (entries, &found), foliage)?;
+        let references = References::new(&known, candidates, &by_candidate, named, &pictures);
+        self.close();
+        Ok(FirstGuess {
+            species,
+            nearest: winner.lists.clone(),
+            raced: winner.found.clone(),
+            runners: all.iter().map(|one| one.runner(&context)).collect(),
+            names: confidence(candidates, &costs),
+            foliage,
+            references,
+        })
+    }
+
+    /// Reference values for the likeness of fits without a first guess: from a few trees of each candidate, in a
+    /// second or less.
+    ///
+    /// # Errors
+    /// As [`first_guess`]; an empty list of candidates is not an error.
+    pub fn references(
+        &mut self,
+        problem: &FitProblem,
+        settings: &FitSettings,
+        candidates: &[Candidate],
+        stop: &AtomicBool,
+    ) -> Result<References, FitError> {
+        let known = known_views(problem);
+        let evaluator = likeness_evaluator(&known, settings)?;
+        let context = GoalContext::new(&known, candidates, &evaluator, settings, stop, self.prepared.clone());
+        let few = GuessSettings { variants: 0, seeds: REFERENCE_SEEDS, ..GuessSettings::default() };
+        let wanted = [Foliage::All, Foliage::None].map(|foliage| foliage == known.foliage);
+        let entries = self.entries(&context, &few, wanted, &Near::All, |_, _| ())?;
+        let found = compare(&context, entries, known.foliage, &Near::All)?;
+        let (costs, _) = ranked(&context, (entries, &found), 0);
+        let named = first_of(&costs);
+        let pictures = pictures_of(&context, named, (entries, &found), known.foliage)?;
+        let by_candidate = references::by_candidate(candidates.len(), entries, &found);
+        let references = References::new(&known, candidates, &by_candidate, named, &pictures);
+        self.close();
+        Ok(references)
+    }
+}

@@ -1,0 +1,89 @@
+//! Candidates and individuals in the order of their likeness to the goal.
+
+use super::candidate::{Candidate, Models};
+use super::found::Guess;
+use super::goal_context::GoalContext;
+use super::library::{Entry, Resemblance};
+use crate::control::interrupt;
+use crate::error::FitError;
+use crate::evaluator::Evaluator;
+use crate::problem::{FitProblem, Genome};
+use pleach_tree::math;
+
+/// This many times the kept trees are scored by the cost of the search, and as many of each family as are kept.
+const ALIKE: usize = 3;
+/// How much lower the likeness of a candidate is that is e times less probable.
+const DOUBT: f64 = 0.02;
+
+/// 1 minus the likeness of an individual, its candidate, and the individual.
+pub(super) type Alike = (f64, usize, Genome);
+
+/// The least cost of each candidate, and the individuals that look most like the goal, at its height:
+/// some of all, and `keep` of each family.
+pub(super) fn ranked(
+    context: &GoalContext<'_>,
+    (entries, found): (&[Entry], &[Option<Resemblance>]),
+    keep: usize,
+) -> (Vec<f64>, Vec<Alike>) {
+    let mut costs = vec![f64::INFINITY; context.candidates.len()];
+    let mut alike = Vec::new();
+    for (Entry { sample, .. }, found) in entries.iter().zip(found) {
+        let Some(Resemblance { likeness, factor, .. }) = found else { continue };
+        let cost = 1.0 - likeness;
+        costs[sample.candidate] = costs[sample.candidate].min(cost);
+        if sample.may_start {
+            let mut genome = sample.genome.clone();
+            context.resize(sample.candidate, &mut genome.values, *factor);
+            alike.push((cost, sample.candidate, genome));
+        }
+    }
+    alike.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut kept = Vec::<Alike>::new();
+    let of_family =
+        |kept: &[Alike], family| kept.iter().filter(|one| context.family(one.1) == family).count();
+    for one in alike {
+        if kept.len() < keep * ALIKE || of_family(&kept, context.family(one.1)) < keep {
+            kept.push(one);
+        }
+    }
+    (costs, kept)
+}
+
+/// Individuals with their candidates, scored by the cost of the search, best first; without those that do not grow.
+pub(super) fn scored(
+    problem: &FitProblem,
+    context: &GoalContext<'_>,
+    alike: Vec<Alike>,
+) -> Result<Vec<(usize, Guess)>, FitError> {
+    let settings = context.settings;
+    let exact = Evaluator::new(problem, settings.objective, settings.limits)?.with_seeds(settings.robust);
+    let exact = Models::new(context.candidates, &exact);
+    let score = |(_, candidate, genome): &Alike| exact.evaluator(*candidate).score(genome);
+    let scores = interrupt::map(&alike, context.stop, score)?;
+    let name = |candidate: usize| context.candidates[candidate].species.name.clone();
+    let mut nearest: Vec<(usize, Guess)> = (alike.into_iter().zip(scores))
+        .filter(|(_, score)| score.cost.is_finite())
+        .map(|((_, candidate, genome), score)| {
+            (candidate, Guess { name: name(candidate), values: genome.values, score })
+        })
+        .collect();
+    nearest.sort_by(|a, b| a.1.score.cost.total_cmp(&b.1.score.cost));
+    Ok(nearest)
+}
+
+/// The candidate of the least cost, if one grew.
+pub(super) fn first_of(costs: &[f64]) -> Option<usize> {
+    let (first, cost) = costs.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1))?;
+    cost.is_finite().then_some(first)
+}
+
+/// Names with their confidence, the most probable first.
+pub(super) fn confidence(candidates: &[Candidate], costs: &[f64]) -> Vec<(String, f64)> {
+    let best = costs.iter().copied().fold(f64::INFINITY, f64::min);
+    let weights: Vec<f64> = costs.iter().map(|cost| math::exp((best - cost) / DOUBT)).collect();
+    let sum: f64 = weights.iter().sum();
+    let mut names: Vec<_> =
+        candidates.iter().zip(&weights).map(|(c, weight)| (c.species.name.clone(), weight / sum)).collect();
+    names.sort_by(|a, b| b.1.total_cmp(&a.1));
+    names
+}

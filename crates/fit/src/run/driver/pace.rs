@@ -1,0 +1,41 @@
+//! How many individuals are scored between two checks.
+
+use std::time::Duration;
+
+/// The number of individuals that take about a third of a second.
+///
+/// For callers that score batch by batch. Small enough for prompt stops and timeouts, large enough to keep workers
+/// busy: at the end of a batch all wait for the slowest tree. It depends on the clock, and the result does not
+/// depend on it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pace {
+    batch: usize,
+    last: Duration,
+    threads: usize,
+}
+
+impl Pace {
+    /// Seconds that a batch should take.
+    const TARGET: f64 = 0.3;
+
+    pub(super) fn new(now: Duration) -> Self {
+        let threads = rayon::current_num_threads();
+        Self { batch: 2 * threads, last: now, threads }
+    }
+
+    /// The size of the next batch for `threads` threads, of this process or of others.
+    pub(super) fn batch(&mut self, threads: usize) -> usize {
+        self.threads = threads.max(1);
+        self.batch = self.batch.next_multiple_of(self.threads);
+        self.batch
+    }
+
+    /// Sets the size of the next batch by the duration of the last one, which ends `now`.
+    pub(super) fn next(&mut self, now: Duration) {
+        let took = now.saturating_sub(self.last).as_secs_f64();
+        self.last = now;
+        let wanted = self.batch as f64 * (Self::TARGET / took.max(1e-6)).clamp(0.25, 4.0);
+        let rounds = (wanted / self.threads as f64).round().clamp(1.0, 1e4) as usize;
+        self.batch = rounds * self.threads;
+    }
+}
