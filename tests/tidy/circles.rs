@@ -29,8 +29,8 @@ const KNOWN: &[(&str, &[&str], &str)] = &[
     ),
     (
         "weber-penn",
-        &["params/active.rs", "params/declare.rs", "params/table.rs"],
-        "a macro makes the table and its types of what the other two say",
+        &["params/active.rs", "params/table.rs"],
+        "the activity of a row is a function of the model, and the rows make the model",
     ),
 ];
 

@@ -4,6 +4,7 @@
 //! others. Where nothing is left to chance it is the exact number.
 
 use crate::model::Model;
+use crate::params::Id;
 use pleach_tree::{Blame, GrowError, Growth, Limits};
 
 /// Branches shorter than this part of the trunk are left out: as the apical ratio goes to 0, central
@@ -20,8 +21,9 @@ struct Certain {
 
 /// The parameters that make a tree large.
 pub(crate) fn blame(model: &Model) -> Blame {
-    let central = model.has_central().then_some("apical_ratio");
-    Blame(["generations", "side_branches"].into_iter().chain(central).map(str::to_owned).collect())
+    let central = model.has_central().then_some(Id::apical_ratio);
+    let large = [Id::generations, Id::side_branches].into_iter().chain(central);
+    Blame(large.map(|id| id.slot_name(0)).collect())
 }
 
 /// The error of a tree that is certain to be too large.
@@ -75,7 +77,7 @@ fn generations(model: &Model, scale: f64) -> u16 {
     let kept = if model.drop > 0.0 { model.drop_from - 1 } else { model.generations };
     let most = kept.min(model.generations);
     let mut length = 1.0;
-    // Twice the least length, so that rounding has no say.
+    // Twice the least length, so that rounding does not decide.
     let is_long = |_: &u16| {
         length *= scale;
         length >= 2.0 * MIN_LENGTH
@@ -86,11 +88,12 @@ fn generations(model: &Model, scale: f64) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::{Id, space};
+    use crate::params::Numbers;
+    use pleach_tree::param::table::Parameters;
 
     fn values(set: &[(Id, f64)]) -> Vec<f64> {
-        let mut values = space().defaults();
-        set.iter().for_each(|&(id, value)| values[id as usize] = value);
+        let mut values = Numbers::space().defaults();
+        set.iter().for_each(|&(id, value)| values[id.slot(0).index()] = value);
         values
     }
 
@@ -132,6 +135,6 @@ mod tests {
             told.contains("500000 stems, because of `generations`, `side_branches` and `apical_ratio`"),
             "{told}"
         );
-        assert_eq!(refusal(&Model::new(&space().defaults()), &Growth::seed(1)), None);
+        assert_eq!(refusal(&Model::new(&Numbers::space().defaults()), &Growth::seed(1)), None);
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::grow::{Scratch, grow, spreads};
 use crate::model::Model;
-use crate::params::{Id, is_active, space};
+use crate::params::Numbers;
+use pleach_tree::param::table::Parameters;
 use pleach_tree::{CheckedParams, Generator, GrowError, Growth, ParamSpace, Slot, Spread, Tree, Workspace};
 use std::sync::Arc;
 
@@ -19,11 +20,11 @@ impl Generator for Fractal {
     }
 
     fn space(&self) -> &Arc<ParamSpace> {
-        space()
+        Numbers::space()
     }
 
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {
-        is_active(values, Id::ALL[slot.index()])
+        Numbers::is_active(slot, &Numbers::read(values))
     }
 
     fn grow(
@@ -33,7 +34,7 @@ impl Generator for Fractal {
         workspace: &mut Workspace,
         tree: &mut Tree,
     ) -> Result<(), GrowError> {
-        let model = Model::new(params.values_in(space())?);
+        let model = Model::new(params.values_in(Numbers::space())?);
         grow(&model, growth, workspace.scratch::<Scratch>(), tree)
     }
 

@@ -46,7 +46,7 @@ struct Daughter {
     /// Its own key, by which it is left out or not.
     own: Key,
     key: Key,
-    /// What its length is multiplied by.
+    /// Factor on its length.
     length: f64,
     /// Its stem, where it begins one.
     stem: Option<(Address, u32)>,
@@ -198,7 +198,8 @@ impl Grower<'_> {
         Ok(())
     }
 
-    /// What could grow from the tip of `branch`, which is of the stem at `address`, the central daughter first.
+    /// Collects the candidates for daughters at the tip of `branch`, which belongs to the stem at `address`;
+    /// the central daughter first.
     fn daughters(&mut self, branch: &Branch, address: Address, level: u16, carried: &mut u32) {
         let growth = self.growth;
         let (model, key, daughters) = (self.model, branch.key, &mut self.scratch.daughters);

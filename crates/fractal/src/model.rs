@@ -1,9 +1,10 @@
-//! The numbers of a tree as the generator wants them: radians, typed choices.
+//! The numbers of a tree as the generator wants them: each with its deviation.
 
 use crate::choices::{Dimensions, ThicknessRule};
 use crate::noise::Noise;
-use crate::params::{Id, MAX_SIDES, SCALES};
+use crate::params::{MAX_SIDES, Numbers, SCALES};
 use pleach_tree::leaf_shape::LeafShape;
+use pleach_tree::param::table::Parameters;
 
 /// A number and its greatest deviation.
 #[derive(Clone, Copy, Debug)]
@@ -39,29 +40,28 @@ pub(crate) struct Model {
 impl Model {
     /// The model of `values` that their space has checked.
     pub(crate) fn new(values: &[f64]) -> Self {
-        let get = |id: Id| id.get(values);
-        let varied = |id, v| Varied { nominal: get(id), deviation: get(v) };
-        let radians = |id, v| Varied { nominal: get(id).to_radians(), deviation: f64::to_radians(get(v)) };
+        let n = Numbers::read(values);
+        let varied = |nominal, deviation| Varied { nominal, deviation };
         Self {
-            dimensions: Dimensions::from_number(get(Id::dimensions)),
-            generations: get(Id::generations) as u16,
-            trunk_length: get(Id::trunk_length),
-            trunk_radius: get(Id::trunk_length) * get(Id::thickness),
-            thickness_rule: ThicknessRule::from_number(get(Id::thickness_rule)),
-            thickness_factor: get(Id::thickness_factor),
-            side_branches: varied(Id::side_branches, Id::side_branches_v),
-            polar: radians(Id::polar, Id::polar_v),
-            azimuth: radians(Id::azimuth, Id::azimuth_v),
-            scale: varied(Id::scale, Id::scale_v),
-            apical_ratio: varied(Id::apical_ratio, Id::apical_ratio_v),
-            central_polar_v: get(Id::central_polar_v).to_radians(),
-            noise: Noise::ALL[usize::from(get(Id::noise) > 1.5)],
-            drop: get(Id::drop),
-            drop_from: get(Id::drop_from) as u16,
-            leaf_rate: get(Id::leaf_rate),
-            leaf_length: get(Id::leaf_length),
-            leaf_width: get(Id::leaf_width),
-            leaf_shape: LeafShape::from_number(get(Id::leaf_shape) as i64).unwrap_or(LeafShape::Rectangle),
+            dimensions: n.dimensions,
+            generations: n.generations,
+            trunk_length: n.trunk_length,
+            trunk_radius: n.trunk_length * n.thickness,
+            thickness_rule: n.thickness_rule,
+            thickness_factor: n.thickness_factor,
+            side_branches: varied(n.side_branches, n.side_branches_v),
+            polar: varied(n.polar, n.polar_v),
+            azimuth: varied(n.azimuth, n.azimuth_v),
+            scale: varied(n.scale, n.scale_v),
+            apical_ratio: varied(n.apical_ratio, n.apical_ratio_v),
+            central_polar_v: n.central_polar_v,
+            noise: n.noise,
+            drop: n.drop,
+            drop_from: n.drop_from,
+            leaf_rate: n.leaf_rate,
+            leaf_length: n.leaf_length,
+            leaf_width: n.leaf_width,
+            leaf_shape: n.leaf_shape,
         }
     }
 

@@ -14,7 +14,7 @@ pub enum GeneratorChoice {
 }
 
 impl Default for GeneratorChoice {
-    /// The family that takes part where nothing is said.
+    /// The default family.
     fn default() -> Self {
         Self::Family(default_family().name())
     }
@@ -43,7 +43,7 @@ impl std::fmt::Display for GeneratorChoice {
 }
 
 impl GeneratorChoice {
-    /// What it is called.
+    /// Its name: `auto`, or the family's.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -52,7 +52,7 @@ impl GeneratorChoice {
         }
     }
 
-    /// Whether `species` is of them.
+    /// Whether `species` belongs to a family that takes part.
     #[must_use]
     pub fn takes(self, species: &Species) -> bool {
         match self {

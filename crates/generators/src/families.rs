@@ -17,7 +17,7 @@ pub fn families() -> &'static [&'static dyn Family] {
 /// The family of this name.
 ///
 /// # Errors
-/// A name that no family has.
+/// [`UnknownFamily`] if no family has this name.
 pub fn family(name: &str) -> Result<&'static dyn Family, UnknownFamily> {
     let known = families().iter().copied().find(|family| family.name() == name);
     known.ok_or_else(|| UnknownFamily { name: name.to_owned() })
@@ -37,7 +37,7 @@ pub fn family_names() -> Vec<&'static str> {
     families().iter().map(|family| family.name()).collect()
 }
 
-/// The family of species files that name none, and of fits that are not told another.
+/// The family of species files that name none, and of fits without `--generator`.
 #[must_use]
 pub fn default_family() -> &'static dyn Family {
     families()[0]

@@ -1,4 +1,4 @@
-//! Species from files and streams: bounded, and told apart from files that are not species.
+//! Species from files and streams: bounded, and distinguished from other files.
 
 use crate::error::{MAX_BYTES, RegistryError};
 use crate::families::{default_family, family, family_names};
@@ -30,8 +30,8 @@ pub fn read(reader: impl Read, name: &str) -> Result<Species, RegistryError> {
 }
 
 fn from(reader: impl Read, path: &Path, name: &str) -> Result<Species, RegistryError> {
-    // One byte more tells a file of the largest size from a larger one. What a device says of its
-    // size is not to be trusted, so nothing is asked.
+    // One byte more distinguishes a file of the largest size from a larger one. The size that a device
+    // reports cannot be trusted, so it is not asked.
     let mut bytes = Vec::new();
     reader
         .take(MAX_BYTES + 1)

@@ -1,6 +1,7 @@
 //! What growing a tree may take.
 
 use crate::graph::{Linking, Meter, OutOfSteps, Rules, Work};
+use crate::numbers::Id;
 use pleach_tree::math;
 use pleach_tree::{Blame, GrowError, Limits};
 
@@ -72,24 +73,24 @@ pub(crate) struct Causes {
 
 impl Causes {
     /// For the first graph, whose nodes are crowded because of `crowded`.
-    pub(crate) fn first(crowded: &str) -> Self {
-        Self { nodes: names(["nodes"]), misses: names(["spacing", "nodes"]), crowding: names([crowded]) }
+    pub(crate) fn first(crowded: String) -> Self {
+        Self { nodes: names([Id::nodes]), misses: names([Id::spacing, Id::nodes]), crowding: vec![crowded] }
     }
 
     /// For the graph of the roots.
     pub(crate) fn roots() -> Self {
-        let misses = names(["spacing", "subgraph_nodes"]);
-        Self { nodes: names(["subgraph_nodes"]), crowding: misses.clone(), misses }
+        let misses = names([Id::spacing, Id::subgraph_nodes]);
+        Self { nodes: names([Id::subgraph_nodes]), crowding: misses.clone(), misses }
     }
 
     /// For the graphs of `level`, from 2. Which of them is the first to find that too much is taken
     /// depends on threads, so that one thing is to blame.
     pub(crate) fn level(level: usize) -> Self {
-        let nodes = vec!["subgraph_nodes".to_owned(), format!("branching[{}]", level - 2)];
+        let nodes = vec![Id::subgraph_nodes.slot_name(0), Id::branching.slot_name(level - 2)];
         Self { nodes, ..Self::roots() }
     }
 }
 
-fn names<const N: usize>(names: [&str; N]) -> Vec<String> {
-    names.map(str::to_owned).to_vec()
+fn names<const N: usize>(ids: [Id; N]) -> Vec<String> {
+    ids.map(|id| id.slot_name(0)).to_vec()
 }

@@ -4,11 +4,12 @@ use crate::budget::{Budget, Causes};
 use crate::graph::{Rules, Work};
 use crate::leaves;
 use crate::levels::{First, Levels};
-use crate::numbers::{Given, Numbers, space};
+use crate::numbers::{Facts, Given, Id, Numbers};
 use crate::skeleton::Skeleton;
 use crate::stems::Stems;
 use crate::structure::{Structure, VOLUMES};
 use crate::volume;
+use pleach_tree::param::table::Parameters;
 use pleach_tree::{
     Blame, CheckedParams, Conflict, Foliage, Generator, GrowError, Growth, Key, ParamSpace, Slot, StemKind,
     Tree, Workspace,
@@ -44,24 +45,24 @@ impl LeastCostPath {
         workspace: &mut Workspace,
         tree: &mut Tree,
     ) -> Result<Work, GrowError> {
-        let n = Numbers::read(params.values_in(space())?);
+        let n = Numbers::read(params.values_in(Numbers::space())?);
         tree.clear();
         let scratch: &mut Scratch = workspace.scratch();
         let key = Key::root(growth.seed);
         let rules = Rules::new(&n, growth.parallel);
         let mut budget = Budget::new(growth.limits, &rules);
         let (volume, crowded) = match &self.structure.volumes {
-            Some(volumes) => (volumes.volume(n.crown_radius), VOLUMES),
+            Some(volumes) => (volumes.volume(n.crown_radius), VOLUMES.to_owned()),
             None => {
                 let drawn = self.structure.outline.as_ref().map(|drawn| &drawn.outline);
-                (volume::first(&n, drawn, key), "nodes")
+                (volume::first(&n, drawn, key), Id::nodes.slot_name(0))
             }
         };
         let first = First { volume: &volume, causes: Causes::first(crowded) };
         let Scratch { levels, skeleton, stems } = scratch;
         levels.above(&n, &first, key, &rules, &mut budget, skeleton)?;
         if skeleton.points.len() < 2 {
-            let blame = Blame(vec!["nodes".to_owned(), "shell".to_owned()]);
+            let blame = Blame(vec![Id::nodes.slot_name(0), Id::shell.slot_name(0)]);
             return Err(Conflict::NothingLeft { blame }.into());
         }
         stems.build(skeleton, &n, StemKind::Trunk, &growth.limits, tree)?;
@@ -82,7 +83,7 @@ impl Generator for LeastCostPath {
     }
 
     fn space(&self) -> &Arc<ParamSpace> {
-        space()
+        Numbers::space()
     }
 
     fn structure(&self) -> String {
@@ -92,7 +93,8 @@ impl Generator for LeastCostPath {
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {
         let given =
             Given { volumes: self.structure.volumes.is_some(), outline: self.structure.outline.is_some() };
-        Numbers::read(values).is_active(given, slot)
+        let index = Numbers::space().info(slot).index;
+        Numbers::is_active(slot, &Facts { n: Numbers::read(values), given, index })
     }
 
     fn grow(

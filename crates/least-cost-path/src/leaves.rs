@@ -1,6 +1,6 @@
 //! Leaves on the twigs that end.
 
-use crate::numbers::Numbers;
+use crate::numbers::{Id, Numbers};
 use crate::purpose::LEAF;
 use glam::{DVec3, Vec3};
 use pleach_tree::leaf_shape::LeafShape;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// The turn from one leaf to the next: the golden angle, in turns.
 const GOLDEN: f64 = 0.381_966;
-/// How much larger and smaller leaves are than told.
+/// Largest relative deviation of a leaf from `leaf_length`.
 const JITTER: f64 = 0.15;
 
 /// Puts leaves along the ends of all stems of `tree`, of which each has a key among `tips`.
@@ -27,7 +27,7 @@ pub(crate) fn put(n: &Numbers, tips: &[Key], limits: &Limits, tree: &mut Tree) -
     let longest = n.leaf_zone * n.crown_radius * last;
     for (index, tip) in tips.iter().enumerate() {
         if tree.leaves.len() + number as usize > limits.leaves {
-            let blame = Blame(vec!["leaf_number".to_owned(), "branching[0]".to_owned()]);
+            let blame = Blame(vec![Id::leaf_number.slot_name(0), Id::branching.slot_name(0)]);
             return Err(GrowError::TooManyLeaves { limit: limits.leaves, blame });
         }
         let knots = tree.stems[index].knots();

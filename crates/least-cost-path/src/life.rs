@@ -1,4 +1,4 @@
-//! How long branches live, and what light deals out to them.
+//! How long branches live, and how light favours them.
 
 use crate::numbers::Numbers;
 use crate::purpose::LIFE;
@@ -40,7 +40,7 @@ pub(crate) struct Light {
     pub(crate) lifespan: u32,
 }
 
-/// What a branch gets.
+/// A branch's share of the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Share {
     /// Taken from its lifespan.
@@ -58,8 +58,8 @@ impl Light {
         (light.branching > 0.0 || light.lifespan > 0).then_some(light)
     }
 
-    /// Draws numbers for the branches of a level, whose mean of endpoints is `count`, and deals them
-    /// out: the best to the branch nearest to the light.
+    /// Draws lifespans and numbers of endpoints, `count` in the mean, for the branches of a level. The
+    /// branch nearest to the light gets the best of each.
     pub(crate) fn shares(&self, directions: &[DVec3], count: usize, key: Key) -> Vec<Share> {
         let all = 0..directions.len() as u32;
         let decrements =

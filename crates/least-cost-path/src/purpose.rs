@@ -1,4 +1,4 @@
-//! What draws are for. Numbers are never reused: a tree is a function of its seed and these.
+//! The purposes of random draws. A purpose is never reused: a tree is a function of its seed and these.
 
 use pleach_tree::random::Purpose;
 
@@ -14,7 +14,7 @@ pub(crate) const SUBGRAPH: Purpose = 3;
 pub(crate) const LIFE: Purpose = 4;
 /// Where a subgraph points that has no direction of its own.
 pub(crate) const DIRECTION: Purpose = 5;
-/// What light deals out.
+/// The shares of light.
 pub(crate) const LIGHT: Purpose = 6;
 /// The coarse points that refine the first volume.
 pub(crate) const CLUSTER: Purpose = 7;

@@ -2,15 +2,16 @@
 
 use crate::generator::LeastCostPath;
 use crate::generator::NAME;
-use crate::numbers::space;
+use crate::numbers::{Id, Numbers};
 use crate::structure::{Drawn, Structure};
 use pleach_tree::Appearance;
 use pleach_tree::math;
+use pleach_tree::param::table::Parameters;
 use pleach_tree::{Foliage, Species};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Directions that a crown's radii are told for.
+/// Directions in which a crown's radius is given.
 const DIRECTIONS: usize = 8;
 /// A row this wide, over the widest, is crown and not trunk.
 const CROWN: f64 = 0.3;
@@ -45,8 +46,8 @@ fn extents(view: &SideView, at: f64) -> Option<[f64; 2]> {
 
 /// The crown's radius in `direction`, in radians from +x towards +y, at the height `at`.
 ///
-/// Within the visual hull: no farther than any view sees the tree reach. Between views the radius goes
-/// from one's to the next's, and where no view tells it is the mean of the halves seen.
+/// Within the visual hull: no farther than the tree reaches in any view. Between two views the radius is
+/// interpolated; where no view shows it, it is the mean of the visible halves.
 fn radius(views: &[SideView], at: f64, direction: f64) -> f64 {
     let (mut sum, mut weights, mut hull, mut halves) = (0.0, 0.0, f64::INFINITY, 0.0);
     for view in views {
@@ -106,28 +107,26 @@ pub fn species_around(views: &[SideView], height: f64) -> Option<(Species, Vec<V
     let leaf = 0.025 * height;
     let thickness = trunk_radius / math::pow(1.2 * height, 0.6);
     let list = |branching: [f64; 3], reach: f64| {
-        let mut values = space().defaults();
-        let mut set = |name: &str, numbers: &[f64]| {
-            if let Some((number, _)) = space().find(name) {
-                for (slot, value) in space().slots_of(number).zip(numbers) {
-                    values[slot.index()] = *value;
-                }
+        let mut values = Numbers::space().defaults();
+        let mut set = |id: Id, numbers: &[f64]| {
+            for (index, value) in numbers.iter().enumerate() {
+                values[id.slot(index).index()] = *value;
             }
         };
-        set("trunk_height", &[fork.max(0.02 * height)]);
-        set("trunk_width", &[0.02 * height]);
-        set("crown_shape", &[3.0]);
-        set("crown_radius", &[inner(largest)]);
-        set("crown_height", &[inner(crown_height)]);
-        set("nodes", &[700.0]);
-        set("subgraph_nodes", &[32.0]);
-        set("branching", &branching);
-        set("angle", &[90.0, 70.0, 70.0]);
-        set("reach", &[reach]);
-        set("thickness", &[thickness]);
-        set("leaf_number", &[8.0]);
-        set("leaf_length", &[leaf]);
-        space().repair(&mut values);
+        set(Id::trunk_height, &[fork.max(0.02 * height)]);
+        set(Id::trunk_width, &[0.02 * height]);
+        set(Id::crown_shape, &[3.0]);
+        set(Id::crown_radius, &[inner(largest)]);
+        set(Id::crown_height, &[inner(crown_height)]);
+        set(Id::nodes, &[700.0]);
+        set(Id::subgraph_nodes, &[32.0]);
+        set(Id::branching, &branching);
+        set(Id::angle, &[90.0, 70.0, 70.0]);
+        set(Id::reach, &[reach]);
+        set(Id::thickness, &[thickness]);
+        set(Id::leaf_number, &[8.0]);
+        set(Id::leaf_length, &[leaf]);
+        Numbers::space().repair(&mut values);
         values
     };
     let lists: Vec<Vec<f64>> = [
@@ -141,7 +140,7 @@ pub fn species_around(views: &[SideView], height: f64) -> Option<(Species, Vec<V
     .into_iter()
     .map(|(branching, reach)| list(branching, reach))
     .collect();
-    let params = space().check(lists[0].clone()).ok()?;
+    let params = Numbers::space().check(lists[0].clone()).ok()?;
     let species = Species {
         name: "outlined".to_owned(),
         description: format!("a tree of {NAME} in the outline of a picture"),
@@ -196,7 +195,7 @@ mod tests {
     #[test]
     fn the_tree_fills_its_outline_and_little_more() {
         let (species, lists) = species_around(&[lollipop(0.0, 1.0)], 8.0).unwrap();
-        assert!(lists.iter().all(|list| space().check_all(list).is_ok()));
+        assert!(lists.iter().all(|list| Numbers::space().check_all(list).is_ok()));
         let tree = species.grow(1).unwrap();
         let points: Vec<DVec3> = tree.knots.iter().map(|knot| knot.point).collect();
         let most = |f: fn(&DVec3) -> f64| points.iter().map(f).fold(f64::MIN, f64::max);

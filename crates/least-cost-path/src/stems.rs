@@ -1,6 +1,6 @@
 //! Stems along the paths of a skeleton.
 
-use crate::numbers::Numbers;
+use crate::numbers::{Id, Numbers};
 use crate::skeleton::Skeleton;
 use crate::thickness::{FLOOR, Thickness};
 use glam::DVec3;
@@ -134,7 +134,7 @@ impl Stems {
             self.nodes.push(this);
             node = self.next(this, skeleton);
         }
-        let blame = || Blame(vec!["branching[0]".to_owned(), "levels".to_owned()]);
+        let blame = || Blame(vec![Id::branching.slot_name(0), Id::levels.slot_name(0)]);
         if tree.stems.len() >= limits.stems {
             return Err(GrowError::TooManyStems { limit: limits.stems, blame: blame() });
         }

@@ -53,10 +53,10 @@ impl Thickness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numbers::space;
     use crate::skeleton::End;
     use glam::{DVec3, dvec3};
     use pleach_tree::Key;
+    use pleach_tree::param::table::Parameters;
 
     #[test]
     fn radii_follow_the_length_behind() {
@@ -74,7 +74,7 @@ mod tests {
                 .map(|&o| End { node: place(o), level: 1, outward: DVec3::Z, key: Key::root(0), life: 0 })
                 .collect(),
         };
-        let mut n = Numbers::read(&space().defaults());
+        let mut n = Numbers::read(&Numbers::space().defaults());
         (n.thickness, n.taper_length, n.taper) = (1.0, 1.0, [0.3; 8]);
         let mut thickness = Thickness::default();
         thickness.measure(&skeleton, &n);

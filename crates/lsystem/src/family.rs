@@ -97,5 +97,5 @@ impl Family for LSystemFamily {
     }
 }
 
-/// Mistakes of one grammar beyond which nobody reads on.
+/// Most mistakes of one grammar that are reported.
 const MAX_TOLD: usize = 20;

@@ -73,7 +73,7 @@ fn declaration(param: &ParamDecl, grammar: &Grammar) -> Param {
     let is_count = param.unit == ParamUnit::Count;
     let kind =
         if is_count { Kind::integer(min.ceil() as i64, max.floor() as i64) } else { Kind::real(min, max) };
-    // What the whole tree is multiplied by is its size; lengths of parts are not.
+    // The factor on the whole tree is its size; lengths of parts are not.
     let is_scale = |s: &crate::syntax::Setting| {
         s.key == SettingKey::Scale
             && matches!(&s.values[0].kind, ExprKind::Name(name) if *name == param.name.text)

@@ -112,7 +112,7 @@ pub use pleach_tree::{
     TreeStats, Variation, Workspace,
 };
 /// What generators of your own are made of; `docs/a-generator.md` shows how.
-pub use pleach_tree::{param, random, species};
+pub use pleach_tree::{param, parameters, random, species};
 
 #[cfg(test)]
 mod shared;

@@ -1,4 +1,4 @@
-//! Which draw is whose: the modules of a tree, by which their parts are addressed.
+//! The modules of a tree, by which the draws of its parts are addressed.
 
 use glam::{DQuat, DVec3, dvec3};
 use pleach_tree::random::Purpose;
@@ -6,7 +6,7 @@ use pleach_tree::trig::sin_cos;
 use pleach_tree::{Draw, Key};
 use std::f64::consts::TAU;
 
-/// What a part's key is for: its module.
+/// The module of a part, which is the purpose of its key.
 pub(crate) const TRUNKS: Purpose = 1;
 pub(crate) const ROOTS: Purpose = 2;
 pub(crate) const SEGMENTS: Purpose = 3;
@@ -14,7 +14,7 @@ pub(crate) const BRANCHES: Purpose = 4;
 pub(crate) const FOLIAGE: Purpose = 5;
 pub(crate) const SPHERES: Purpose = 6;
 
-/// How a trunk turns and leans that has drawn this.
+/// The rotation of a trunk with this draw.
 pub(crate) fn turned(draw: &Draw) -> DQuat {
     let ((sin_a, cos_a), (sin_p, cos_p)) = (sin_cos(draw.azimuth / 2.0), sin_cos(draw.pitch / 2.0));
     DQuat::from_xyzw(0.0, 0.0, sin_a, cos_a) * DQuat::from_xyzw(0.0, sin_p, 0.0, cos_p)

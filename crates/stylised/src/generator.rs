@@ -2,9 +2,10 @@
 
 use crate::draws::turned;
 use crate::foliage;
-use crate::params::{Numbers, SPACE, is_active};
+use crate::params::{Id, Numbers};
 use crate::skeleton::Skeleton;
 use crate::write::{Budget, Writer};
+use pleach_tree::param::table::Parameters;
 use pleach_tree::{
     Address, CheckedParams, Foliage, Generator, GrowError, Growth, Key, ParamSpace, Slot, Spread, Tree,
     Workspace,
@@ -31,11 +32,11 @@ impl Generator for Stylised {
     }
 
     fn space(&self) -> &Arc<ParamSpace> {
-        &SPACE
+        Numbers::space()
     }
 
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {
-        is_active(values, slot)
+        Numbers::is_active(slot, &Numbers::read(values))
     }
 
     fn grow(
@@ -45,7 +46,7 @@ impl Generator for Stylised {
         workspace: &mut Workspace,
         tree: &mut Tree,
     ) -> Result<(), GrowError> {
-        let numbers = Numbers::new(params)?;
+        let numbers = Numbers::read(params.values_in(Numbers::space())?);
         tree.clear();
         let Scratch { skeleton, foliage: scratch } = workspace.scratch();
         let draw = growth.draw(Address::trunk(0), 0);
@@ -54,7 +55,7 @@ impl Generator for Stylised {
         // A skeleton has a few hundred vertices at most: only foliage is counted in detail.
         let mut budget = Budget::new(&growth.limits);
         skeleton.grow(&numbers, growth, key);
-        budget.spend(skeleton.knots.len() as u64, "branch_quantity")?;
+        budget.spend(skeleton.knots.len() as u64, Id::branch_quantity)?;
         let mut writer = Writer { tree, limits: &growth.limits, scale: numbers.scale, turn };
         writer.skeleton(skeleton)?;
         if growth.foliage == Foliage::All {

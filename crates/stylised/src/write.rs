@@ -1,5 +1,6 @@
 //! From units of the sliders to a tree in metres, within the limits.
 
+use crate::params::Id;
 use crate::skeleton::{Chain, Skeleton};
 use glam::{DQuat, DVec3, Vec3};
 use pleach_tree::{Blame, Blob, GrowError, Knot, Limits, Stem, Tree};
@@ -19,8 +20,8 @@ impl Budget {
     /// Takes `steps` for `parameter`.
     ///
     /// # Errors
-    /// If there are not so many left.
-    pub(crate) fn spend(&mut self, steps: u64, parameter: &str) -> Result<(), GrowError> {
+    /// If fewer are left.
+    pub(crate) fn spend(&mut self, steps: u64, parameter: Id) -> Result<(), GrowError> {
         self.spent = self.spent.saturating_add(steps);
         if self.spent > self.limit {
             return Err(GrowError::TooMuchWork { limit: self.limit, blame: blame(parameter) });
@@ -29,8 +30,8 @@ impl Budget {
     }
 }
 
-fn blame(parameter: &str) -> Blame {
-    Blame(vec![parameter.to_owned()])
+fn blame(parameter: Id) -> Blame {
+    Blame(vec![parameter.slot_name(0)])
 }
 
 /// Writes a tree.
@@ -58,7 +59,7 @@ impl Writer<'_> {
     }
 
     fn stem(&mut self, chain: &Chain, knots: &[Knot]) -> Result<(), GrowError> {
-        let blame = || blame("branch_quantity");
+        let blame = || blame(Id::branch_quantity);
         if self.tree.stems.len() >= self.limits.stems {
             return Err(GrowError::TooManyStems { limit: self.limits.stems, blame: blame() });
         }
@@ -96,7 +97,7 @@ impl Writer<'_> {
         if self.tree.blobs.len() >= self.limits.leaves {
             return Err(GrowError::TooManyLeaves {
                 limit: self.limits.leaves,
-                blame: blame("leaves_quantity"),
+                blame: blame(Id::leaves_quantity),
             });
         }
         let placed = vertices.iter().map(|&vertex| self.place(vertex).as_vec3()).collect::<Vec<Vec3>>();

@@ -45,7 +45,7 @@ pub(crate) enum Exceeded {
     Waiting,
 }
 
-/// What work is done for.
+/// The part of growing that takes work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cause {
     /// Finding places for trunks.

@@ -118,6 +118,7 @@ mod tests {
     use super::*;
     use crate::params::space;
     use crate::params::table::Id;
+    use pleach_tree::param::table::Parameters;
     use pleach_tree::{Key, Limits, Species};
 
     fn species() -> Species {
@@ -156,7 +157,7 @@ mod tests {
         let (mut grown, mut said) = (0, 0);
         for case in 0..80 {
             let values = values(case);
-            let certain = Certain::new(&Model::new(&values));
+            let certain = Certain::new(&Model::read(&values));
             let params = space().check(values).unwrap();
             // Bounded by work, of which the numbers say nothing.
             let limits = Limits { work: 600_000, ..Limits::default() };
@@ -180,14 +181,14 @@ mod tests {
     fn monsters_are_seen_by_their_numbers() {
         let mut values = species().params.values().to_vec();
         let first = Id::branches.slot(0).index();
-        assert!(refusal(&Model::new(&values), &Growth::seed(1)).is_none());
+        assert!(refusal(&Model::read(&values), &Growth::seed(1)).is_none());
         values[first] = 10_000.0;
-        let told = refusal(&Model::new(&values), &Growth::seed(1)).unwrap().to_string();
+        let told = refusal(&Model::read(&values), &Growth::seed(1)).unwrap().to_string();
         assert!(told.contains("stems") && told.contains("`branches[0]`"), "{told}");
         values[Id::level_count.slot(0).index()] = 4.0;
         values[Id::length.slot(3).index()] = 0.5;
         values[first..first + 4].copy_from_slice(&[1.0, 1000.0, 1000.0, 1000.0]);
-        let told = refusal(&Model::new(&values), &Growth::seed(1)).unwrap().to_string();
+        let told = refusal(&Model::read(&values), &Growth::seed(1)).unwrap().to_string();
         assert!(told.contains("because of `branches[3]`, `branches[2]` and `branches[1]`"), "{told}");
     }
 }

@@ -132,7 +132,8 @@ impl<'a> Bearing<'a> {
             scale: stem.scale,
             forked: None,
         };
-        // What waits is counted as a stem, so it has to become one; pruning has the last word on it.
+        // Waiting children count as stems, so those that cannot grow are left out here. Only pruning
+        // decides later.
         if model.prune_ratio <= 0.0 && !child.is_made() {
             return None;
         }

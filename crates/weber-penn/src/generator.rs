@@ -8,6 +8,7 @@ use crate::params::active::is_active;
 use crate::params::space;
 use crate::solid::{Solid, Surroundings};
 use crate::spread::spreads;
+use pleach_tree::param::table::Parameters;
 use pleach_tree::{
     CheckedParams, Conflict, Generator, GrowError, Growth, Leafless, ParamSpace, Slot, Spread, Tree,
     Workspace,
@@ -37,30 +38,30 @@ impl Generator for WeberPenn {
         workspace: &mut Workspace,
         tree: &mut Tree,
     ) -> Result<(), GrowError> {
-        let model = Model::new(params.values_in(space())?);
+        let model = Model::read(params.values_in(space())?);
         check(&model)?;
         grow(&model, &self.surroundings, growth, workspace.scratch::<Scratch>(), tree)
     }
 
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {
-        is_active(Model::new(values), &self.surroundings, space().info(slot))
+        is_active(Model::read(values), &self.surroundings, slot)
     }
 
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
-        check(&Model::new(values))
+        check(&Model::read(values))
     }
 
     fn leafless(&self, values: &[f64]) -> Option<Leafless> {
-        leafless(&Model::new(values))
+        leafless(&Model::read(values))
     }
 
     fn spreads(&self, values: &[f64]) -> Vec<Spread> {
-        spreads(&Model::new(values))
+        spreads(&Model::read(values))
     }
 
     fn shows_size_jitter(&self, values: &[f64]) -> bool {
         // No two trunks of a tree are of one size.
-        Model::new(values).trunks() > 1
+        Model::read(values).trunks() > 1
     }
 
     fn structure(&self) -> String {

@@ -406,10 +406,11 @@ mod tests {
     use crate::params::space;
     use crate::params::table::Id;
     use pleach_tree::Limits;
+    use pleach_tree::param::table::Parameters;
 
     /// What growing the branches costs, and what the census says that it will.
     fn costs(values: &[f64], seed: u64) -> (Budget<'static>, Budget<'static>) {
-        let model = Model::new(values);
+        let model = Model::read(values);
         let growth = Growth::seed(seed);
         let surroundings = Surroundings::default();
         let context =

@@ -14,7 +14,7 @@ pub(crate) const LANES: usize = 8;
 type Lane = [f32; LANES];
 type Lane3 = [Lane; 3];
 
-/// What is known of a leaf before it is placed.
+/// A leaf before it is placed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LeafSite {
     /// Index of the path's piece.

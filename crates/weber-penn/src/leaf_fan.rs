@@ -1,8 +1,8 @@
 //! Leaves in a fan at the tip of a stem, eight at a time.
 //!
-//! All of a fan leave the same point, so that the end of the stem is looked at once. What is left is the arithmetic of
+//! All leaves of a fan start at the same point, so the end of the stem is evaluated once. The rest is the arithmetic of
 //! [`crate::spacing::Spacing::child_frame`] and [`Turtle::face_the_light`], operation by operation, so that the bits
-//! are those of one leaf after another; but in step and without branches, which the compiler turns into vectors.
+//! are those of one leaf after another, but in lockstep and without branches, so that the compiler vectorises it.
 
 use glam::{DVec3, Vec3};
 use pleach_tree::trig::{atan2, is_near, near_sin_cos};

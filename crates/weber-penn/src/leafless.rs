@@ -1,7 +1,6 @@
 //! Leaves hang on the stems of the deepest level. If a level on the way there never grows, there are none.
 
 use crate::model::Model;
-use crate::params::space;
 use crate::params::table::{Id, Level};
 use pleach_tree::Leafless;
 
@@ -13,7 +12,7 @@ pub(crate) fn leafless(model: &Model) -> Option<Leafless> {
     let count = model.level_count;
     if count < 2 {
         return Some(Leafless {
-            parameter: "levels".to_owned(),
+            parameter: Id::level_count.slot_name(0),
             cause: "is 1, and leaves grow on branches only, so there are none".to_owned(),
             remedy: "raise it to 2 or more".to_owned(),
         });
@@ -28,7 +27,7 @@ pub(crate) fn leafless(model: &Model) -> Option<Leafless> {
         let remedy =
             if level > 1 { format!("raise it, or lower `levels` to {level}") } else { "raise it".to_owned() };
         Some(Leafless {
-            parameter: space().slot_name(id.slot(level)).to_string(),
+            parameter: id.slot_name(level),
             cause: format!(
                 "is 0, so no stems of level {level} grow, and leaves hang on those of level {}",
                 count - 1

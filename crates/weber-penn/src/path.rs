@@ -272,7 +272,7 @@ fn lean(turtle: &mut Turtle, pull: DVec3) {
     turtle.lean(pull, 10.0_f64.to_radians());
 }
 
-/// A helix of half a turn a segment (Hewitt 2017, §3.2.1 *Helical Branches*).
+/// A helix of half a turn per segment (Hewitt 2017, §3.2.1 *Helical Branches*).
 ///
 /// The declination |`curve_v`| is kept within 1° and 89°, where the construction has a meaning.
 fn helix(model: &Model, level: &Level, stem: &StemSpec, length: f64, path: &mut Vec<PathPoint>) {
@@ -322,6 +322,7 @@ fn helix(model: &Model, level: &Level, stem: &StemSpec, length: f64, path: &mut 
 mod tests {
     use super::*;
     use crate::params::space;
+    use pleach_tree::param::table::Parameters;
 
     fn straight(values: &[(&str, f64)]) -> (Model, StemSpec) {
         let mut all = space().defaults();
@@ -330,7 +331,7 @@ mod tests {
                 all[slot.index()] = *value;
             }
         }
-        (Model::new(&all), StemSpec::test_stem())
+        (Model::read(&all), StemSpec::test_stem())
     }
 
     fn path(model: &Model, stem: &StemSpec) -> Vec<PathPoint> {
@@ -423,7 +424,7 @@ mod tests {
                     let slot = space().select("curve_v[1]").unwrap()[0];
                     values[slot.index()] = -40.0;
                 }
-                let model = Model::new(&values);
+                let model = Model::read(&values);
                 let stem = StemSpec::test_stem();
                 let mut path = vec![PathPoint::new(&Turtle::UP, DVec3::X, 1.0)];
                 let mut forks = NoForks;

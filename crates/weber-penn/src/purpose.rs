@@ -1,4 +1,4 @@
-//! What each random number of a tree is for: the middle part of its address.
+//! The purposes of random numbers: the middle part of their addresses.
 //!
 //! Numbers are never reused or renumbered: that would change every tree.
 

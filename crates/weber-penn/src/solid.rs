@@ -196,7 +196,7 @@ impl Solid {
     }
 }
 
-/// What pruning tests points against when `prune_ratio` is above 0.
+/// The bounds that pruning tests points against when `prune_ratio` is above 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surroundings {
     /// A point fits if it is inside one of these; `None` for the envelope of revolution, an empty

@@ -1,4 +1,4 @@
-//! What is known of a stem before its path is walked.
+//! A stem before its path is walked.
 
 use crate::model::{Model, power_bounds};
 use crate::purpose;
@@ -10,10 +10,11 @@ use pleach_tree::{Address, Draw, Growth, Key};
 /// A stem about to grow.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StemSpec {
-    /// What its random numbers follow from.
+    /// The key of its random numbers.
     pub(crate) key: Key,
-    /// What the numbers of its forks follow from: `key`, but of a fork with other draws its own. Forks share
-    /// what they carry over from one to the next, and no fork changes with the draws of another.
+    /// The key of its forks' random numbers: `key`, or the one that `key` was before the stem was given draws
+    /// of its own. Forks carry rounding errors from one to the next, and a fork's own draws must not change
+    /// the others.
     pub(crate) fork_key: Key,
     /// Where it is in the tree.
     pub(crate) address: Address,
@@ -45,7 +46,7 @@ pub(crate) struct StemSpec {
     pub(crate) forked: Option<ForkStart>,
 }
 
-/// What a fork takes over from its origin.
+/// What a fork inherits from the stem that it leaves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ForkStart {
     /// The point of the whole stem at which it starts, 1 or more.
@@ -211,10 +212,11 @@ impl StemSpec {
 mod tests {
     use super::*;
     use crate::params::space;
+    use pleach_tree::param::table::Parameters;
 
     #[test]
     fn radii_are_those_of_the_power() {
-        let mut model = Model::new(&space().defaults());
+        let mut model = Model::read(&space().defaults());
         let (mut floored, mut limited, mut free) = (0, 0, 0);
         for case in 0..20_000 {
             let key = Key::root(case);

@@ -3,6 +3,7 @@
 //! `docs/a-generator.md` walks through this file.
 
 use pleach::glam::{DQuat, DVec3};
+use pleach::param::table::{Parameters, always, scalar};
 use pleach::param::{Effect, Kind, Param, Scale, Slot, Unit};
 use pleach::random::Key;
 use pleach::species::{Issue, SpeciesDoc};
@@ -10,7 +11,7 @@ use pleach::{
     Blame, CheckedParams, Family, Foliage, Generator, GrowError, Growth, Knot, Leaf, LeafShape, ParamSpace,
     Stem, StemKind, Tree, Workspace,
 };
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 /// The family: what reads species files that say `generator = "binary-bush"`.
 #[derive(Debug)]
@@ -34,34 +35,46 @@ impl Family for BinaryBushes {
     }
 }
 
-/// Every number of a bush, declared once.
-static SPACE: LazyLock<Arc<ParamSpace>> = LazyLock::new(|| {
-    let metres = |name, default, search| {
-        Param::scalar(name, Kind::real(0.001, 100.0), default)
-            .search([search])
-            .unit(Unit::Meters)
-            .scale([Scale::Log])
-            .effect([Effect::Size])
-    };
-    let params = vec![
-        metres("height", 2.0, (0.3, 10.0)).doc("length of all stems from the ground to a leaf, together"),
-        Param::scalar("levels", Kind::integer(1, 20), 7.0)
-            .search([(3.0, 9.0)])
-            .unit(Unit::Count)
-            .scale([Scale::Count])
-            .effect([Effect::Layout])
-            .doc("stems one after the other from the ground to a leaf"),
-        Param::scalar("angle", Kind::real(0.0, 90.0), 30.0)
-            .search([(5.0, 60.0)])
-            .unit(Unit::Degrees)
-            .doc("angle between a stem and each of the two that it ends in"),
-        Param::scalar("shrink", Kind::real(0.1, 1.0), 0.85)
-            .search([(0.6, 1.0)])
-            .doc("length and radius of a stem over those of the stem before it"),
-        metres("leaf_length", 0.12, (0.02, 0.3)).doc("length of a leaf"),
-    ];
-    Arc::new(ParamSpace::new(params).expect("the declarations agree with themselves"))
-});
+/// A length in metres, which a fit multiplies to match the height of its goal.
+fn metres(default: f64, search: (f64, f64)) -> Param {
+    scalar(Kind::real(0.001, 100.0), default)
+        .search([search])
+        .unit(Unit::Meters)
+        .scale([Scale::Log])
+        .effect([Effect::Size])
+}
+
+pleach::parameters! {
+    /// Every number of a bush, declared once; angles in radians.
+    #[derive(Clone, Copy)]
+    struct Numbers, enum Id, when Numbers {
+        height: f64, when always =>
+            metres(2.0, (0.3, 10.0)).doc("length of all stems from the ground to a leaf, together");
+        levels: i32, when always =>
+            scalar(Kind::integer(1, 20), 7.0)
+                .search([(3.0, 9.0)])
+                .unit(Unit::Count)
+                .scale([Scale::Count])
+                .effect([Effect::Layout])
+                .doc("stems one after the other from the ground to a leaf");
+        angle: f64 [f64::to_radians], when Numbers::has_forks =>
+            scalar(Kind::real(0.0, 90.0), 30.0)
+                .search([(5.0, 60.0)])
+                .unit(Unit::Degrees)
+                .doc("angle between a stem and each of the two that it ends in");
+        shrink: f64, when Numbers::has_forks =>
+            scalar(Kind::real(0.1, 1.0), 0.85)
+                .search([(0.6, 1.0)])
+                .doc("length and radius of a stem over those of the stem before it");
+        leaf_length: f64, when always => metres(0.12, (0.02, 0.3)).doc("length of a leaf");
+    }
+}
+
+impl Numbers {
+    fn has_forks(&self) -> bool {
+        self.levels > 1
+    }
+}
 
 /// The growth model. It has nothing but its numbers, so there is nothing in it.
 #[derive(Debug)]
@@ -73,12 +86,11 @@ impl Generator for BinaryBush {
     }
 
     fn space(&self) -> &Arc<ParamSpace> {
-        &SPACE
+        Numbers::space()
     }
 
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {
-        // With one level there is nothing to fork and nothing to shrink.
-        !matches!(slot.index(), 2 | 3) || values[1] > 1.0
+        Numbers::is_active(slot, &Numbers::read(values))
     }
 
     fn grow(
@@ -88,14 +100,12 @@ impl Generator for BinaryBush {
         _: &mut Workspace,
         tree: &mut Tree,
     ) -> Result<(), GrowError> {
-        let &[height, levels, angle, shrink, leaf_length] = params.values_in(&SPACE)? else {
-            unreachable!("checked values have one number for each slot")
-        };
+        let numbers = Numbers::read(params.values_in(Numbers::space())?);
         tree.clear();
         tree.leaf_shapes.push(Arc::clone(LeafShape::Elliptic.outline()));
-        let levels = levels as i32;
-        let first = height / (0..levels).map(|level| shrink.powi(level)).sum::<f64>();
-        let bush = Bush { growth, levels, angle: angle.to_radians(), shrink, leaf_length };
+        let shares = (0..numbers.levels).map(|level| numbers.shrink.powi(level));
+        let first = numbers.height / shares.sum::<f64>();
+        let bush = Bush { growth, numbers };
         let root = Shoot { from: DVec3::ZERO, along: DVec3::Z * first, radius: 0.06 * first, parent: None };
         bush.shoot(&root, 0, Key::root(growth.seed), tree)
     }
@@ -103,10 +113,7 @@ impl Generator for BinaryBush {
 
 struct Bush<'a> {
     growth: &'a Growth<'a>,
-    levels: i32,
-    angle: f64,
-    shrink: f64,
-    leaf_length: f64,
+    numbers: Numbers,
 }
 
 /// A stem about to be made.
@@ -119,8 +126,9 @@ struct Shoot {
 
 impl Bush<'_> {
     fn shoot(&self, shoot: &Shoot, level: i32, key: Key, tree: &mut Tree) -> Result<(), GrowError> {
+        let Numbers { levels, angle, shrink, leaf_length, .. } = self.numbers;
         let limits = &self.growth.limits;
-        let blame = || Blame(vec!["levels".to_owned()]);
+        let blame = || Blame(vec![Id::levels.slot_name(0)]);
         if tree.stems.len() as u64 >= limits.work {
             return Err(GrowError::TooMuchWork { limit: limits.work, blame: blame() });
         }
@@ -136,29 +144,29 @@ impl Bush<'_> {
             level: level as u16,
             kind: if shoot.parent.is_some() { StemKind::Branch } else { StemKind::Trunk },
             number: 0,
-            offset: if shoot.parent.is_some() { shoot.along.length() / self.shrink } else { 0.0 },
+            offset: if shoot.parent.is_some() { shoot.along.length() / shrink } else { 0.0 },
             first_knot: tree.knots.len() as u32,
             knot_count: 2,
         });
-        for (point, radius) in [(shoot.from, shoot.radius), (to, shoot.radius * self.shrink)] {
+        for (point, radius) in [(shoot.from, shoot.radius), (to, shoot.radius * shrink)] {
             let third = shoot.along / 3.0;
             tree.knots.push(Knot { point, handle_in: point - third, handle_out: point + third, radius });
         }
-        if level + 1 < self.levels {
+        if level + 1 < levels {
             // The two stems lie in a plane that each fork draws from its own address.
             let across = shoot.along.any_orthonormal_vector();
             let turn =
                 DQuat::from_axis_angle(shoot.along.normalize(), key.unit(0, 0) * std::f64::consts::TAU);
-            for (side, angle) in [self.angle, -self.angle].into_iter().enumerate() {
-                let along = DQuat::from_axis_angle(turn * across, angle) * shoot.along * self.shrink;
-                let next = Shoot { from: to, along, radius: shoot.radius * self.shrink, parent: Some(index) };
+            for (side, angle) in [angle, -angle].into_iter().enumerate() {
+                let along = DQuat::from_axis_angle(turn * across, angle) * shoot.along * shrink;
+                let next = Shoot { from: to, along, radius: shoot.radius * shrink, parent: Some(index) };
                 self.shoot(&next, level + 1, key.child(1, side as u32), tree)?;
             }
         } else if self.growth.foliage == Foliage::All {
             if tree.leaves.len() >= limits.leaves {
                 return Err(GrowError::TooManyLeaves { limit: limits.leaves, blame: blame() });
             }
-            let along = (shoot.along.normalize() * self.leaf_length).as_vec3();
+            let along = (shoot.along.normalize() * leaf_length).as_vec3();
             let across = along.any_orthonormal_vector() * along.length();
             tree.leaves.push(Leaf { position: to.as_vec3(), along, across, stem: index, shape: 0 });
         }

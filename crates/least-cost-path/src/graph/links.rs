@@ -14,11 +14,10 @@ const REACH: usize = 2;
 const NOBODY: u32 = u32::MAX;
 /// Fewer nodes than this are compared one by one.
 const FEW: usize = 200;
-/// Nodes that are looked at around a node before that counts as work beyond what nodes pay for: so many,
-/// and so many times the cube of the longest edge over the mean spacing. Twice what cells that are not
-/// coarse hold.
+/// Comparisons per node that are covered by the node's own steps: a constant, and a factor on the cube of
+/// the longest edge over the mean spacing. Twice what cells hold that are not coarse.
 const FREE_LOOKS: (f64, f64) = (64.0, 32.0);
-/// So many more are a step.
+/// Comparisons beyond those that count as one step.
 const LOOKS_PER_STEP: u64 = 8;
 /// Nodes beyond which links are found on several threads.
 const MANY: usize = 20_000;

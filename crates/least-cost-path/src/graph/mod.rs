@@ -45,13 +45,13 @@ impl Rules {
 /// Which nodes a graph ends in.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Ends {
-    /// So many of those in the shell, at random.
+    /// `count` of the nodes in the shell, at random.
     Random { count: usize, shell: f64 },
-    /// The lowest, and so many within this distance of the way there, at random.
+    /// The lowest node, and `laterals` of those within this distance of the path there, at random.
     Taproot { laterals: usize, within: f64 },
 }
 
-/// What a graph took.
+/// The work of a graph.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Nodes of all graphs.

@@ -17,9 +17,9 @@ const FEW: usize = 200;
 /// Nodes and parts of the volume that a dart may be compared with before that counts as work. Where the
 /// volume is about as large as the box around it, 27 cells hold no more.
 const FREE_LOOKS: usize = 64;
-/// So many more are a step.
+/// Comparisons beyond those that count as one step.
 const LOOKS_PER_STEP: usize = 8;
-/// A dart that misses takes a step, and one more for so many nodes wanted: cells of many are not in the
+/// A dart that misses takes one step, and one more for each of these nodes: large grids do not fit in the
 /// processor's cache.
 const NODES_PER_STEP: usize = 400_000;
 /// Steps that are counted before they are taken from the meter.
@@ -52,8 +52,8 @@ pub(crate) struct Thrown {
 
 impl Nodes {
     /// Throws until there are `count` nodes, the root among them, `spacing` times their mean spacing
-    /// apart; fewer where they do not fit. A dart that misses takes a step of `meter`, and so does what
-    /// it is compared with where that is much.
+    /// apart; fewer where they do not fit. A dart that misses takes a step of `meter`, and so do many
+    /// comparisons.
     pub(crate) fn throw(
         &mut self,
         volume: &Volume,

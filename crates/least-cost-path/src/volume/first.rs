@@ -2,7 +2,7 @@
 
 use super::outline::Outline;
 use super::{Axis, Part, Side, Solid, Volume};
-use crate::numbers::Numbers;
+use crate::numbers::{CrownShape, Numbers};
 use crate::purpose::CLUSTER;
 use glam::DVec3;
 use pleach_tree::Key;
@@ -51,11 +51,13 @@ pub(crate) fn first(n: &Numbers, drawn: Option<&Arc<Outline>>, key: Key) -> Volu
 /// The crown's solid, and how far above the fork its origin lies.
 fn crown(n: &Numbers, drawn: Option<&Arc<Outline>>) -> (Solid, f64) {
     let (radius, height) = (n.crown_radius, n.crown_height);
-    match n.crown_shape as u32 {
-        0 => (Solid::Portion { radius, cos: math::cos(n.crown_angle.to_radians()) }, 0.0),
-        1 => (Solid::Cone { radius, height }, 0.0),
-        2 => (Solid::Ellipsoid { across: radius, along: height / 2.0 }, height / 2.0),
-        _ => {
+    match n.crown_shape {
+        CrownShape::SpherePortion => {
+            (Solid::Portion { radius, cos: math::cos(n.crown_angle.to_radians()) }, 0.0)
+        }
+        CrownShape::Cone => (Solid::Cone { radius, height }, 0.0),
+        CrownShape::Ellipsoid => (Solid::Ellipsoid { across: radius, along: height / 2.0 }, height / 2.0),
+        CrownShape::Revolution => {
             let outline = match drawn {
                 Some(drawn) if n.outline_scale == [1.0; 8] => Arc::clone(drawn),
                 Some(drawn) => Arc::new(drawn.scaled(&n.outline_scale)),

@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 pub(crate) struct Modules {
     pub(crate) kinds: Vec<KindIndex>,
     pub(crate) values: Vec<f64>,
-    /// As many as kinds, or none where nothing draws.
+    /// One for each kind; empty if nothing draws.
     pub(crate) keys: Vec<Key>,
 }
 

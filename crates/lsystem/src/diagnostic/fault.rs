@@ -218,7 +218,7 @@ impl Fault {
         matches!(self, Self::NoMeaning { .. })
     }
 
-    /// What would be right, where that is not plain from the fault itself.
+    /// How to mend it, if the fault itself does not say.
     #[must_use]
     pub fn help(&self) -> Option<String> {
         let fixed = match self {

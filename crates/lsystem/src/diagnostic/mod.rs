@@ -39,7 +39,7 @@ pub struct Report {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Problems beyond which nobody reads on.
+/// Most problems that a report shows.
 const MAX_SHOWN: usize = 20;
 
 impl Report {

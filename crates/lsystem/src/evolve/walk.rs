@@ -118,7 +118,7 @@ fn role_of(symbol: &str, place: usize) -> Role {
 
 /// Calls `visit` for every list of items of `grammar`, outer ones first, with the names that it may use.
 pub(super) fn lists(grammar: &mut Grammar, visit: &mut dyn FnMut(&mut Vec<Item>, &[String])) {
-    // What all lengths are multiplied by already is not a length.
+    // A factor on all lengths is not itself a length.
     let scales = grammar.settings.iter().filter(|setting| setting.key == SettingKey::Scale);
     let scales: Vec<String> = scales.map(|setting| setting.values[0].to_string()).collect();
     let params = grammar.params.iter().map(|param| param.name.text.clone());

@@ -165,7 +165,7 @@ impl<'a> Cursor<'a> {
         Box::new(Diagnostic::new(span, fault))
     }
 
-    /// What stands here is not what was expected.
+    /// The fault of finding something else than `expected` here.
     pub(super) fn unexpected(&mut self, expected: &'static str) -> Box<Diagnostic> {
         self.skip();
         let start = self.at;

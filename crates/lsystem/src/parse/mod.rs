@@ -2,7 +2,7 @@
 //!
 //! A statement begins in the first column of a line and goes on through all lines that are indented
 //! or begin with a closing bracket, so that a mistake in one statement leaves the next readable and
-//! several mistakes are told at once.
+//! several mistakes are reported at once.
 
 mod cursor;
 mod expr;

@@ -44,7 +44,7 @@ pub(crate) enum Op {
     JumpIfZero(u32),
 }
 
-/// Stands for what has no meaning, in programs that nobody runs: a number that is not known yet.
+/// A placeholder for names without meaning. Programs with errors are never run.
 const UNKNOWN: Op = Op::Local(0);
 
 /// Where names are looked up.

@@ -78,7 +78,7 @@ impl Names for Scope<'_> {
     }
 
     fn complain(&mut self, span: Span, expr: &ExprKind, found: usize) {
-        // Looking for names that are alike takes time, and nobody reads that far.
+        // Looking for similar names takes time, so only the first problems get suggestions.
         let nearest = |name: &str, known: &mut dyn Iterator<Item = &str>| {
             if self.problems.len() < MAX_SUGGESTIONS { nearest(name, known) } else { None }
         };

@@ -2,7 +2,7 @@
 
 use super::RADIUS;
 use crate::draws::{FOLIAGE, SPHERES, direction, rotation, signed3};
-use crate::params::Numbers;
+use crate::params::{Id, Numbers};
 use crate::skeleton::Skeleton;
 use crate::surface::{Ellipsoid, Grid, Mesh, Union};
 use crate::write::{Budget, Writer};
@@ -93,14 +93,14 @@ impl Blobs {
         let (low, high) = union.bounds();
         let half = math::cbrt(((high - low) / 2.0).element_product());
         let cell = CELLS[numbers.subdivision.min(3) as usize] * half.max(1.0).sqrt();
-        budget.spend(Grid::count(&union, cell), "subdivision")?;
+        budget.spend(Grid::count(&union, cell), Id::subdivision)?;
         self.grid.sample(&union, cell);
         self.mesh.build(&self.grid, &union);
         let size = RADIUS * numbers.leaves_size * (1.0 + LAST_SCALE * site.key.signed(purpose::SCALE, 0));
         let turn = rotation(site.key, purpose::ROTATION);
         let offset = signed3(site.key, purpose::OFFSET, 0) * (0.3 * numbers.leaves_randomness * size);
         self.mesh.vertices.iter_mut().for_each(|v| *v = turn * *v * size);
-        // What would reach into the ground is moved up onto it.
+        // A blob that would reach into the ground is moved up onto it.
         let lowest = self.mesh.vertices.iter().map(|v| v.z).fold(f64::INFINITY, f64::min);
         let at = site.at + offset;
         let at = at.with_z(at.z.max(-lowest));

@@ -2,7 +2,7 @@
 
 use super::{RADIUS, Surface};
 use crate::draws::FOLIAGE;
-use crate::params::Numbers;
+use crate::params::{Id, Numbers};
 use crate::skeleton::Skeleton;
 use crate::write::{Budget, Writer};
 use glam::{DVec3, dvec3};
@@ -51,7 +51,7 @@ pub(super) fn grow(
         };
         let profile = profile(tiers);
         let turn = key.unit(purpose::TURN, 0);
-        budget.spend(u64::from(sides) * profile.len() as u64, "leaves_quantity")?;
+        budget.spend(u64::from(sides) * profile.len() as u64, Id::leaves_quantity)?;
         surface.clear();
         for &(up, width, is_rim) in &profile {
             let center = axis(up);

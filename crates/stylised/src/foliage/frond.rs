@@ -2,7 +2,7 @@
 
 use super::{RADIUS, Surface};
 use crate::draws::FOLIAGE;
-use crate::params::Numbers;
+use crate::params::{Id, Numbers};
 use crate::skeleton::Skeleton;
 use crate::write::{Budget, Writer};
 use glam::{DVec3, dvec3};
@@ -58,7 +58,7 @@ pub(super) fn grow(
                 length: LENGTH * RADIUS * numbers.leaves_size * (1.0 + 0.25 * loose(purpose::LENGTH)),
                 droop: 0.45 - 0.35 * numbers.tropism,
             };
-            budget.spend(4 * u64::from(rings), "leaves_quantity")?;
+            budget.spend(4 * u64::from(rings), Id::leaves_quantity)?;
             frond.build(rings, surface);
             writer.blob(trunk, &surface.vertices, &surface.triangles)?;
         }

@@ -60,7 +60,7 @@ pub(crate) struct Dealt {
 }
 
 impl Skeleton {
-    /// Makes the skeleton of the tree with `numbers` whose key is `key`; of its stems' draws `growth` tells.
+    /// Makes the skeleton of the tree with `numbers` and `key`; `growth` has the draws of its stems.
     pub(crate) fn grow(&mut self, numbers: &Numbers, growth: &Growth<'_>, key: Key) {
         self.chains.clear();
         self.knots.clear();

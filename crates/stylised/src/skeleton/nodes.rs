@@ -9,8 +9,7 @@ pub(super) const SEGMENTS: u32 = 3;
 /// Most branches of a trunk.
 pub(super) const MAX_OF_TRUNK: u32 = SEGMENTS * MAX_OF_SEGMENT;
 
-/// The numbers that the next segment may have where `rest` branches are left and so many segments come
-/// `after` it.
+/// The numbers that the next segment may have when `rest` branches are left and `after` segments follow.
 ///
 /// The report draws from 1 to 4 until it meets one of them; drawing among them is the same.
 fn allowed(rest: u32, after: u32) -> std::ops::RangeInclusive<u32> {

@@ -59,7 +59,7 @@ fn count(numbers: &Numbers, key: Key) -> u32 {
     }
 }
 
-/// The four axes in a random order: the first so many are the trunks'.
+/// The four axes in a random order; each trunk takes the next one.
 fn axes(key: Key) -> [Axis; 4] {
     let mut axes = [Axis::MinusX, Axis::X, Axis::Y, Axis::MinusY];
     for i in (1..4_u32).rev() {

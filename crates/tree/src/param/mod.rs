@@ -5,6 +5,10 @@
 //! parameters of one generator out as a flat list of *slots*, one number each: a scalar has one
 //! slot, a list as many as it has numbers, a vector three.
 //!
+//! Generators whose parameters are the same for every species declare them as a
+//! [table](crate::parameters): one row gives the declaration, the field that it is read into and when it
+//! matters.
+//!
 //! Declarations may be owned, so that a species file can declare parameters of its own: a grammar's
 //! constants, for example.
 //!
@@ -19,6 +23,7 @@ mod kind;
 mod select;
 mod shown;
 mod space;
+pub mod table;
 
 pub use checked::{CheckedParams, ForeignParams};
 pub use declaration::{Effect, Param, Scale, Shape, Unit};

@@ -6,9 +6,9 @@ mod read;
 pub(crate) mod table;
 
 use pleach_tree::ParamSpace;
-use pleach_tree::param::Slot;
-use std::sync::{Arc, OnceLock};
-use table::Id;
+use pleach_tree::param::table::Parameters;
+use std::sync::Arc;
+use table::Model;
 
 /// Levels of stems that parameters may differ by.
 pub(crate) const LEVELS: usize = 4;
@@ -18,28 +18,12 @@ pub(crate) const LEVELS: usize = 4;
 /// # Panics
 /// If a declaration contradicts itself, which a test would find.
 pub fn space() -> &'static Arc<ParamSpace> {
-    static SPACE: OnceLock<Arc<ParamSpace>> = OnceLock::new();
-    SPACE.get_or_init(|| {
-        Arc::new(ParamSpace::new(table::params()).expect("the declarations are free of contradictions"))
-    })
-}
-
-impl Id {
-    /// The slot of the number at `index` of this parameter.
-    pub(crate) fn slot(self, index: usize) -> Slot {
-        let mut slots = space().slots_of(self as usize);
-        slots.nth(index).expect("parameters by level are asked for by level")
-    }
-
-    /// The name of the number at `index` of this parameter, as in files and messages.
-    pub(crate) fn slot_name(self, index: usize) -> String {
-        space().slot_name(self.slot(index))
-    }
+    Model::space()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::table::Model;
+    use super::table::Id;
     use super::*;
 
     /// Each field has the numbers of its own row: those before, between and after the levels.
@@ -58,19 +42,10 @@ mod tests {
         set(Id::leaf_shape, 0, 4.0);
         set(Id::prune_power_high, 0, 0.125);
         assert!(space().check_all(&values).is_ok());
-        let model = Model::new(&values);
+        let model = Model::read(&values);
         assert_eq!((model.g_scale, model.level_count, model.base_splits), (7.5, 2, -3));
         assert_eq!((model.levels[0].base_size, model.levels[3].rotate), (0.25, std::f64::consts::PI));
         assert_eq!((model.levels[2].curve_res, model.levels[3].radius_mod), (1, 1.5));
         assert_eq!((model.tropism.z, model.leaf_shape as i64, model.prune_power_high), (-2.0, 4, 0.125));
-    }
-
-    #[test]
-    fn every_row_is_called_as_its_field() {
-        assert_eq!(Id::ALL.len(), space().params().len());
-        for (id, param) in Id::ALL.iter().zip(space().params()) {
-            let renamed = *id == Id::level_count && param.name == "levels";
-            assert!(format!("{id:?}") == param.name || renamed, "{id:?} is {}", param.name);
-        }
     }
 }
