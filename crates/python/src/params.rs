@@ -1,11 +1,12 @@
 //! Declared parameters, from Python's values and to them.
 
 use crate::error::{SpeciesError, of_species};
+use crate::json;
 use pleach::param::{Kind, Shape, nearest};
 use pleach::{ParamSpace, Slot};
 use pyo3::IntoPyObjectExt as _;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString, PyTuple};
+use pyo3::types::{PyString, PyTuple};
 
 /// The number of the parameter called `name`.
 pub(crate) fn find(space: &ParamSpace, name: &str) -> PyResult<usize> {
@@ -100,46 +101,14 @@ fn read(space: &ParamSpace, slot: Slot, value: &Bound<'_, PyAny>) -> PyResult<f6
     Ok(number)
 }
 
-/// What is declared of a parameter, or of `one` of its numbers.
+/// What is declared about parameter number `number`, or about `one` of its numbers.
 pub(crate) fn declared<'py>(
     py: Python<'py>,
     space: &ParamSpace,
     number: usize,
     one: Option<Slot>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let (param, about) = (&space.params()[number], PyDict::new(py));
-    let slots: Vec<Slot> = one.map_or_else(|| space.slots_of(number).collect(), |slot| vec![slot]);
-    about.set_item("name", param.name.as_ref())?;
-    about.set_item("doc", param.doc.as_ref())?;
-    about.set_item("source", param.source.as_ref())?;
-    about.set_item("group", param.group.as_ref())?;
-    about.set_item("unit", param.unit.to_string())?;
-    about.set_item("slots", slots.iter().map(|&slot| space.slot_name(slot)).collect::<Vec<_>>())?;
-    about.set_item("kind", kind(&param.kind))?;
-    if let Kind::Choice { names, .. } = &param.kind {
-        about.set_item("choices", names.iter().map(AsRef::as_ref).collect::<Vec<&str>>())?;
-    }
-    about.set_item("range", param.kind.range())?;
-    about
-        .set_item("search_ranges", slots.iter().map(|&slot| space.search_range(slot)).collect::<Vec<_>>())?;
-    let defaults = space.defaults();
-    about.set_item(
-        "default",
-        match one {
-            Some(slot) => of_slot(py, space, slot, defaults[slot.index()])?,
-            None => get(py, space, &defaults, number)?,
-        },
-    )?;
-    Ok(about)
-}
-
-/// What the numbers of a parameter are, in a word.
-pub(crate) const fn kind(kind: &Kind) -> &'static str {
-    match kind {
-        Kind::Real { .. } => "real",
-        Kind::Integer { .. } => "integer",
-        Kind::Choice { .. } => "choice",
-        Kind::Flagged { .. } => "flagged",
-        Kind::FlaggedInteger { .. } => "flagged-integer",
-    }
+) -> PyResult<Bound<'py, PyAny>> {
+    let declared = one.map_or_else(|| space.declared(number), |slot| space.declared_number(slot));
+    let value = serde_json::to_value(declared).map_err(|error| SpeciesError::new_err(error.to_string()))?;
+    json::to_python(py, &value)
 }

@@ -4,7 +4,6 @@ use crate::arrays::{numbers, of_ink};
 use crate::error::{FitError, of_fit};
 use crate::frame::KnownFrame;
 use crate::goal::Source;
-use crate::params::kind;
 use crate::pool;
 use crate::seed::Seed;
 use crate::species::Species;
@@ -93,7 +92,7 @@ impl NativeProblem {
 
     #[getter]
     fn kinds(&self) -> Vec<&'static str> {
-        self.space.genes().iter().map(|gene| kind(&gene.kind)).collect()
+        self.space.genes().iter().map(|gene| gene.kind.word()).collect()
     }
 
     #[getter]

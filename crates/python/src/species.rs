@@ -192,14 +192,14 @@ impl Species {
         Ok(species.into())
     }
 
-    /// What is declared of a parameter, or of a single number such as `length[1]`: a dict of `doc`, `source` (paper and section), `unit`, `kind`, `range` (what
-    /// is allowed), `search_ranges` (what searches try, for each number), `default`, `group`, `slots`, and `choices`
-    /// where there are some.
+    /// What is declared about a parameter, or about a single number such as `length[1]`: a dict with the keys of
+    /// `pleach params --json`, such as `doc`, `source` (paper and section), `unit`, `kind`, `min` and `max` (what is
+    /// allowed), `default`, `group`, `choices`, and for each number in `slots` what searches try (`search`).
     ///
     /// >>> import pleach
     /// >>> pleach.species("acer").declared("ratio")["kind"]
     /// 'real'
-    fn declared<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+    fn declared<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let (number, one) = params::find_slot(self.space(), name)?;
         params::declared(py, self.space(), number, one)
     }

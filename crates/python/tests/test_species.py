@@ -76,12 +76,14 @@ def test_files_go_there_and_back(tmp_path: pathlib.Path) -> None:
 
 def test_what_is_declared_is_told() -> None:
     about = pleach.species("acer").declared("length")
-    assert about["slots"] == [f"length[{i}]" for i in range(4)] and len(about["search_ranges"]) == 4
-    assert about["doc"] and about["source"] and about["range"][0] < about["range"][1]
-    assert "conical" in pleach.species("acer").declared("shape")["choices"]
+    assert [slot["slot"] for slot in about["slots"]] == [f"length[{i}]" for i in range(4)]
+    assert about["doc"] and about["source"] and about["min"] < about["max"]
+    shape = pleach.species("acer").declared("shape")
+    assert "conical" in shape["choices"] and shape["first"] == 0
     one = pleach.species("acer").declared("length[1]")
-    assert one["name"] == "length" and one["slots"] == ["length[1]"]
-    assert one["search_ranges"] == about["search_ranges"][1:2] and one["default"] == about["default"][1]
+    assert (one["name"], one["values"], one["slots"]) == ("length[1]", 1, about["slots"][1:2])
+    assert one["search"] == about["search"][1:2] and one["default"] == about["default"][1:2]
+    assert one.keys() == about.keys()
     with pytest.raises(pleach.SpeciesError, match="length"):
         pleach.species("acer").declared("lenght[1]")
 

@@ -6,7 +6,6 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_types))]
 
 mod catalogue;
-mod declared;
 mod error;
 mod fit;
 mod goal;

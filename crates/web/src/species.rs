@@ -1,6 +1,5 @@
 //! Species, and their numbers.
 
-use crate::declared;
 use crate::error::thrown;
 use crate::tree::Tree;
 use pleach::random::Key;
@@ -70,10 +69,10 @@ impl Species {
         .to_string()
     }
 
-    /// What is declared of every parameter: JSON.
+    /// What is declared about every parameter: JSON with the keys of `pleach params --json`.
     #[must_use]
     pub fn declared(&self) -> String {
-        declared::parameters(self.inner.generator.space()).to_string()
+        json!(self.inner.generator.space().as_ref()).to_string()
     }
 
     /// One number for every slot.

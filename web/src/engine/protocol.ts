@@ -25,25 +25,34 @@ export interface SpeciesInfo {
   own_draws: number;
   seasons: string[];
 }
-export type Bound = number | null;
+/** What is declared about one number of a parameter. */
 export interface Slot {
   slot: string;
   index: number;
-  range: [Bound, Bound];
+  default: number;
   search: [number, number];
   plausible: [number, number];
-  log: boolean;
-  default: number;
+  scale: "linear" | "log" | "fine_near_zero" | "count";
+  effect: "plain" | "size" | "size_jitter" | "layout";
 }
+/** What is declared about a parameter, with the keys of `pleach params --json`. */
 export interface Parameter {
   name: string;
+  values: number;
+  kind: "real" | "integer" | "choice" | "flagged" | "flagged integer";
+  min: number | null;
+  max: number | null;
+  unit: string;
+  default: number[];
+  search: [number, number][];
   group: string;
+  first: number | null;
+  choices: string[] | null;
+  negative: string | null;
+  neutral: number | null;
+  breakpoints: number[];
   doc: string;
   source: string;
-  unit: string;
-  kind: "real" | "integer" | "choice";
-  choices: string[];
-  first: number;
   slots: Slot[];
 }
 export interface OpenedSpecies {

@@ -2,8 +2,7 @@
 
 use crate::output;
 use anyhow::{Context, bail};
-use pleach_tree::param::Shape;
-use pleach_tree::param::nearest;
+use pleach_tree::param::{Declared, Shape, nearest};
 use pleach_tree::species::{self, Form, Key};
 use pleach_tree::{Kind, Param, ParamSpace, Slot};
 use serde_json::json;
@@ -68,8 +67,9 @@ impl Params {
         match &self.name {
             Some(name) => self.one(name, space, &keys),
             None if self.json => {
-                let params = space.params().iter().map(as_json);
-                output::json(&params.chain(keys.iter().map(key_as_json)).collect::<Vec<_>>())
+                let params = (0..space.params().len()).map(|param| as_json(&space.declared(param)));
+                let all: Vec<_> = params.chain(keys.iter().map(|key| Ok(key_as_json(key)))).collect();
+                output::json(&all.into_iter().collect::<anyhow::Result<Vec<_>>>()?)
             }
             None => output::line(everything(space, &keys)),
         }
@@ -77,9 +77,9 @@ impl Params {
 
     /// What `name` names: a parameter or a key in full, else a group, a level or one number.
     fn one(&self, name: &str, space: &ParamSpace, keys: &[FileKey]) -> anyhow::Result<()> {
-        if let Some((_, param)) = space.find(name) {
+        if let Some((number, param)) = space.find(name) {
             if self.json {
-                return output::json(&as_json(param));
+                return output::json(&as_json(&space.declared(number))?);
             }
             let mut text = in_full(param);
             if space.of_group(name).next().is_some() {
@@ -116,11 +116,12 @@ impl Params {
     fn slots(&self, name: &str, space: &ParamSpace, slots: &[Slot]) -> anyhow::Result<()> {
         let is_group = space.of_group(name).next().is_some();
         if self.json {
-            let value = |&slot: &Slot| slot_as_json(space, slot);
             let list: Vec<_> = if is_group {
-                space.of_group(name).map(as_json).collect()
+                let params = (0..space.params().len()).filter(|&param| space.params()[param].group == name);
+                params.map(|param| as_json(&space.declared(param))).collect::<anyhow::Result<_>>()?
             } else {
-                slots.iter().map(value).collect()
+                let numbers = slots.iter().map(|&slot| as_json(&space.declared_number(slot)));
+                numbers.collect::<anyhow::Result<_>>()?
             };
             return if let ([only], false) = (list.as_slice(), is_group) {
                 output::json(only)
@@ -287,29 +288,11 @@ fn key_in_full(key: &FileKey, inside: &[&FileKey]) -> String {
     text
 }
 
-fn as_json(param: &Param) -> serde_json::Value {
-    let (min, max) = param.kind.range();
-    let (choices, negative) = match &param.kind {
-        Kind::Choice { names, .. } => (Some(names), None),
-        Kind::Flagged { negative, .. } | Kind::FlaggedInteger { negative, .. } => (None, Some(negative)),
-        _ => (None, None),
-    };
-    json!({
-        "name": param.name, "values": param.shape.slot_count(), "kind": param.kind.word(), "min": min, "max": max,
-        "unit": param.unit.to_string(), "default": param.default, "search": param.search, "group": param.group,
-        "choices": choices, "negative": negative, "doc": param.doc, "source": param.source, "parameter": true,
-    })
-}
-
-/// One number of a parameter: like the parameter, with a list of one.
-fn slot_as_json(space: &ParamSpace, slot: Slot) -> serde_json::Value {
-    let param = space.param_of(slot);
-    let mut value = as_json(param);
-    value["name"] = json!(space.slot_name(slot));
-    value["values"] = json!(1);
-    value["default"] = json!([space.default_of(slot)]);
-    value["search"] = json!([space.search_range(slot)]);
-    value
+/// What is declared, marked as a parameter among the other keys of species files.
+fn as_json(declared: &Declared<'_>) -> anyhow::Result<serde_json::Value> {
+    let mut value = serde_json::to_value(declared)?;
+    value["parameter"] = json!(true);
+    Ok(value)
 }
 
 /// A key with everything that a parameter has, null where it has no such thing.
@@ -327,7 +310,8 @@ fn key_as_json(key: &FileKey) -> serde_json::Value {
     });
     json!({
         "name": key.path(), "values": 1, "kind": form.word(), "min": min, "max": max, "unit": null,
-        "default": Some(default).filter(|default| *default != "none"), "search": null, "group": null, "choices": choices, "negative": null, "doc": doc,
-        "source": null, "parameter": false, "table": key.table, "written": form.example(), "shapes": shapes,
+        "default": Some(default).filter(|default| *default != "none"), "search": null, "group": null, "first": null,
+        "choices": choices, "negative": null, "neutral": null, "breakpoints": null, "doc": doc, "source": null,
+        "slots": null, "parameter": false, "table": key.table, "written": form.example(), "shapes": shapes,
     })
 }

@@ -21,6 +21,13 @@ fn scripts_find_the_keys_that_they_know() {
             assert!(entry.get(key).is_some(), "{key} of {entry}");
         }
     }
+    // Keys that are not parameters have null for what only parameters have.
+    let keys = |entry: &Value| entry.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    let of_parameters = keys(&params[0]);
+    for entry in params.as_array().unwrap() {
+        let own = keys(entry);
+        assert!(of_parameters.iter().all(|key| own.contains(key)), "{of_parameters:?} in {entry}");
+    }
     let (first, last) =
         (&params[0], &params[names(&params).iter().rposition(|n| *n == "prune_power_high").unwrap()]);
     assert_eq!(
@@ -42,6 +49,27 @@ fn scripts_find_the_keys_that_they_know() {
         (&palm["appearance"]["evergreen"], &palm["appearance"]["bark_pattern"]),
         (&true.into(), &"ringed".into())
     );
+}
+
+#[test]
+fn the_page_knows_the_same_keys() {
+    let types = std::fs::read_to_string(pleach_tests::root().join("web/src/engine/protocol.ts")).unwrap();
+    let fields = |interface: &str| -> Vec<&str> {
+        let head = format!("export interface {interface} {{\n");
+        let body = &types[types.find(&head).unwrap() + head.len()..];
+        let lines = body[..body.find("\n}").unwrap()].lines();
+        let mut fields: Vec<&str> = lines.map(|line| line.trim().split(':').next().unwrap()).collect();
+        fields.sort_unstable();
+        fields
+    };
+    let dir = Dir::new();
+    let mut length = dir.run(["params", "length", "--json"]).json();
+    // The page has parameters alone.
+    assert_eq!(length.as_object_mut().unwrap().remove("parameter"), Some(true.into()));
+    let keys = |value: &Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    assert_eq!(keys(&length), fields("Parameter"));
+    assert_eq!(length["slots"].as_array().unwrap().len(), 4);
+    assert_eq!(keys(&length["slots"][1]), fields("Slot"));
 }
 
 #[test]

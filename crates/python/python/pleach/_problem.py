@@ -92,7 +92,7 @@ class Problem:
         self.names: list[str] = self._native.names
         """The free numbers, such as ``length[1]``."""
         self.kinds: list[str] = self._native.kinds
-        """What each is: real, integer, choice, flagged (its sign is a switch) or flagged-integer."""
+        """What each is: real, integer, choice, flagged (its sign is a switch) or flagged integer."""
         self.is_integer: npt.NDArray[np.bool_] = np.array([kind != "real" and kind != "flagged" for kind in self.kinds])
         """Which are whole, choices among them."""
         self.is_choice: npt.NDArray[np.bool_] = np.array([kind == "choice" for kind in self.kinds])

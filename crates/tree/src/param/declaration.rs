@@ -34,7 +34,8 @@ impl Shape {
 }
 
 /// How the values of a parameter are compared, in searches and in blends alike.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Scale {
     /// By difference.
     #[default]
@@ -51,7 +52,8 @@ pub enum Scale {
 }
 
 /// What a small change of a number does to a tree.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Effect {
     /// Changes it gradually.
     #[default]

@@ -17,6 +17,7 @@
 
 mod checked;
 mod declaration;
+mod declared;
 mod error;
 mod fault;
 mod kind;
@@ -27,6 +28,7 @@ pub mod table;
 
 pub use checked::{CheckedParams, ForeignParams};
 pub use declaration::{Effect, Param, Scale, Shape, Unit};
+pub use declared::{Declared, DeclaredSlot};
 pub use error::{Problem, SlotError};
 pub use error::{is_word_of, nearest};
 pub use fault::{DeclarationError, Fault};

@@ -17,10 +17,9 @@ function slotLabel(parameter: Parameter, slot: string): string {
 }
 
 function range(parameter: Parameter): string {
-  const [low, high] = parameter.slots[0]?.range ?? [null, null];
-  if (parameter.kind === "choice") return `one of ${parameter.choices.length}`;
+  if (parameter.choices) return `one of ${parameter.choices.length}`;
   const unit = unitText(parameter.unit);
-  return `${low ?? "any"} to ${high ?? "any"}${unit ? ` ${unit}` : ""}`;
+  return `${parameter.min ?? "any"} to ${parameter.max ?? "any"}${unit ? ` ${unit}` : ""}`;
 }
 
 function ParameterBlock({ parameter }: { parameter: Parameter }): JSX.Element {

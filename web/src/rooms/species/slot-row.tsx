@@ -35,8 +35,8 @@ interface RowProps {
 function Choice({ parameter, slot, value, id }: RowProps & { id: string }): JSX.Element {
   return (
     <select id={id} value={value} onChange={(event) => setSlot(slot, Number(event.currentTarget.value))}>
-      {parameter.choices.map((choice, at) => (
-        <option key={choice} value={parameter.first + at}>
+      {parameter.choices?.map((choice, at) => (
+        <option key={choice} value={(parameter.first ?? 0) + at}>
           {choice.replaceAll("_", " ")}
         </option>
       ))}
@@ -46,9 +46,9 @@ function Choice({ parameter, slot, value, id }: RowProps & { id: string }): JSX.
 
 function Slide({ parameter, slot, value, id, label }: RowProps & { id: string }): JSX.Element {
   const [low, high] = span(slot, value);
-  const whole = parameter.kind === "integer";
+  const whole = parameter.kind === "integer" || parameter.kind === "flagged integer";
   // Logarithmic where the declaration says so: the slider then moves by factors.
-  const log = slot.log && low > 0;
+  const log = slot.scale === "log" && low > 0;
   const place = (of: number) => (log ? Math.log(of) : of);
   const unit = unitText(parameter.unit);
   return (
@@ -70,8 +70,8 @@ function Slide({ parameter, slot, value, id, label }: RowProps & { id: string })
       <NumberInput
         label={`${parameter.name} ${label}`}
         value={value}
-        {...(slot.range[0] === null ? {} : { min: slot.range[0] })}
-        {...(slot.range[1] === null ? {} : { max: slot.range[1] })}
+        {...(parameter.min === null ? {} : { min: parameter.min })}
+        {...(parameter.max === null ? {} : { max: parameter.max })}
         step={whole ? 1 : "any"}
         onChange={(next) => setSlot(slot, next)}
       />
