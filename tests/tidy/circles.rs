@@ -10,13 +10,11 @@ use std::fmt::Write as _;
 
 /// Circles that are allowed: the crate, its files, and why. No files: any circles of that crate.
 const KNOWN: &[(&str, &[&str], &str)] = &[
-    ("cli", &["commands/export.rs", "commands/grow/formats.rs", "commands/grow/mod.rs"], "to be untied"),
     (
         "experiments",
         &["kinds.rs", "robustness/areas/experiments.rs", "robustness/mod.rs"],
         "the experiment that spoils files spoils, among others, files of experiments",
     ),
-    ("pleach", &["picture/drawn.rs", "picture/report.rs", "picture/sides.rs"], "to be untied"),
     (
         "python",
         &["species.rs", "tree.rs"],

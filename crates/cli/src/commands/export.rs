@@ -1,6 +1,6 @@
 //! Meshes for `pleach grow`: what was asked for, and the files.
 
-use super::grow::formats::Format;
+use super::format::Format;
 use crate::choice::{Choice, one_of};
 use crate::files;
 use anyhow::{Context, bail};

@@ -7,6 +7,7 @@ mod describe;
 mod experiment;
 mod export;
 mod fit;
+mod format;
 mod gallery;
 mod grammar;
 mod grow;

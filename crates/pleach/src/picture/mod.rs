@@ -23,6 +23,7 @@ mod report;
 mod sides;
 mod source;
 mod start;
+mod view_report;
 mod volume;
 mod words;
 
@@ -36,11 +37,12 @@ pub use options::{FitOptions, Spent};
 pub use prepared::{FurtherPicture, Prepared};
 pub use report::{
     FitReport, IdentifiabilityCounts, IndividualReport, LooksLike, ParameterReport, ReportError, RulesReport,
-    SearchReport, TIME_KEYS, ViewReport, best_of_each_family,
+    SearchReport, TIME_KEYS, best_of_each_family,
 };
 pub use sides::{SideTree, SidesReport};
 pub use source::{FitSource, PictureSource};
 pub use start::FitStart;
+pub use view_report::ViewReport;
 pub use words::{KnownFrame, Leaves, MaskFrom, StartFrom, Tone, VolumeFrom};
 
 use crate::plan::library;

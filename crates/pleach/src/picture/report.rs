@@ -5,12 +5,12 @@ use super::optimizer::settings_of;
 use super::options::FitOptions;
 use super::prepared::{FurtherPicture, Prepared};
 use super::sides::{Sides, SidesReport};
+use super::view_report::ViewReport;
 use crate::place_at_full_size;
 use pleach_fit::{
     Azimuth, FirstGuess, Fitted, FoundIndividual, FreshSeeds, Identifiability, Placement, References, Runner,
     StopReason, Verdict, placements,
 };
-use pleach_silhouette::Bitmap;
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::score::{ScoreCard, SizeMismatch};
 use pleach_tree::Dendrometry;
@@ -182,31 +182,6 @@ pub struct IndividualReport {
     pub seconds: f64,
     /// How it does in the further pictures that were fitted.
     pub views: Vec<ViewReport>,
-}
-
-/// How a tree does in a further picture.
-#[derive(Clone, Debug, Serialize)]
-pub struct ViewReport {
-    /// The picture, as the options name it.
-    pub file: String,
-    /// The direction in degrees, as found.
-    pub azimuth: f64,
-    /// Degrees above the horizon.
-    pub elevation: f64,
-    /// Factor on the picture's metres per pixel, as found.
-    pub scale: f64,
-    /// How far the trunk's foot is to the right of where the picture says, in its widths, and below it, in its heights,
-    /// as found.
-    pub offset: [f64; 2],
-    /// How well the tree matches it.
-    #[serde(flatten)]
-    pub scores: ScoreCard,
-    /// Whether the azimuth was searched.
-    #[serde(skip)]
-    pub azimuth_found: bool,
-    /// Its silhouette in the picture, of the size of the picture as it is compared.
-    #[serde(skip)]
-    pub silhouette: Bitmap,
 }
 
 /// The result as the search and its history saw it: against the goal at its working size, the mean over views and over

@@ -1,14 +1,15 @@
 //! `pleach grow`: one tree, or many seeds of a species.
 
-pub(super) mod formats;
+mod formats;
 mod in_order;
 mod statistics;
 
 use super::export::MeshArgs;
+use super::format::Format;
 use crate::input::{LeafArgs, LimitArgs};
 use crate::{files, input, output, skeleton};
 use anyhow::{Context, bail, ensure};
-use formats::{Format, Goes};
+use formats::Goes;
 use indicatif::{ProgressBar, ProgressStyle};
 use pleach_silhouette::{Frame, View, picture};
 use pleach_tree::{Foliage, Growth, Species, Tree, Workspace};
