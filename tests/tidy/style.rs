@@ -55,29 +55,7 @@ const RULES: &[Rule] = &[
 ];
 
 /// What is still there, at most this often: folder, phrase, times. An entry that is not needed any more has to go.
-const KNOWN: &[(&str, &str, usize)] = &[
-    ("crates/cli/src/commands/fit/", "; none if", 1),
-    ("crates/cli/src/commands/fit/", "made small", 2),
-    ("crates/fit/", "; none for", 5),
-    ("crates/fit/", "dealt out", 1),
-    ("crates/fractal/", "anew", 1),
-    ("crates/fractal/", "fn of(", 1),
-    ("crates/least-cost-path/", "; none if", 1),
-    ("crates/least-cost-path/", "anew", 1),
-    ("crates/least-cost-path/", "deals out", 3),
-    ("crates/least-cost-path/", "fn of(", 2),
-    ("crates/lsystem/", "anew", 1),
-    ("crates/pleach/", "; none if", 6),
-    ("crates/pleach/", "anew", 3),
-    ("crates/pleach/", "cannot be had", 2),
-    ("crates/pleach/", "fn of(", 1),
-    ("crates/python/", "fn of(", 1),
-    ("crates/python/", "made small", 1),
-    ("crates/tree/", "; none for", 1),
-    ("crates/tree/", "fn of(", 4),
-    ("crates/web/", "; none for", 1),
-    ("crates/web/", "fn of(", 1),
-];
+const KNOWN: &[(&str, &str, usize)] = &[];
 
 /// The guide names what it rules out, and so do these tests. The log says what was.
 const EXEMPT: [&str; 4] = ["docs/style.md", "tests/tidy/style.rs", "tests/tidy/documents.rs", "CHANGELOG.md"];

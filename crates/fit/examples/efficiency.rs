@@ -1,4 +1,4 @@
-//! How much of many threads a search would use: its trees are scored on one thread and timed, and dealt out to
+//! How much of many threads a search would use: its trees are scored on one thread and timed, and distributed over
 //! threads that are only counted, in the order in which a fit scores them; and what the same trees would make of
 //! the threads if all waited for the end of each generation.
 //!

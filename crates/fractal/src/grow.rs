@@ -156,7 +156,7 @@ impl Grower<'_> {
                     foot: tip,
                     frame: daughter.frame,
                     length: branch.length * daughter.scale * daughter.length,
-                    radius: thickness.of(daughter),
+                    radius: thickness.radius_of(daughter),
                     generation: branch.generation + 1,
                     key: daughter.key,
                 };
@@ -361,7 +361,7 @@ impl Thickness {
         }
     }
 
-    fn of(&self, daughter: &Daughter) -> f64 {
+    fn radius_of(&self, daughter: &Daughter) -> f64 {
         match self.rule {
             ThicknessRule::Factor => self.radius,
             ThicknessRule::Area => self.radius * daughter.scale,

@@ -48,7 +48,7 @@ impl Shape {
             1 => (Solid::Cone { radius: 0.5 * r, height: r }, 0.0),
             _ => (Solid::Ellipsoid { across: 0.7 * r, along: 0.6 * r }, 0.6 * r),
         };
-        Volume::of(Part::new(solid, job.at + job.axis * forward, job.axis, true), self.side)
+        Volume::from_part(Part::new(solid, job.at + job.axis * forward, job.axis, true), self.side)
     }
 
     fn grow(

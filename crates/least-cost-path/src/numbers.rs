@@ -175,7 +175,7 @@ pleach_tree::parameters! {
                 .doc("how high the light stands");
         light_branching: f64, when |f| f.has_levels(2) =>
             real((0.0, 1.0), (0.0, 1.0), 0.0).neutral(0.0).effect([Effect::Layout]).group("light").source(PAPER)
-                .doc("how much more and less than `branching` light deals out to the branches of a level, over it");
+                .doc("how much more and less than `branching` light goes to the branches of a level, over it");
         light_lifespan: f64, when |f| f.has_levels(2) =>
             count((0, 6), (0.0, 3.0), 0.0).neutral(0.0).group("light").source(PAPER)
                 .doc("generations that light takes from the branches turned away from it, at most");

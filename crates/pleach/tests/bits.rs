@@ -46,7 +46,7 @@ fn fitted(root: &Path) -> String {
     report.best().species.to_toml(&[])
 }
 
-/// If what they are of has changed, `PLEACH_BLESS=1 cargo test -p pleach --test bits` writes them anew.
+/// If what they are of has changed, `PLEACH_BLESS=1 cargo test -p pleach --test bits` rewrites them.
 #[test]
 fn bits_are_those_of_every_platform() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

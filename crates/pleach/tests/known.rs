@@ -22,7 +22,7 @@ fn drawings(species: impl IntoIterator<Item = Species>) -> Drawings {
     Drawings::from_bytes(draw(species).unwrap().leak()).unwrap()
 }
 
-/// If it fails, `cargo run --release -p pleach --example draw_known_species` makes them anew.
+/// If it fails, `cargo run --release -p pleach --example draw_known_species` makes them again.
 #[test]
 fn drawings_are_of_this_version() {
     let (built_in, all) = (library().drawings().unwrap().clone(), known());

@@ -85,7 +85,7 @@ fn watched(
 ) -> PyResult<(Result<Fitted, pleach::FitError>, Option<PyErr>)> {
     let (sender, events) = channel::<Event>();
     let stop = &AtomicBool::new(false);
-    let pool = pool::of(threads)?;
+    let pool = pool::with_threads(threads)?;
     let run = |sender| {
         // Its own, so that the channel closes when the fit has ended.
         let mut teller = EventSender(sender);

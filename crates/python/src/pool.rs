@@ -19,7 +19,7 @@ pub(crate) fn on<T: Send>(
 /// This number of threads; `None`: as many as the machine has cores, or as `RAYON_NUM_THREADS` says.
 ///
 /// They end with the pool: a process that forks afterwards has none that its child would wait for.
-pub(crate) fn of(threads: Option<usize>) -> PyResult<ThreadPool> {
+pub(crate) fn with_threads(threads: Option<usize>) -> PyResult<ThreadPool> {
     if threads.is_some_and(|count| !(1..=MAX_THREADS).contains(&count)) {
         return Err(PleachError::new_err(format!("expected from 1 to {MAX_THREADS} threads")));
     }

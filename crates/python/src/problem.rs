@@ -131,7 +131,7 @@ impl NativeProblem {
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let genomes = self.genomes(&values, seeds.as_deref())?;
-        let pool = pool::of(threads)?;
+        let pool = pool::with_threads(threads)?;
         let mut scores: Vec<Score> = Vec::with_capacity(genomes.len());
         for some in genomes.chunks(BATCH * pool.current_num_threads()) {
             scores.extend(py.detach(|| {

@@ -81,7 +81,7 @@ impl Fit {
         let fit = Stepwise::begin(problem, settings, *library, control).map_err(thrown)?;
         let prepared = fit.prepared();
         let looks_like = json!({
-            "looks_like": LooksLike::of(prepared.guess.as_ref()),
+            "looks_like": LooksLike::from_guess(prepared.guess.as_ref()),
             "leaves": prepared.problem.foliage != Foliage::None,
             "species": prepared.problem.start.name,
         });
@@ -178,7 +178,7 @@ impl Fit {
         let control = Control { observers: vec![&mut callback], ..Control::new(&clock, &stop) };
         let fitted = search.finish(control).map_err(thrown)?;
         let found = self.prepared.report(fitted).map_err(thrown)?;
-        let said = report::of(&found)?;
+        let said = report::to_json(&found)?;
         self.stage = Stage::Done(Box::new(found));
         Ok(said)
     }

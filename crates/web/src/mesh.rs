@@ -10,7 +10,7 @@ use serde_json::json;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// A season by name; none for an empty one.
+/// A season by name; `None` for an empty name.
 pub(crate) fn season_named(name: &str) -> Result<Option<Season>, JsError> {
     if name.is_empty() {
         return Ok(None);

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 use wasm_bindgen::JsError;
 
 /// The report, with what its JSON leaves out and the page shows: JSON.
-pub(crate) fn of(report: &FitReport) -> Result<String, JsError> {
+pub(crate) fn to_json(report: &FitReport) -> Result<String, JsError> {
     let history: Map<String, Value> = COLUMNS
         .iter()
         .map(|column| {

@@ -61,7 +61,7 @@ fn all_values(species: &Species) -> serde_json::Value {
         .iter()
         .enumerate()
         .map(|(i, param)| {
-            let values = species.params.of(i);
+            let values = species.params.list(i);
             (param.name.to_string(), if values.len() == 1 { json!(values[0]) } else { json!(values) })
         })
         .collect();

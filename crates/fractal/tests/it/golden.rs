@@ -1,6 +1,6 @@
 //! Silhouettes of all species as text, as they were when someone last looked at them.
 //!
-//! `PLEACH_BLESS=1 cargo test -p pleach-fractal golden` writes them anew.
+//! `PLEACH_BLESS=1 cargo test -p pleach-fractal golden` rewrites them.
 
 use pleach_fractal::FractalFamily;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};

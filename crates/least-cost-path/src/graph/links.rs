@@ -33,7 +33,7 @@ pub(crate) enum Sectors {
 
 impl Sectors {
     /// The sector of `d`, from 0; zero counts as positive.
-    fn of(self, d: DVec3) -> usize {
+    fn index(self, d: DVec3) -> usize {
         match self {
             Self::Octants => {
                 usize::from(d.x < 0.0) | usize::from(d.y < 0.0) << 1 | usize::from(d.z < 0.0) << 2
@@ -93,7 +93,7 @@ impl Linker {
             return Err(OutOfSteps::Crowding);
         }
         match linking {
-            Linking::Yao(sectors) => self.yao(nodes, &cells, |d| sectors.of(d), longest, parallel),
+            Linking::Yao(sectors) => self.yao(nodes, &cells, |d| sectors.index(d), longest, parallel),
             Linking::Threshold => self.threshold(nodes, &cells, longest),
         }
         if !nodes.chain.is_empty() {
@@ -301,12 +301,12 @@ mod tests {
     fn graphs_in_space_are_as_worked_out() {
         let yao = &vectors()["yao"];
         let nodes_in_space = nodes(&points(&yao["space"]["points"]));
-        assert_eq!(linked(&nodes_in_space, |d| Sectors::Octants.of(d)).0, pairs(&yao["space"]["edges"]));
+        assert_eq!(linked(&nodes_in_space, |d| Sectors::Octants.index(d)).0, pairs(&yao["space"]["edges"]));
         // The cube's corners, x fastest, and its center: all ties and zeros.
         let mut corners: Vec<[f64; 3]> =
             (0..8).map(|i| [f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)]).collect();
         corners.push([0.5; 3]);
-        assert_eq!(linked(&nodes(&corners), |d| Sectors::Octants.of(d)).0, pairs(&yao["cube"]["edges"]));
+        assert_eq!(linked(&nodes(&corners), |d| Sectors::Octants.index(d)).0, pairs(&yao["cube"]["edges"]));
     }
 
     #[test]
@@ -330,7 +330,7 @@ mod tests {
                     match linking {
                         Linking::Threshold if p.distance(q) <= longest => expected.push(pair),
                         Linking::Yao(sectors) if p.distance_squared(q) <= longest * longest => {
-                            let best = &mut best[sectors.of(q - p)];
+                            let best = &mut best[sectors.index(q - p)];
                             *best = if p.distance_squared(q) < best.0 {
                                 (p.distance_squared(q), j as u32)
                             } else {
@@ -371,7 +371,7 @@ mod tests {
 
     #[test]
     fn zero_counts_as_positive() {
-        assert_eq!(Sectors::Octants.of(dvec3(0.0, -0.0, -1.0)), 4);
-        assert_eq!(Sectors::CubeFaces.of(dvec3(-2.0, 2.0, 1.0)), 1);
+        assert_eq!(Sectors::Octants.index(dvec3(0.0, -0.0, -1.0)), 4);
+        assert_eq!(Sectors::CubeFaces.index(dvec3(-2.0, 2.0, 1.0)), 1);
     }
 }

@@ -239,7 +239,7 @@ mod tests {
 
     fn portion(cos: f64) -> Volume {
         let part = Part::new(Solid::Portion { radius: 1.0, cos }, DVec3::Z, DVec3::Z, true);
-        Volume::of(part, Side::Above)
+        Volume::from_part(part, Side::Above)
     }
 
     fn grown(

@@ -237,7 +237,7 @@ mod tests {
     const MANY: u64 = 1_000_000;
 
     fn ball(radius: f64, cos: f64) -> Volume {
-        Volume::of(Part::new(Solid::Portion { radius, cos }, DVec3::ZERO, DVec3::Z, true), Side::Above)
+        Volume::from_part(Part::new(Solid::Portion { radius, cos }, DVec3::ZERO, DVec3::Z, true), Side::Above)
     }
 
     fn throw(nodes: &mut Nodes, volume: &Volume, count: usize, spacing: f64, seed: u64) -> Thrown {
@@ -297,7 +297,7 @@ mod tests {
         let thrown = throw(&mut nodes, &ball(1.0, 0.0), 500, 1.2, 3);
         assert_eq!(thrown.throws, MAX_THROWS * 500);
         assert!((50..499).contains(&nodes.points.len()));
-        let flat = Volume::of(
+        let flat = Volume::from_part(
             Part::new(Solid::Cylinder { radius: 0.0, height: 1.0 }, DVec3::ZERO, DVec3::Z, true),
             Side::Above,
         );

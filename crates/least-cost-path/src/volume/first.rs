@@ -103,7 +103,7 @@ fn refine(parts: &mut Vec<Part>, crown: &Part, fork: DVec3, n: &Numbers, key: Ke
 /// The half ellipsoid below ground that roots grow in.
 pub(crate) fn underground(n: &Numbers) -> Volume {
     let solid = Solid::Ellipsoid { across: n.root_depth * n.root_spread, along: n.root_depth };
-    let mut volume = Volume::of(Part::new(solid, DVec3::ZERO, DVec3::Z, true), Side::Below);
+    let mut volume = Volume::from_part(Part::new(solid, DVec3::ZERO, DVec3::Z, true), Side::Below);
     let to = DVec3::Z * -n.root_depth;
     volume.axes.push(Axis { from: DVec3::ZERO, to, wander: 0.1 * n.root_depth });
     volume

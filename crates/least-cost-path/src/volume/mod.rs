@@ -59,7 +59,7 @@ pub(crate) struct Volume {
     pub(crate) side: Side,
     /// Stretches from the root upwards along which nodes are put first.
     pub(crate) axes: Vec<Axis>,
-    /// Where the parts that refine a crown lie, as stretches from its foot; none if it is whole.
+    /// Where the parts that refine a crown lie, as stretches from its foot; empty if it is whole.
     pub(crate) clusters: Vec<(DVec3, DVec3)>,
     /// Content of the union on this side.
     pub(crate) content: f64,
@@ -79,7 +79,7 @@ const PROBES: u32 = 128;
 
 impl Volume {
     /// A volume of one part.
-    pub(crate) fn of(part: Part, side: Side) -> Self {
+    pub(crate) fn from_part(part: Part, side: Side) -> Self {
         Self::new(vec![part], side)
     }
 

@@ -1,5 +1,5 @@
 //! Silhouettes of all species against those in `tests/data/silhouettes.txt`: what changes a tree shows
-//! in a review. `PLEACH_BLESS=1 cargo test` writes the file anew.
+//! in a review. `PLEACH_BLESS=1 cargo test` rewrites the file.
 
 use pleach_least_cost_path::LeastCostPathFamily;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};

@@ -88,7 +88,7 @@ fn draws_have_addresses() {
     let long = after("axiom: A A B\nA -> F(rand(0, 1))\nB -> F(rand(0, 1))", 1);
     assert!(long.starts_with(&short), "{short} {long}");
     assert_eq!(after("const s = rand(1, 2)\naxiom: F(s)", 0), after("const s = rand(1, 2)\naxiom: F(s)", 0));
-    // A module that stays draws anew at each step.
+    // A module that stays draws again at each step.
     let system = LSystem::read("test", "axiom: A\nA : rand() < 0.5 -> B").unwrap();
     let mean: f64 = (0..2000)
         .map(|seed| {

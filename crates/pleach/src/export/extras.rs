@@ -11,7 +11,7 @@ pub(super) fn extras(species: &Species, seed: Value) -> Value {
         .iter()
         .enumerate()
         .map(|(i, param)| {
-            let values = species.params.of(i);
+            let values = species.params.list(i);
             let value = if let [one] = values { json!(one) } else { json!(values) };
             (param.name.to_string(), value)
         })

@@ -14,7 +14,7 @@ pub enum PrepareError {
     /// An option with a value that cannot be.
     #[error(transparent)]
     Option(#[from] OptionError),
-    /// The species to start from cannot be had.
+    /// The species to start from is not available.
     #[error(transparent)]
     Species(#[from] RegistryError),
     /// Nothing is free to be searched, or a pattern names no parameter.

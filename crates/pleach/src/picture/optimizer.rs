@@ -55,7 +55,7 @@ pub fn settings_of(optimizer: &Optimizer) -> Map<String, Value> {
     }
 }
 
-/// Why an optimiser cannot be had.
+/// Why there is no such optimiser.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SettingError {

@@ -329,7 +329,7 @@ impl FitOptions {
         self.effort_settings().map(|_| ())
     }
 
-    /// How the goal's own tree is searched where the generator allows it; none if it is off.
+    /// How the goal's own tree is searched where the generator allows it; `None` if it is off.
     pub(super) fn effort_settings(&self) -> Result<Option<IndividualSettings>, OptionError> {
         let one = self.individual.settings(self.whole_time(), self.evaluations);
         let one = one

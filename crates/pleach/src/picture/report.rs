@@ -37,7 +37,7 @@ pub struct FitReport {
     /// How well the kind's own tree matches the goal.
     #[serde(flatten)]
     pub scores: ScoreCard,
-    /// How trees of other seeds match it; none if one of them does not grow, or the result was not judged.
+    /// How trees of other seeds match it; `None` if one of them does not grow, or the result was not judged.
     pub fresh_seeds: Option<FreshSeeds>,
     /// The goal's own tree, where there is one.
     pub individual: Option<IndividualReport>,
@@ -47,7 +47,7 @@ pub struct FitReport {
     pub references: Option<References>,
     /// Whether the kind is right.
     pub verdict: Option<Verdict>,
-    /// How many of the free parameters the goal determines; none if the result was not judged.
+    /// How many of the free parameters the goal determines; `None` if the result was not judged.
     pub determined: Option<IdentifiabilityCounts>,
     /// How well the goal determines each free parameter.
     pub parameters: Vec<ParameterReport>,
@@ -61,7 +61,7 @@ pub struct FitReport {
     pub first_guess_seconds: f64,
     /// Time of the search, in seconds.
     pub search_seconds: f64,
-    /// Time of judging, in seconds; none if the result was not judged.
+    /// Time of judging, in seconds; `None` if the result was not judged.
     pub judging_seconds: Option<f64>,
     /// Trees of the search per second.
     pub evaluations_per_second: f64,
@@ -329,7 +329,7 @@ impl Prepared {
             finished: outcome.stop != StopReason::Interrupted,
             seed: settings.seed,
             from: self.options.from.to_string(),
-            looks_like: LooksLike::of(fitted.guess.as_ref()),
+            looks_like: LooksLike::from_guess(fitted.guess.as_ref()),
             families: best_of_each_family(fitted.guess.as_ref()),
             leaves: fitted.problem.foliage != Foliage::None,
             leaves_detected: self.detects_leaves,
@@ -427,7 +427,7 @@ impl Prepared {
 impl LooksLike {
     /// The species of a first guess.
     #[must_use]
-    pub fn of(guess: Option<&FirstGuess>) -> Vec<Self> {
+    pub fn from_guess(guess: Option<&FirstGuess>) -> Vec<Self> {
         let names = guess.into_iter().flat_map(|guess| &guess.names);
         names
             .filter(|(_, confidence)| *confidence >= MIN_CONFIDENCE)
@@ -494,7 +494,7 @@ fn method_settings(fitted: &Fitted) -> Map<String, Value> {
     }
 }
 
-/// The families of generators that a goal was compared with, the best of each, best first; none if there is only one.
+/// The families of generators that a goal was compared with, the best of each, best first; empty if there is only one.
 #[must_use]
 pub fn best_of_each_family(guess: Option<&FirstGuess>) -> Vec<Runner> {
     let mut best: Vec<Runner> = Vec::new();

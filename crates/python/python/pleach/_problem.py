@@ -19,7 +19,7 @@ class Scores:
     """How well some individuals match the goal; float64 of shape (n,) each."""
 
     cost: npt.NDArray[np.float64]
-    """What is to be made small: 0 is a perfect match, infinity a tree that does not grow."""
+    """The cost, to be minimised: 0 is a perfect match, infinity a tree that does not grow."""
     iou: npt.NDArray[np.float64]
     """Intersection over union, 0 to 1."""
     accuracy: npt.NDArray[np.float64]

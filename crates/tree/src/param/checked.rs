@@ -51,7 +51,7 @@ impl CheckedParams {
 
     /// The numbers of parameter number `param`.
     #[must_use]
-    pub fn of(&self, param: usize) -> &[f64] {
+    pub fn list(&self, param: usize) -> &[f64] {
         &self.values[self.space.range_of(param)]
     }
 

@@ -63,7 +63,7 @@ pub enum Fault {
 }
 
 /// What is wrong with `param` alone.
-pub(super) fn of(param: &Param) -> Result<(), Fault> {
+pub(super) fn find(param: &Param) -> Result<(), Fault> {
     let slots = param.shape.slot_count();
     let no_names = matches!(&param.kind, Kind::Choice { names, .. } if names.is_empty());
     if slots == 0 || no_names {

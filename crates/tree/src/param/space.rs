@@ -58,7 +58,7 @@ impl ParamSpace {
         let mut first_slot = Vec::new();
         for (number, param) in params.iter().enumerate() {
             let is_known = params[..number].iter().any(|other| other.name == param.name);
-            let fault = if is_known { Err(Fault::Twice) } else { fault::of(param) };
+            let fault = if is_known { Err(Fault::Twice) } else { fault::find(param) };
             fault.map_err(|fault| DeclarationError { param: param.name.to_string(), fault })?;
             first_slot.push(slots.len());
             slots.extend((0..param.shape.slot_count()).map(|index| SlotInfo { param: number, index }));
@@ -137,7 +137,7 @@ impl ParamSpace {
         self.param_of(slot).default[self.info(slot).index]
     }
 
-    /// The slots that [`Generator::resize`](crate::Generator::resize) multiplies; none for a space
+    /// The slots that [`Generator::resize`](crate::Generator::resize) multiplies. Empty for a space
     /// without sizes.
     pub fn sizes(&self) -> impl Iterator<Item = Slot> + Clone {
         self.slots().filter(|&slot| self.param_of(slot).is_size(self.info(slot).index))

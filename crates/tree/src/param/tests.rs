@@ -153,7 +153,7 @@ fn values_that_are_not_allowed_leave_the_old_ones() {
     );
     values[2] = 400.0;
     assert_eq!(params.set(&values), Ok(()));
-    assert_eq!(params.of(1), [1.0, 400.0, 4.0]);
+    assert_eq!(params.list(1), [1.0, 400.0, 4.0]);
 }
 
 proptest! {

@@ -30,8 +30,8 @@ fn what_every_file_may_say_is_read_for_the_family() {
     let species = read(text).unwrap();
     assert_eq!((species.name.as_str(), species.description.as_str()), ("a b", "of two\nlines"));
     assert_eq!((species.tree_seed, species.foliage), (Some(1 << 53), Foliage::None));
-    assert_eq!(species.params.of(3), [10.0, -2.5]);
-    assert_eq!(species.params.of(6), [2.0], "a choice by its name");
+    assert_eq!(species.params.list(3), [10.0, -2.5]);
+    assert_eq!(species.params.list(6), [2.0], "a choice by its name");
     assert_eq!(species.appearance.bark.map(|color| color.0), Some([1, 2, 3]));
     assert_eq!(species.generator.structure(), "pairs = \"yes\"\n");
 }

@@ -46,7 +46,7 @@ pub(super) fn species(species: &Species, comments: &[String]) -> String {
 fn parameters(text: &mut String, species: &Species, group: &str) {
     let space = species.generator.space();
     for (i, param) in space.params().iter().enumerate().filter(|(_, param)| param.group == group) {
-        let values = species.params.of(i);
+        let values = species.params.list(i);
         let numbers: Vec<String> = values.iter().map(|&v| number(v)).collect();
         let is_scalar = param.shape == Shape::Scalar;
         let value = if is_scalar { numbers[0].clone() } else { format!("[{}]", numbers.join(", ")) };

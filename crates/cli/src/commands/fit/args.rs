@@ -145,7 +145,7 @@ pub(super) struct SearchArgs {
     /// A setting of the optimiser, such as children=8 for evolution; repeatable. `--set help` lists them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) settings: Vec<String>,
-    /// What is made small: balance (the default), overlap (of trees with a likeness of 0.765; the default with
+    /// What the search minimises: balance (the default), overlap (of trees with a likeness of 0.765; the default with
     /// --evolve-rules), blend, likeness, iou or accuracy
     #[arg(long, value_name = "NAME")]
     pub(super) objective: Option<Objective>,

@@ -6,7 +6,7 @@ use pleach_tree::Foliage;
 
 /// The species that the goal looks like; `detected` says whether leaves were looked for.
 pub(super) fn said(guess: &FirstGuess, detected: bool) -> String {
-    let names = LooksLike::of(Some(guess));
+    let names = LooksLike::from_guess(Some(guess));
     let said: Vec<String> = (names.iter().take(3))
         .map(|LooksLike { species, confidence }| format!("{species} ({:.0} %)", 100.0 * confidence))
         .collect();

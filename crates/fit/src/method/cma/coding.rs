@@ -28,7 +28,7 @@ pub(super) fn decode(gene: &Gene, x: f64) -> f64 {
     }
 }
 
-/// The ends of the cell in which `x` lies, infinite where there is no neighbour; none for a real
+/// The ends of the cell in which `x` lies, infinite where there is no neighbour. `None` for a real
 /// number.
 pub(super) fn cell(gene: &Gene, x: f64) -> Option<(f64, f64)> {
     if !gene.kind.is_whole() {

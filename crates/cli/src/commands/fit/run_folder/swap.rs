@@ -72,7 +72,7 @@ pub(super) fn remove_temporary(folder: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Names of the files in `folder`; none if it is not there.
+/// Names of the files in `folder`; empty if it is not there.
 fn names(folder: &Path) -> anyhow::Result<Vec<String>> {
     let cannot = || format!("cannot read the folder {}", folder.display());
     match fs::read_dir(folder) {
