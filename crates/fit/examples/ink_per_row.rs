@@ -4,6 +4,12 @@
 //! cargo run --release -p pleach-fit --example ink_per_row
 //! ```
 
+#![allow(
+    clippy::print_stdout,
+    clippy::unwrap_used,
+    reason = "an example says what it has found; a test panics"
+)]
+
 use pleach_fit::{
     Agreement, AnyEvidence, Budget, Control, Evidence, FitError, FitProblem, FitSettings, GoalView, Outcome,
     PlacedTree, Terms, fit,

@@ -132,6 +132,11 @@ pub use pleach_fit::{
     SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed, Unknown, Verdict, evaluator, fit, fit_goal,
     fit_goal_with, individuals,
 };
+#[cfg(feature = "fit")]
+pub use pleach_fit::{
+    Agreement, AnyEvidence, ArgminSolver, CheckpointSettings, CmaSettings, Evidence, EvolutionSettings,
+    HewittSettings, Method, PlacedTree, RandomSettings, ShadeSettings, Terms, fresh_seeds, profile,
+};
 
 #[cfg(feature = "fit")]
 mod picture;

@@ -13,7 +13,7 @@ pub(crate) fn on<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
-    py.detach(|| Ok(of(threads)?.install(work)))
+    py.detach(|| Ok(with_threads(threads)?.install(work)))
 }
 
 /// This number of threads; `None`: as many as the machine has cores, or as `RAYON_NUM_THREADS` says.

@@ -10,6 +10,7 @@ mod outline;
 
 pub use outline::{Outline, OutlineError};
 
+use serde::{Deserialize, Serialize};
 use std::sync::{Arc, LazyLock};
 
 /// One of the ten leaf shapes, by their numbers in species files.
@@ -130,7 +131,8 @@ impl Faces {
 }
 
 /// One of the three blossom shapes, by their numbers in species files.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 #[repr(u8)]
 pub enum BlossomShape {
     /// 1: five broad petals, nearly flat.

@@ -1,15 +1,46 @@
 //! Outlines of flat leaves: those that come with pleach, and any that a generator makes.
 
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 /// The closed outline of a flat leaf in the coordinates of [`crate::leaf_shape`], and its name.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "OutlineData", into = "OutlineData")]
 pub struct Outline {
     name: Cow<'static, str>,
     corners: Vec<[f32; 2]>,
     /// Corners of the right half, which come first; 0 where the halves differ.
     half: usize,
     area: f32,
+}
+
+/// An outline as it is written.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OutlineData {
+    name: String,
+    corners: Vec<[f32; 2]>,
+    /// Corners of the right half, if the left half mirrors it; 0 otherwise.
+    #[serde(default)]
+    half: usize,
+}
+
+impl From<Outline> for OutlineData {
+    fn from(outline: Outline) -> Self {
+        let Outline { name, corners, half, area: _ } = outline;
+        Self { name: name.into_owned(), corners, half }
+    }
+}
+
+impl TryFrom<OutlineData> for Outline {
+    type Error = OutlineError;
+
+    fn try_from(data: OutlineData) -> Result<Self, OutlineError> {
+        let outline = Self::new(data.name, data.corners)?;
+        // A half that nothing mirrors is no promise.
+        let mirrored = outline.corners.get(..data.half).is_some_and(|half| mirrored(half) == outline.corners);
+        Ok(Self { half: if mirrored { data.half } else { 0 }, ..outline })
+    }
 }
 
 /// Why corners are not the outline of a leaf.
@@ -63,8 +94,7 @@ impl Outline {
     /// The outline whose right half, from the stalk to the tip, is `half`, and whose left half mirrors
     /// it. A last corner with u = 0 is the tip itself; without one the tip is a straight edge.
     pub(super) fn from_half(name: &'static str, half: &[[f32; 2]]) -> Self {
-        let left = half.iter().rev().filter(|p| p[0] > 0.0).map(|p| [-p[0], p[1]]);
-        let corners: Vec<[f32; 2]> = half.iter().copied().chain(left).collect();
+        let corners = mirrored(half);
         let area = area(&corners);
         Self { name: Cow::Borrowed(name), corners, half: half.len(), area }
     }
@@ -99,6 +129,12 @@ impl Outline {
         let us = || self.corners.iter().map(|p| p[0]);
         us().fold(f32::NEG_INFINITY, f32::max) - us().fold(f32::INFINITY, f32::min)
     }
+}
+
+/// The outline whose right half is `half`.
+fn mirrored(half: &[[f32; 2]]) -> Vec<[f32; 2]> {
+    let left = half.iter().rev().filter(|p| p[0] > 0.0).map(|p| [-p[0], p[1]]);
+    half.iter().copied().chain(left).collect()
 }
 
 /// Signed area of a closed polygon, positive if it is counter-clockwise.

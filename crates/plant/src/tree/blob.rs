@@ -1,11 +1,13 @@
 //! Foliage as closed surfaces, for trees that are drawn and not grown leaf by leaf.
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A closed surface of foliage: a run of [`Tree::blob_vertices`](super::Tree::blob_vertices) and one of
 /// [`Tree::blob_triangles`](super::Tree::blob_triangles), whose numbers count from the blob's first
 /// vertex. Seen from outside, triangles are counter-clockwise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Blob {
     /// Index in [`Tree::stems`](super::Tree::stems) of the stem that carries it.
     pub stem: u32,

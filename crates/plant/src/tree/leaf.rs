@@ -1,13 +1,15 @@
 //! A leaf or a blossom in its place.
 
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
 
 /// A leaf or a blossom: a unit shape carried to its place.
 ///
 /// A point (u, v, w) of the unit shape goes to `position + u·across + v·along + w·normal` where
 /// `normal` is [`Leaf::normal`]. The two axes carry the scale, so they are seldom of length 1.
 /// Single precision: a leaf is placed to a micrometre, and there are 300,000 of them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Leaf {
     /// Where the leaf is attached, in metres.
     pub position: Vec3,

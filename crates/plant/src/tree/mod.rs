@@ -2,6 +2,7 @@
 
 mod blob;
 mod check;
+mod data;
 mod digest;
 mod leaf;
 mod parts;
@@ -17,10 +18,12 @@ use crate::individual::{StemPath, Step};
 use crate::leaf_shape::{BlossomShape, Outline};
 use crate::spline::Cubic;
 use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// One knot of a stem's spline. Neighbouring knots bound a cubic Bézier piece.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Knot {
     /// The point itself, in metres.
     pub point: DVec3,
@@ -36,7 +39,10 @@ pub struct Knot {
 ///
 /// Flat arrays that [`Tree::clear`] empties and keeps, so that growing the next tree into the same
 /// value allocates nothing once the arrays are large enough.
-#[derive(Clone, Debug, Default, PartialEq)]
+///
+/// It is read from and written to JSON and the like; what is read is checked as by [`Tree::well_formed`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "data::TreeData", into = "data::TreeData")]
 pub struct Tree {
     /// Stems, parents before children.
     pub stems: Vec<Stem>,

@@ -1,9 +1,11 @@
 //! A stem and how it came to be.
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// How a stem came to be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum StemKind {
     /// Comes out of the ground.
     Trunk,
@@ -17,7 +19,8 @@ pub enum StemKind {
 }
 
 /// A stem: a run of [`Tree::knots`](super::Tree::knots) and where it stands in the plant.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Stem {
     /// Index in [`Tree::stems`](super::Tree::stems) of the stem that this one grows from; always smaller than its own.
     pub parent: Option<u32>,
