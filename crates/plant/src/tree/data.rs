@@ -127,8 +127,8 @@ mod tests {
         };
         assert!(broken(|tree| tree.stems[0].knot_count = 9).contains("stem 0"));
         assert!(broken(|tree| tree.leaves[0].stem = 4).contains("leaf 0"));
-        let unknown = serde_json::from_str::<Tree>(r#"{"stems": [], "knots": [], "leafs": []}"#);
-        assert!(unknown.unwrap_err().to_string().contains("leafs"));
+        let unknown = serde_json::from_str::<Tree>(r#"{"stems": [], "knots": [], "twigs": []}"#);
+        assert!(unknown.unwrap_err().to_string().contains("twigs"));
         let outline = |text: &str| serde_json::from_str::<Outline>(text).map_err(|error| error.to_string());
         let flat = r#"{"name": "flat", "corners": [[0, 0], [1, 1], [2, 2]]}"#;
         assert!(outline(flat).unwrap_err().contains("no area"));
