@@ -23,7 +23,7 @@ use std::sync::atomic::AtomicBool;
 /// Of `settings` the seed, tree seed, objective and limits are used. `problem.start` is not.
 ///
 /// # Errors
-/// A problem that [`Evaluator::new`] refuses, [`FitError::NoStart`] if no candidate grows, or
+/// A problem that [`Evaluator::new`](crate::Evaluator::new) refuses, [`FitError::NoStart`] if no candidate grows, or
 /// [`FitError::Interrupted`] once `stop` is raised.
 pub fn first_guess(
     problem: &FitProblem,

@@ -101,7 +101,7 @@ pub(super) struct GoalArgs {
     #[arg(long)]
     pub(super) free_frame: bool,
     /// A further picture of the same tree that is not fitted but scored; repeatable
-    #[arg(long, value_name = "AZ[,EL]=FILE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "AZ[,EL]=FILE", allow_hyphen_values = true, value_parser = values::known_view)]
     pub(super) holdout_view: Vec<FurtherView>,
     /// Whether the tree has leaves: `auto` looks whether the goal is more like trees with leaves or
     /// like bare ones (with --from auto; otherwise it has)

@@ -2,6 +2,7 @@
 
 use crate::input;
 use pleach::{Direction, FurtherView, KnownFrame, TreeSeed};
+use pleach_fit::Azimuth;
 use std::num::NonZeroU32;
 use std::str::FromStr;
 
@@ -73,6 +74,15 @@ impl FromStr for ViewArg {
         let own: Result<Direction, _> = text.parse();
         own.map(Self::Own).map_err(|error| format!("{error}; or auto=FILE, ~AZ=FILE"))
     }
+}
+
+/// A further picture from a direction that is known.
+pub(super) fn known_view(text: &str) -> Result<FurtherView, String> {
+    let view: FurtherView = text.parse()?;
+    if view.azimuth == Azimuth::Known {
+        return Ok(view);
+    }
+    Err("its direction has to be known, since it is not fitted: expected one such as 90=side.png".to_owned())
 }
 
 /// A part of the goals: the `index`-th of `count`, from 1.
