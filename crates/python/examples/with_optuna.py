@@ -43,7 +43,7 @@ def main(trials: int = 200) -> float:
     best = problem.species([study.best_params.get(name, low) for name, low in zip(problem.names, problem.lower)])
     print(f"cost {study.best_value:.3f}, the species itself {problem.evaluate(problem.start[None])[0]:.3f}")
     print(best.named("by_optuna").to_toml().splitlines()[1])
-    return study.best_value
+    return float(study.best_value)
 
 
 if __name__ == "__main__":

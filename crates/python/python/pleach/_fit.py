@@ -76,27 +76,27 @@ class Fit:
     @property
     def cost(self) -> float:
         """What the search minimised, of the kind."""
-        return self.report["cost"]
+        return float(self.report["cost"])
 
     @property
     def evaluations(self) -> int:
         """Trees grown by the search."""
-        return self.report["evaluations"]
+        return int(self.report["evaluations"])
 
     @property
     def generations(self) -> int:
         """Generations of the search."""
-        return self.report["generations"]
+        return int(self.report["generations"])
 
     @property
     def seconds(self) -> float:
         """What the first guess and the search took."""
-        return self.report["seconds"]
+        return float(self.report["seconds"])
 
     @property
     def leaves(self) -> bool:
         """Whether trees have leaves: asked for, or seen in the goal."""
-        return self.report["leaves"]
+        return bool(self.report["leaves"])
 
     @property
     def interrupted(self) -> bool:
@@ -185,7 +185,7 @@ def _as_json(options: dict[str, Any]) -> str:
 def _number(value: Any) -> Any:
     """A number of numpy's as one of Python's."""
     if isinstance(value, np.generic):
-        return value.item()
+        return value.item()  # pyright: ignore[reportUnknownVariableType]
     raise _native.FitError(f"{value!r} is not a number, a text or a list")
 
 
@@ -263,7 +263,7 @@ def fit(
 
     def named(kind: str, given_views: Sequence[tuple[Goal, Union[str, Direction]]]) -> list[str]:
         """Views as texts that name their pictures: files by their paths."""
-        texts = []
+        texts: list[str] = []
         for number, (picture, direction) in enumerate(given_views):
             picture = given(picture)
             label = picture if isinstance(picture, str) else f"{kind}-{number + 1}"
