@@ -64,7 +64,7 @@ def test_this_very_tree_can_be_left_out() -> None:
 
 def test_seeds_of_fits_are_whole_numbers() -> None:
     for option in ("seed", "tree_seed"):
-        with pytest.raises(pleach.PleachError, match="seed` is -1: .*expected a whole number"):
+        with pytest.raises(pleach.PleachError, match="seed` is -1: .*a whole number"):
             pleach.fit(GOAL, **{**SMALL, option: -1})
 
 
