@@ -1,6 +1,6 @@
 // Compiles crates/web to WebAssembly and writes it, with what JavaScript needs to load it, to src/wasm.
 // Environment: CARGO_TARGET_DIR as for cargo; PLEACH_WASM=quick builds a larger, slower module in less time;
-// PLEACH_BINDGEN is crates/web-bindgen as it was built before.
+// PLEACH_BINDGEN is the absolute path of crates/web-bindgen as it was built before.
 
 import { spawnSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, rmSync, statSync } from "node:fs";
@@ -49,7 +49,7 @@ rmSync(made, { recursive: true, force: true });
 mkdirSync(made, { recursive: true });
 const compiled = join(target, TRIPLE, profile, "pleach_web.wasm");
 const bindgen = process.env.PLEACH_BINDGEN;
-if (bindgen) run(resolve(bindgen), [compiled, made]);
+if (bindgen) run(bindgen, [compiled, made]);
 else run("cargo", ["run", "--quiet", "-p", "pleach-web-bindgen", "--", compiled, made]);
 
 // Binaryen takes another tenth off.
