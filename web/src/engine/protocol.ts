@@ -144,7 +144,7 @@ export interface FitOptions {
   seed?: number;
   leaves?: "auto" | "on" | "off";
   /** How long this very tree is looked for, after its kind. */
-  individual?: "auto" | "off";
+  individual?: "share" | "off";
 }
 export interface LooksLike {
   species: string;

@@ -93,7 +93,7 @@ export async function startFit(): Promise<void> {
     generator: generator.peek(),
     timeout: seconds.peek(),
     leaves: leafiness.peek(),
-    individual: individual.peek() ? "auto" : "off",
+    individual: individual.peek() ? "share" : "off",
   };
   // On a telephone the pictures are above the button.
   document.getElementById("room")?.scrollTo({ top: 0, behavior: "smooth" });
