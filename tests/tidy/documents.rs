@@ -11,7 +11,6 @@ const EXCEPTIONS: &[(&str, &str, &str)] = &[
     ("docs/decisions/007-the-cast-lint-is-off.md", "cast_possible_truncation", "a lint that is off"),
     ("README.md", "web/dist", "built"),
     ("docs/decisions/060-two-scripts-of-checks.md", "incompatible_msrv", "a lint of clippy"),
-    ("docs/decisions/060-two-scripts-of-checks.md", "pleach/_native.abi3.so", "built"),
     ("docs/releasing.md", "--dry-run", "an option of cargo"),
     ("docs/releasing.md", "web/dist", "built"),
     ("docs/cluster.md", "KillWait", "a setting of Slurm"),
