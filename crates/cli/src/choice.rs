@@ -18,3 +18,13 @@ pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
         found.map(|(.., value)| *value).ok_or("not one of the words")
     })
 }
+
+/// What `given` stands for among `choices`, in lower or upper case.
+///
+/// # Errors
+/// The words that are known.
+pub(crate) fn word<T: Copy>(choices: &[Choice<T>], given: &str) -> Result<T, String> {
+    let found = choices.iter().find(|(word, ..)| word.eq_ignore_ascii_case(given));
+    let known = || choices.iter().map(|(word, ..)| *word).collect::<Vec<_>>().join(", ");
+    found.map(|(.., value)| *value).ok_or_else(|| format!("expected {}", known()))
+}

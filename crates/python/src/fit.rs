@@ -88,9 +88,9 @@ fn watched(
     let pool = pool::with_threads(threads)?;
     let run = |sender| {
         // Its own, so that the channel closes when the fit has ended.
-        let mut teller = EventSender(sender);
+        let mut sending = EventSender(sender);
         let clock = || started.elapsed();
-        let control = Control { observers: vec![&mut teller], ..Control::new(&clock, stop) };
+        let control = Control { observers: vec![&mut sending], ..Control::new(&clock, stop) };
         prepared.fit(&mut library().for_one_goal(), control)
     };
     py.detach(move || {

@@ -1,7 +1,7 @@
 //! Trees of a fit, grown and drawn as its goal is.
 
 use super::prepared::Prepared;
-use super::view_report::ViewReport;
+use super::report_parts::ViewReport;
 use pleach_fit::{FitProblem, Genome, Placement};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};

@@ -82,7 +82,9 @@ impl FromStr for Effort {
                 .map(Self::Trees)
                 .ok_or_else(|| "expected a number of trees such as 400trees".to_owned());
         }
-        parse_duration(given).map(Self::Time).map_err(|error| format!("{error}, `400trees`, or `off`"))
+        parse_duration(given)
+            .map(Self::Time)
+            .map_err(|error| format!("{error}, `400trees`, `share` or `off`"))
     }
 }
 

@@ -20,10 +20,10 @@ mod optimizer;
 mod options;
 mod prepared;
 mod report;
+mod report_parts;
 mod sides;
 mod source;
 mod start;
-mod view_report;
 mod volume;
 mod words;
 
@@ -35,14 +35,14 @@ pub use goal_pair::GoalPair;
 pub use optimizer::{SettingError, optimizer_with, settings_of};
 pub use options::{FitOptions, Spent};
 pub use prepared::{FurtherPicture, Prepared};
-pub use report::{
-    FitReport, IdentifiabilityCounts, IndividualReport, LooksLike, ParameterReport, ReportError, RulesReport,
-    SearchReport, TIME_KEYS, best_of_each_family,
+pub use report::{FitReport, ReportError, TIME_KEYS};
+pub use report_parts::{
+    IdentifiabilityCounts, IndividualReport, LooksLike, ParameterReport, RulesReport, SearchReport,
+    ViewReport, best_of_each_family,
 };
 pub use sides::{SideTree, SidesReport};
 pub use source::{FitSource, PictureSource};
 pub use start::FitStart;
-pub use view_report::ViewReport;
 pub use words::{KnownFrame, Leaves, MaskFrom, StartFrom, Tone, VolumeFrom};
 
 use crate::plan::library;

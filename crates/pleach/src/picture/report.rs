@@ -4,12 +4,15 @@ use super::drawn::{FitDrawing, FittedTree};
 use super::optimizer::settings_of;
 use super::options::FitOptions;
 use super::prepared::{FurtherPicture, Prepared};
+use super::report_parts::{
+    IdentifiabilityCounts, IndividualReport, LooksLike, ParameterReport, RulesReport, SearchReport,
+    ViewReport, best_of_each_family,
+};
 use super::sides::{Sides, SidesReport};
-use super::view_report::ViewReport;
 use crate::place_at_full_size;
 use pleach_fit::{
-    Azimuth, FirstGuess, Fitted, FoundIndividual, FreshSeeds, Identifiability, Placement, References, Runner,
-    StopReason, Verdict, placements,
+    Azimuth, Fitted, FoundIndividual, FreshSeeds, Placement, References, Runner, StopReason, Verdict,
+    placements,
 };
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::score::{ScoreCard, SizeMismatch};
@@ -151,88 +154,6 @@ pub const TIME_KEYS: [&str; 7] = [
     "individual.trials_per_second",
 ];
 
-/// A known species that the goal was compared with.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct LooksLike {
-    /// Its name.
-    pub species: String,
-    /// How sure that is, in 0..=1.
-    pub confidence: f64,
-}
-
-/// The goal's own tree.
-#[derive(Clone, Debug, Serialize)]
-pub struct IndividualReport {
-    /// Stems with draws of their own.
-    pub stems: usize,
-    /// How well it matches the goal.
-    #[serde(flatten)]
-    pub scores: ScoreCard,
-    /// Cost, by the objective `overlap`, of the tree that the search began with.
-    pub cost_before: f64,
-    /// The same of this tree.
-    pub cost: f64,
-    /// Trees grown.
-    pub trees: u64,
-    /// Single stems tried.
-    pub trials: u64,
-    /// The same per second.
-    pub trials_per_second: f64,
-    /// Time, in seconds.
-    pub seconds: f64,
-    /// How it does in the further pictures that were fitted.
-    pub views: Vec<ViewReport>,
-}
-
-/// The result as the search and its history saw it: against the goal at its working size, the mean over views and over
-/// the seeds of a robust fit.
-#[derive(Clone, Debug, Serialize)]
-pub struct SearchReport {
-    /// Width in pixels.
-    pub goal_width: u32,
-    /// Height in pixels.
-    pub goal_height: u32,
-    /// Share of inked pixels. Fine twigs and leaves get thicker or thinner as a goal is reduced.
-    pub goal_ink: f64,
-    /// Intersection over union, in 0..=1.
-    pub iou: f64,
-    /// Share of equal pixels, in 0..=1.
-    pub pixel_accuracy: f64,
-}
-
-/// How many of the free parameters the goal determines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct IdentifiabilityCounts {
-    /// These it does.
-    pub determined: usize,
-    /// These loosely.
-    pub loosely: usize,
-    /// These it does not show.
-    pub not_seen: usize,
-    /// These were not tried, because time was short.
-    pub not_tried: usize,
-}
-
-/// How well the goal determines a parameter.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ParameterReport {
-    /// Its slot.
-    pub slot: String,
-    /// Its value.
-    pub value: f64,
-    /// Whether the goal determines it.
-    pub seen: Identifiability,
-}
-
-/// A grammar that was found.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct RulesReport {
-    /// The grammar.
-    pub grammar: String,
-    /// Its words and signs.
-    pub grammar_length: usize,
-}
-
 /// Why a result cannot be drawn or scored: not what comes of a fit of the same [`Prepared`].
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -247,9 +168,6 @@ pub enum ReportError {
     #[error(transparent)]
     Size(#[from] SizeMismatch),
 }
-
-/// Species with less confidence than this are left out.
-const MIN_CONFIDENCE: f64 = 0.01;
 
 impl FitReport {
     /// The goal's own tree that lies best on the goal; without one the tree of the kind.
@@ -424,38 +342,6 @@ impl Prepared {
     }
 }
 
-impl LooksLike {
-    /// The species of a first guess.
-    #[must_use]
-    pub fn from_guess(guess: Option<&FirstGuess>) -> Vec<Self> {
-        let names = guess.into_iter().flat_map(|guess| &guess.names);
-        names
-            .filter(|(_, confidence)| *confidence >= MIN_CONFIDENCE)
-            .map(|(species, confidence)| Self { species: species.clone(), confidence: *confidence })
-            .collect()
-    }
-}
-
-impl IdentifiabilityCounts {
-    fn new(judged: &pleach_fit::Assessment) -> Self {
-        let count = |seen| judged.profiles.iter().filter(|profile| profile.seen == seen).count();
-        Self {
-            determined: count(Identifiability::Determined),
-            loosely: count(Identifiability::Loosely),
-            not_seen: count(Identifiability::NotSeen),
-            not_tried: count(Identifiability::NotTried),
-        }
-    }
-}
-
-impl RulesReport {
-    fn new(species: &Species) -> Option<Self> {
-        let variation = species.generator.variation()?;
-        let grammar = variation.own();
-        Some(Self { grammar_length: variation.length(&grammar), grammar })
-    }
-}
-
 fn individual(found: &FoundIndividual, tree: &FittedTree) -> IndividualReport {
     let seconds = found.elapsed.as_secs_f64();
     IndividualReport {
@@ -492,16 +378,4 @@ fn method_settings(fitted: &Fitted) -> Map<String, Value> {
         },
         None => settings_of(&fitted.settings.optimizer),
     }
-}
-
-/// The families of generators that a goal was compared with, the best of each, best first; empty if there is only one.
-#[must_use]
-pub fn best_of_each_family(guess: Option<&FirstGuess>) -> Vec<Runner> {
-    let mut best: Vec<Runner> = Vec::new();
-    for runner in guess.into_iter().flat_map(|guess| &guess.runners) {
-        if best.iter().all(|known| known.family != runner.family) {
-            best.push(runner.clone());
-        }
-    }
-    if best.len() < 2 { Vec::new() } else { best }
 }

@@ -2,11 +2,12 @@
 
 use super::help;
 use super::run_folder::Mode;
-use super::values::{self, Leaves, Shard, Tone, ViewArg};
+use super::values::{self, Shard, ViewArg};
+use crate::choice::one_of;
 use crate::input;
 use pleach::{
-    Effort, FurtherView, GeneratorChoice, KnownFrame, MaskFrom, Objective, Optimizer, StartFrom, TreeSeed,
-    VolumeFrom, parse_duration,
+    Effort, FurtherView, GeneratorChoice, KnownFrame, Leaves, MaskFrom, Objective, Optimizer, StartFrom,
+    Tone, TreeSeed, VolumeFrom, parse_duration,
 };
 use pleach_fit::IndividualSettings;
 use std::num::NonZeroU32;
@@ -77,7 +78,7 @@ pub(super) struct GoalArgs {
     #[arg(long, value_name = "FILE|auto")]
     pub(super) mask: Option<MaskFrom>,
     /// Which of the two tones is the tree
-    #[arg(long, value_enum, default_value_t = Tone::Auto)]
+    #[arg(long, default_value = "auto", value_parser = one_of(values::TONES))]
     pub(super) tree: Tone,
     /// Row where the tree stands, in pixels of the goal from its top; detected by default
     #[arg(long, value_name = "PIXELS")]
@@ -105,7 +106,7 @@ pub(super) struct GoalArgs {
     pub(super) holdout_view: Vec<FurtherView>,
     /// Whether the tree has leaves: `auto` looks whether the goal is more like trees with leaves or
     /// like bare ones (with --from auto; otherwise it has)
-    #[arg(long, value_enum, default_value_t = Leaves::Auto, conflicts_with = "no_leaves")]
+    #[arg(long, default_value = "auto", value_parser = one_of(values::LEAVES), conflicts_with = "no_leaves")]
     pub(super) leaves: Leaves,
     /// The same as --leaves off
     #[arg(long)]

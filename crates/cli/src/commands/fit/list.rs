@@ -1,10 +1,10 @@
 //! Goals with options of their own, from a CSV file.
 
 use super::args::GoalArgs;
-use super::values::{self, Leaves, Tone, ViewArg};
+use super::values::{self, ViewArg};
+use crate::choice::word;
 use crate::text;
 use anyhow::{Context, bail, ensure};
-use clap::ValueEnum as _;
 use pleach::MaskFrom;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ const COLUMNS: [Column; 7] = [
     Column {
         name: "tree",
         set: |args, cell, _| {
-            args.tree = Tone::from_str(cell, true).map_err(|_| "expected auto, dark or light".to_owned())?;
+            args.tree = word(values::TONES, cell)?;
             Ok(())
         },
     },
@@ -54,7 +54,7 @@ const COLUMNS: [Column; 7] = [
     Column {
         name: "leaves",
         set: |args, cell, _| {
-            args.leaves = Leaves::from_str(cell, true).map_err(|_| "expected auto, on or off".to_owned())?;
+            args.leaves = word(values::LEAVES, cell)?;
             args.no_leaves = false;
             Ok(())
         },

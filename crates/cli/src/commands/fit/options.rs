@@ -2,9 +2,9 @@
 
 use super::args::{Fit, GoalArgs};
 use super::flags;
-use super::values::{Leaves, ViewArg};
+use super::values::ViewArg;
 use anyhow::{Context, bail};
-use pleach::{FitOptions, optimizer_with, settings_of};
+use pleach::{FitOptions, Leaves, optimizer_with, settings_of};
 use pleach_fit::{Optimizer, Setting};
 
 impl Fit {
@@ -27,7 +27,7 @@ impl Fit {
             height: goal.height,
             size: goal.size,
             mask: goal.mask.clone(),
-            tree: goal.tree.into(),
+            tree: goal.tree,
             ground_row: goal.ground_row,
             axis_column: goal.axis_column,
             frame: goal.frame,
@@ -35,7 +35,7 @@ impl Fit {
             views,
             free_frame: goal.free_frame,
             holdout_views: goal.holdout_view.clone(),
-            leaves: if goal.no_leaves { Leaves::Off } else { goal.leaves }.into(),
+            leaves: if goal.no_leaves { Leaves::Off } else { goal.leaves },
             from: search.from.clone(),
             generator: search.generator,
             volume_from: search.volume_from.clone(),

@@ -1,52 +1,29 @@
 //! Arguments of `fit` that are more than a number, as they are typed.
 
+use crate::choice::Choice;
 use crate::input;
-use pleach::{Direction, FurtherView, KnownFrame, TreeSeed};
+use pleach::{Direction, FurtherView, KnownFrame, Leaves, Tone, TreeSeed};
 use pleach_fit::Azimuth;
 use std::num::NonZeroU32;
 use std::str::FromStr;
 
-/// Which tone of a picture is the tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum Tone {
-    /// Whichever does not fill the border
-    Auto,
-    /// The darker one
-    Dark,
-    /// The lighter one
-    Light,
-}
+/// Words of `--tree`.
+pub(super) const TONES: &[Choice<Tone>] = &[
+    ("auto", "Whichever does not fill the border", Tone::Auto),
+    ("dark", "The darker one", Tone::Dark),
+    ("light", "The lighter one", Tone::Light),
+];
 
-impl From<Tone> for pleach::Tone {
-    fn from(tone: Tone) -> Self {
-        match tone {
-            Tone::Auto => Self::Auto,
-            Tone::Dark => Self::Dark,
-            Tone::Light => Self::Light,
-        }
-    }
-}
-
-/// Whether a fit grows leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum Leaves {
-    /// If the goal looks more like trees with leaves than like bare ones; with --from auto only
-    Auto,
-    /// Always
-    On,
-    /// Never: the goal is a bare tree
-    Off,
-}
-
-impl From<Leaves> for pleach::Leaves {
-    fn from(leaves: Leaves) -> Self {
-        match leaves {
-            Leaves::Auto => Self::Auto,
-            Leaves::On => Self::On,
-            Leaves::Off => Self::Off,
-        }
-    }
-}
+/// Words of `--leaves`.
+pub(super) const LEAVES: &[Choice<Leaves>] = &[
+    (
+        "auto",
+        "If the goal looks more like trees with leaves than like bare ones; with --from auto only",
+        Leaves::Auto,
+    ),
+    ("on", "Always", Leaves::On),
+    ("off", "Never: the goal is a bare tree", Leaves::Off),
+];
 
 /// What `--view` says: a direction, or a further picture.
 #[derive(Clone, Debug)]
