@@ -269,7 +269,10 @@ impl FitOptions {
             );
         }
         if self.free_frame && self.views.is_empty() {
-            return error("free_frame", "is about further pictures, and there are none".to_owned());
+            return error(
+                "free_frame",
+                "is about further pictures, and there are none: `views` auto=FILE adds one".to_owned(),
+            );
         }
         Ok(())
     }
