@@ -193,6 +193,7 @@ fn a_full_disk_fails_a_goal_and_loses_none() {
 
 /// A shard whose process is killed is tried again.
 #[test]
+#[ignore = "nightly: nine fits"]
 #[cfg(unix)]
 fn gnu_parallel_tries_a_killed_shard_again() {
     const GOALS: usize = 4;

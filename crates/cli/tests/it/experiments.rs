@@ -33,6 +33,7 @@ fn treefit() {
 }
 
 #[test]
+#[ignore = "nightly: ten seconds and more"]
 fn needle() {
     check("needle", &["--repetitions", "2"]);
 }
@@ -49,6 +50,7 @@ fn stylised() {
 }
 
 #[test]
+#[ignore = "nightly: ten seconds and more"]
 fn families() {
     check("families", &["--repetitions", "1"]);
 }
@@ -69,6 +71,7 @@ fn lsystem_time() {
 }
 
 #[test]
+#[ignore = "nightly: ten seconds and more"]
 fn likeness() {
     check("likeness", &["--repetitions", "1"]);
 }

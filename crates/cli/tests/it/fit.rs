@@ -9,7 +9,7 @@ fn the_run_folder_holds_what_it_should() {
     // Another tree than the search begins with: that one could not be better.
     let _ = dir.run(["silhouette", "acer", "--seed", "3", "--size", "256", "-o", "goal.png"]).ok();
     let goal = "goal.png".to_owned();
-    let run = dir.run(small(&goal, "run", &["--evaluations", "300", "--json"]));
+    let run = dir.run(small(&goal, "run", &["--size", "64", "--evaluations", "300", "--json"]));
     let printed = run.json();
     let folder = dir.path("run");
     let summary: serde_json::Value = serde_json::from_slice(&read(&folder.join("summary.json"))).unwrap();
@@ -101,6 +101,7 @@ fn the_run_folder_holds_what_it_should() {
 }
 
 #[test]
+#[ignore = "nightly: ten whole fits; the library compares them too"]
 fn every_optimizer_is_the_same_on_any_number_of_threads() {
     let dir = Dir::new();
     let goal = target("acer.png");
@@ -123,7 +124,7 @@ fn the_first_guess_names_the_species_and_starts_the_fit() {
     let dir = Dir::new();
     // A tree of a seed that the fit does not use.
     let _ = dir.run(["silhouette", "small_pine", "--seed", "21", "--size", "128", "-o", "pine.png"]).ok();
-    let args = ["fit", "pine.png", "--size", "64", "--evaluations", "60", "--json"];
+    let args = ["fit", "pine.png", "--size", "132", "--evaluations", "60", "--individual", "off", "--json"];
     let run = |more: &[&str]| dir.run([&args[..], more].concat());
     let auto = run(&["--out", "auto"]);
     assert!(auto.stderr().contains("looks like small_pine"), "{}", auto.stderr());
@@ -220,8 +221,8 @@ fn several_views_are_fitted_and_others_held_out() {
         let args = ["silhouette", "hill_cherry", "--seed", "4", "--size", "96", "--view", view, "-o", file];
         let _ = dir.run(args).ok();
     }
-    let args = ["fit", "front.png", "--from", "hill_cherry", "--evaluations", "60", "--json"];
-    let run = |more: &[&str]| dir.run([&args[..], more].concat());
+    let args = ["fit", "front.png", "--from", "hill_cherry", "--size", "64", "--individual", "off"];
+    let run = |more: &[&str]| dir.run([&args[..], &["--evaluations", "60", "--json"], more].concat());
     let both = run(&["--out", "both", "--view", "90=side.png", "--holdout-view", "45=corner.png"]).json();
     assert_eq!((&both["views"][0]["file"], &both["views"][0]["azimuth"]), (&"side.png".into(), &90.0.into()));
     assert_eq!(both["holdout_views"][0]["file"], "corner.png");
@@ -250,7 +251,7 @@ fn views_from_somewhere_are_found() {
         let args = ["silhouette", "acer", "--seed", "1", "--size", "96", "--view", view, "-o", file];
         let _ = dir.run(args).ok();
     }
-    let args = ["fit", "front.png", "--from", "acer", "--seed", "2", "--json"];
+    let args = ["fit", "front.png", "--from", "acer", "--individual", "off", "--seed", "2", "--json"];
     let run = |more: &[&str]| dir.run([&args[..], more].concat());
     let fit = |out: &str, view: &str, threads: &str, evaluations: &str, more: &[&str]| {
         let args = ["--out", out, "--view", view, "--threads", threads, "--evaluations", evaluations];
@@ -275,7 +276,7 @@ fn views_from_somewhere_are_found() {
     assert!(!best.contains("azimuth"), "no parameter of the tree: {best}");
     // Without `--json` the azimuth is said, and what is known is not.
     let told = ["fit", "front.png", "--from", "acer", "--evaluations", "50", "--view", "auto=other.png"];
-    let told = dir.run([&told[..], &["--out", "told"]].concat()).ok();
+    let told = dir.run([&told[..], &["--size", "96", "--individual", "off", "--out", "told"]].concat()).ok();
     let line = told.lines().find(|line| line.starts_with("view other.png")).unwrap();
     assert!(line.contains(", from ") && line.ends_with('°'), "{line}");
 
@@ -324,7 +325,7 @@ fn a_time_budget_ends_a_fit_and_a_target_ends_it_sooner() {
     let timed = dir.run(small(&goal, "timed", &["--timeout", "1s", "--json"])).json();
     assert_eq!(timed["stopped_by"], "timeout");
     // The first guess takes longer than this, and what it found is tried.
-    let short = ["fit", &goal, "--out", "short", "--size", "64", "--timeout", "1ms", "--json"];
+    let short = ["fit", &goal, "--out", "short", "--size", "132", "--timeout", "1ms", "--json"];
     let short = dir.run(short).json();
     assert_eq!(short["stopped_by"], "timeout");
     assert!(short["evaluations"].as_u64().unwrap() > 0);

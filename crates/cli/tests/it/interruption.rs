@@ -89,6 +89,7 @@ fn live(dir: &Dir, args: &[&str], life: Duration) -> bool {
 /// Killed twenty times, before the first checkpoint, in the search and while files are written, and
 /// resumed on other numbers of threads: the end is that of a run that was left alone.
 #[test]
+#[ignore = "nightly: the fit is begun twenty times"]
 #[cfg(unix)]
 fn twenty_kills_change_no_bit() {
     let dir = Dir::new();
@@ -188,7 +189,7 @@ fn judging_can_be_interrupted() {
     let dir = Dir::new();
     let goal = target("quaking_aspen.png");
     let args = |out: &'static str| {
-        ["fit", &goal, "--out", out, "--size", "64", "--from", "black_tupelo", "--evaluations", "4"].to_vec()
+        ["fit", &goal, "--out", out, "--size", "132", "--from", "black_tupelo", "--evaluations", "4"].to_vec()
     };
     let mut stopped = spawn(&dir, &args("parts"));
     // With so few evaluations, the second checkpoint is the end of the search.

@@ -12,11 +12,11 @@ use std::time::{Duration, Instant};
 fn goals(dir: &Dir) {
     for (species, file) in [("acer", "a/tree.png"), ("palm", "b/tree.png"), ("acer", "acer.png")] {
         std::fs::create_dir_all(dir.path(file).parent().unwrap()).unwrap();
-        let _ = dir.run(["silhouette", species, "--seed", "3", "--size", "64", "-o", file]).ok();
+        let _ = dir.run(["silhouette", species, "--seed", "3", "--size", "132", "-o", file]).ok();
     }
 }
 
-const FIT: [&str; 8] = ["fit", "--size", "64", "--from", "acer", "--free", "crown", "--threads=2"];
+const FIT: [&str; 8] = ["fit", "--size", "132", "--from", "acer", "--free", "crown", "--threads=2"];
 
 fn fit<'a>(goal: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&FIT[..], &[goal], more].concat()
@@ -186,6 +186,7 @@ fn files_of_two_fits_never_stand_side_by_side() {
 
 /// Killed at any moment while a result is replaced: what is there is the old one or the new one.
 #[test]
+#[ignore = "nightly: the fit is begun sixteen times"]
 #[cfg(unix)]
 fn a_kill_while_a_result_is_replaced_loses_neither() {
     let dir = Dir::new();
