@@ -129,6 +129,12 @@ impl Bitmap {
         self.count_pairs(other, |a, b| a & b)
     }
 
+    /// Makes ink of what is ink in the other picture, which has the same size.
+    pub(crate) fn unite(&mut self, other: &Self) {
+        debug_assert_eq!((self.width, self.height), (other.width, other.height), "pictures of one size");
+        self.words.iter_mut().zip(&other.words).for_each(|(word, more)| *word |= more);
+    }
+
     fn count_pairs(&self, other: &Self, combine: impl Fn(u64, u64) -> u64) -> u64 {
         assert_eq!((self.width, self.height), (other.width, other.height), "pictures of one size");
         let pairs = self.words.iter().zip(&other.words);

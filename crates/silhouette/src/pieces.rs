@@ -2,9 +2,12 @@
 
 use crate::bitmap::Bitmap;
 use std::cmp::Reverse;
+use std::collections::VecDeque;
 
 /// Visits the pixels of the piece that holds `start`, and marks them in `seen`; diagonal neighbours
 /// belong together if `diagonal`.
+///
+/// Runs of a row wait in a queue, each once: in pictures of hundreds of megapixels, a stack of pixels took gigabytes.
 fn flood(
     inside: impl Fn(u32, u32) -> bool,
     start: (u32, u32),
@@ -12,18 +15,33 @@ fn flood(
     seen: &mut Bitmap,
     mut visit: impl FnMut(u32, u32),
 ) {
-    let mut stack = vec![start];
-    seen.set(start.0, start.1, true);
-    while let Some((x, y)) = stack.pop() {
-        visit(x, y);
-        for (dx, dy) in [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (-1, 1), (1, -1), (1, 1)]
-            .into_iter()
-            .take(if diagonal { 8 } else { 4 })
-        {
-            let (Some(x), Some(y)) = (x.checked_add_signed(dx), y.checked_add_signed(dy)) else { continue };
-            if x < seen.width() && y < seen.height() && !seen.get(x, y) && inside(x, y) {
-                seen.set(x, y, true);
-                stack.push((x, y));
+    let (width, height) = (seen.width(), seen.height());
+    let reach = u32::from(diagonal);
+    let mut run = |x: u32, y: u32, seen: &mut Bitmap| {
+        let (mut first, mut end) = (x, x + 1);
+        while first > 0 && !seen.get(first - 1, y) && inside(first - 1, y) {
+            first -= 1;
+        }
+        while end < width && !seen.get(end, y) && inside(end, y) {
+            end += 1;
+        }
+        for x in first..end {
+            seen.set(x, y, true);
+            visit(x, y);
+        }
+        (first, end, y)
+    };
+    let mut runs = VecDeque::from([run(start.0, start.1, seen)]);
+    while let Some((first, end, y)) = runs.pop_front() {
+        for row in [y.checked_sub(1), (y + 1 < height).then_some(y + 1)].into_iter().flatten() {
+            let mut x = first.saturating_sub(reach);
+            while x < (end + reach).min(width) {
+                if !seen.get(x, row) && inside(x, row) {
+                    let found = run(x, row, seen);
+                    runs.push_back(found);
+                    x = found.1;
+                }
+                x += 1;
             }
         }
     }
@@ -117,6 +135,20 @@ pub(crate) fn piece(ink: &Bitmap, grounds: &Bitmap, start: Option<(u32, u32)>) -
     let (mut seen, mut out) = (size(), size());
     flood(|x, y| grounds.get(x, y), start, true, &mut seen, |x, y| out.set(x, y, ink.get(x, y)));
     Some(out)
+}
+
+/// The ink of all pieces of `grounds` that hold a pixel of `starts`.
+pub(crate) fn pieces_at(ink: &Bitmap, grounds: &Bitmap, starts: &Bitmap) -> Bitmap {
+    let size = || Bitmap::new(ink.width(), ink.height());
+    let (mut seen, mut out) = (size(), size());
+    for y in 0..ink.height() {
+        for x in starts.ink_in_row(y) {
+            if grounds.get(x, y) && !seen.get(x, y) {
+                flood(|x, y| grounds.get(x, y), (x, y), true, &mut seen, |x, y| out.set(x, y, ink.get(x, y)));
+            }
+        }
+    }
+    out
 }
 
 /// Ink of the pieces of `grounds`, most first.

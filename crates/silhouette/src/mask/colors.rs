@@ -74,7 +74,7 @@ pub(super) fn foreground(photo: &Photo) -> Option<Foreground> {
     Some(Foreground { ink, horizon: None, segmentation: Segmentation::Colors, firm, loose })
 }
 
-fn by_color(tree: &Mixture, rest: &Mixture, color: Oklab) -> f64 {
+fn by_color(tree: &Mixture<3>, rest: &Mixture<3>, color: Oklab) -> f64 {
     (tree.log_likelihood(color) - rest.log_likelihood(color)).clamp(-MAX_COLOR, MAX_COLOR)
 }
 
@@ -143,7 +143,7 @@ impl Small {
     }
 
     /// The colours of the tree, those of the rest, and how much what is around a pixel is tree, from −1 to 1.
-    fn separate(&self, frame: &PhotoFrame<'_>, sky: &Sky) -> Option<(Mixture, Mixture, Vec<f64>)> {
+    fn separate(&self, frame: &PhotoFrame<'_>, sky: &Sky) -> Option<(Mixture<3>, Mixture<3>, Vec<f64>)> {
         let edge = (frame.width * self.width).div_ceil(frame.photo.width()).max(2);
         let (width, height) = (self.width, self.height);
         let is_edge = |i: usize| {

@@ -20,7 +20,12 @@ pub(super) struct Evidence {
     foot: f64,
     /// Part of what stood out that was dropped.
     dropped: f64,
+    /// Whether it reaches both the left and the right edge: a wire, a fence, a hill, or a tree that is cut off twice.
+    spans: bool,
 }
+
+/// Of what reaches from edge to edge, this part of the confidence is left.
+const SPANNING: f64 = 0.65;
 
 /// Part of the width that a trunk, or a low crown, may cover.
 const TRUNK: f64 = 0.35;
@@ -37,8 +42,9 @@ impl Evidence {
         let (width, height) = (mask.width(), mask.height());
         let part = |a: u64, b: u64| if b == 0 { 0.0 } else { a as f64 / b as f64 };
         let side = |x| (0..height).filter(|&y| mask.get(x, y)).count();
+        let (left, right) = (side(0), side(width - 1));
         let row = |y| mask.ink_in_row(y).count();
-        let edge = (side(0) + side(width - 1) + row(0)) as f64 / f64::from(2 * height + width);
+        let edge = (left + right + row(0)) as f64 / f64::from(2 * height + width);
         let rim = foreground.horizon.map_or(0, |horizon| {
             let above = |x| (horizon.at(x, width) - ABOVE * f64::from(height)).max(0.0) as u32;
             (0..width).filter(|&x| mask.get(x, above(x))).count()
@@ -50,19 +56,21 @@ impl Evidence {
             edge,
             foot: ((foot - TRUNK) / (1.0 - TRUNK)).max(0.0),
             dropped: part(standing_ink.saturating_sub(mask.intersection(&foreground.ink)), standing_ink),
+            spans: left > 0 && right > 0,
         }
     }
 
     /// The same of a tree that somebody cut out: bushes are, too, and their feet are no hills.
     pub(super) const fn of_a_cutout(self) -> Self {
-        Self { foot: 0.0, dropped: 0.0, ..self }
+        Self { foot: 0.0, dropped: 0.0, spans: false, ..self }
     }
 
     /// All of it in one number, in 0..=1.
     pub(super) fn confidence(self) -> f64 {
         let against = 1.0 - (4.0 * self.edge).min(1.0);
         let narrow = 1.0 - (2.0 * self.foot).min(1.0);
-        (self.firm * against * narrow * (1.0 - self.dropped)).clamp(0.0, 1.0)
+        let within = if self.spans { SPANNING } else { 1.0 };
+        (self.firm * against * narrow * within * (1.0 - self.dropped)).clamp(0.0, 1.0)
     }
 }
 

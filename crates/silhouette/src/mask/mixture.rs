@@ -4,7 +4,6 @@
 //! weights and covariances, and a colour is as likely as its likeliest component makes it, as in Rother,
 //! Kolmogorov and Blake, "GrabCut" (2004), section 3.
 
-use super::oklab::Oklab;
 use pleach_plant::math;
 
 /// Colours that a mixture is fitted to; more do not change it.
@@ -16,51 +15,54 @@ const MIN_CLUSTER: usize = 8;
 /// Least spread of a component, in Oklab: what the eye can just tell.
 const MIN_SPREAD: f64 = 0.02;
 
+/// A colour, and perhaps where it is seen, in the units of a colour.
+pub(super) type Feature<const N: usize> = [f32; N];
+
 /// A mixture of normal distributions of colours.
-pub(super) struct Mixture {
-    components: Vec<Component>,
+pub(super) struct Mixture<const N: usize> {
+    components: Vec<Component<N>>,
 }
 
-struct Component {
-    mean: [f64; 3],
-    /// Upper triangle of the inverse of the covariance: the diagonal, then 01, 02 and 12.
-    inverse: [f64; 6],
+struct Component<const N: usize> {
+    mean: [f64; N],
+    /// Lower triangle of the inverse of the covariance's Cholesky factor.
+    whiten: [[f64; N]; N],
     /// Logarithm of the weight over the root of the covariance's determinant.
     log_weight: f64,
 }
 
-impl Mixture {
+impl<const N: usize> Mixture<N> {
     /// The mixture of up to `components` distributions for some colours; `None` if there are too few.
-    pub(super) fn fit(colors: &[Oklab], components: usize) -> Option<Self> {
+    pub(super) fn fit(colors: &[Feature<N>], components: usize) -> Option<Self> {
         let stride = colors.len().div_ceil(MAX_SAMPLES).max(1);
-        let colors: Vec<[f64; 3]> = colors.iter().step_by(stride).map(|c| c.map(f64::from)).collect();
+        let colors: Vec<[f64; N]> = colors.iter().step_by(stride).map(|c| c.map(f64::from)).collect();
         let clusters = clusters(&colors, components)?;
-        let fitted = |cluster: &Vec<[f64; 3]>| {
+        let fitted = |cluster: &Vec<[f64; N]>| {
             let part = cluster.len() as f64 / colors.len() as f64;
             (cluster.len() >= MIN_CLUSTER).then(|| Component::fit(cluster, part))
         };
-        let components: Vec<Component> = clusters.iter().filter_map(fitted).collect();
+        let components: Vec<Component<N>> = clusters.iter().filter_map(fitted).collect();
         (!components.is_empty()).then_some(Self { components })
     }
 
     /// Logarithm of how likely a colour is, up to a constant.
-    pub(super) fn log_likelihood(&self, color: Oklab) -> f64 {
+    pub(super) fn log_likelihood(&self, color: Feature<N>) -> f64 {
         let color = color.map(f64::from);
         self.components.iter().map(|c| c.log_likelihood(color)).fold(f64::NEG_INFINITY, f64::max)
     }
 }
 
 /// The colours in clusters, the first guess evenly over their lightness.
-fn clusters(colors: &[[f64; 3]], count: usize) -> Option<Vec<Vec<[f64; 3]>>> {
+fn clusters<const N: usize>(colors: &[[f64; N]], count: usize) -> Option<Vec<Vec<[f64; N]>>> {
     let mut sorted = colors.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let at = |i: usize| sorted.get((2 * i + 1) * sorted.len() / (2 * count)).copied();
-    let mut centers: Vec<[f64; 3]> = (0..count).map(at).collect::<Option<_>>()?;
+    let mut centers: Vec<[f64; N]> = (0..count).map(at).collect::<Option<_>>()?;
     let mut clusters = Vec::new();
     for _ in 0..ROUNDS {
         clusters = vec![Vec::new(); count];
         for &color in colors {
-            let far = |center: &[f64; 3]| (0..3).map(|i| math::powi(color[i] - center[i], 2)).sum::<f64>();
+            let far = |center: &[f64; N]| (0..N).map(|i| math::powi(color[i] - center[i], 2)).sum::<f64>();
             let nearest = (0..count).min_by(|&a, &b| far(&centers[a]).total_cmp(&far(&centers[b])))?;
             clusters[nearest].push(color);
         }
@@ -71,39 +73,52 @@ fn clusters(colors: &[[f64; 3]], count: usize) -> Option<Vec<Vec<[f64; 3]>>> {
     Some(clusters)
 }
 
-fn mean(colors: &[[f64; 3]]) -> [f64; 3] {
+fn mean<const N: usize>(colors: &[[f64; N]]) -> [f64; N] {
     std::array::from_fn(|i| colors.iter().map(|c| c[i]).sum::<f64>() / colors.len() as f64)
 }
 
-impl Component {
-    fn fit(cluster: &[[f64; 3]], part: f64) -> Self {
+impl<const N: usize> Component<N> {
+    fn fit(cluster: &[[f64; N]], part: f64) -> Self {
         let mean = mean(cluster);
         let moment = |i: usize, j: usize| {
             let sum: f64 = cluster.iter().map(|c| (c[i] - mean[i]) * (c[j] - mean[j])).sum();
             sum / cluster.len() as f64 + if i == j { MIN_SPREAD * MIN_SPREAD } else { 0.0 }
         };
-        let [a, b, c] = [0, 1, 2].map(|i| moment(i, i));
-        let (d, e, f) = (moment(0, 1), moment(0, 2), moment(1, 2));
-        let determinant = a * (b * c - f * f) - d * (d * c - f * e) + e * (d * f - b * e);
-        let inverse =
-            [b * c - f * f, a * c - e * e, a * b - d * d, e * f - c * d, d * f - b * e, d * e - a * f];
-        Self {
-            mean,
-            inverse: inverse.map(|v| v / determinant),
-            log_weight: math::ln(part) - 0.5 * math::ln(determinant),
+        // The Cholesky factor of the covariance, row by row, and its inverse by substitution.
+        let mut factor = [[0.0; N]; N];
+        let mut whiten = [[0.0; N]; N];
+        let mut log_weight = math::ln(part);
+        for i in 0..N {
+            for j in 0..=i {
+                let dot: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
+                let left = moment(i, j) - dot;
+                factor[i][j] = if i == j { left.max(1e-12).sqrt() } else { left / factor[j][j] };
+            }
+            #[expect(clippy::needless_range_loop, reason = "rows and columns of two matrices")]
+            for j in 0..i {
+                let dot: f64 = (j..i).map(|k| factor[i][k] * whiten[k][j]).sum();
+                whiten[i][j] = -dot / factor[i][i];
+            }
+            whiten[i][i] = 1.0 / factor[i][i];
+            log_weight -= math::ln(factor[i][i]);
         }
+        Self { mean, whiten, log_weight }
     }
 
-    fn log_likelihood(&self, color: [f64; 3]) -> f64 {
-        let [x, y, z]: [f64; 3] = std::array::from_fn(|i| color[i] - self.mean[i]);
-        let [xx, yy, zz, xy, xz, yz] = self.inverse;
-        let squares = xx * x * x + yy * y * y + zz * z * z;
-        self.log_weight - 0.5 * squares - (xy * x * y + xz * x * z + yz * y * z)
+    fn log_likelihood(&self, color: [f64; N]) -> f64 {
+        let away: [f64; N] = std::array::from_fn(|i| color[i] - self.mean[i]);
+        let mut squares = 0.0;
+        for i in 0..N {
+            let along: f64 = self.whiten[i][..=i].iter().zip(away).map(|(w, a)| w * a).sum();
+            squares += along * along;
+        }
+        self.log_weight - 0.5 * squares
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::oklab::Oklab;
     use super::*;
 
     #[test]
@@ -124,7 +139,7 @@ mod tests {
             |color: &&Oklab| mixtures[0].log_likelihood(**color) > mixtures[1].log_likelihood(**color);
         assert_eq!(leaves.iter().filter(is_leaf).count(), 400);
         assert_eq!(sky.iter().filter(is_leaf).count(), 0);
-        assert!(Mixture::fit(&leaves[..5], 3).is_none() && Mixture::fit(&[], 3).is_none());
+        assert!(Mixture::fit(&leaves[..5], 3).is_none() && Mixture::<3>::fit(&[], 3).is_none());
     }
 
     #[test]

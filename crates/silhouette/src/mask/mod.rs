@@ -17,21 +17,34 @@
 //! from them in colour, and says that it is doubtful.
 
 mod backdrop;
+mod clear_sky;
 mod colors;
 mod confidence;
+mod cut;
 mod error;
+mod guess;
 mod horizon;
+mod max_flow;
 mod mixture;
 mod oklab;
 mod photo;
+mod pixel_box;
 mod prepare;
+mod reduced;
+mod refine;
+mod region;
+#[cfg(test)]
+mod region_tests;
 mod score;
 #[cfg(test)]
 mod tests;
+mod trunk;
 
 pub use error::MaskError;
 pub use horizon::Horizon;
 pub use photo::Photo;
+pub use pixel_box::PixelBox;
+pub use region::Stroke;
 
 use crate::bitmap::Bitmap;
 use crate::goal::{GoalWarning, border, shape};
@@ -39,7 +52,10 @@ use crate::picture::{MISSED, Picture};
 use crate::pieces;
 pub use crate::touches::Touches;
 use confidence::Evidence;
+use cut::{Cut, Seeds};
+use oklab::Converter;
 use prepare::Prepared;
+use region::Shown;
 use score::{Foreground, foregrounds};
 
 /// What is behind the tree.
@@ -65,7 +81,7 @@ pub enum AlphaUse {
 }
 
 /// How a mask is made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MaskOptions {
     /// What is behind the tree.
     pub background: Background,
@@ -76,6 +92,13 @@ pub struct MaskOptions {
     pub seed_point: Option<(u32, u32)>,
     /// Most pixels of a hole that is filled; 1 of 100,000 of the picture's if it is not given.
     pub fill_holes: Option<u64>,
+    /// A box that all of the tree is in, as a person drags it. What is outside is background, and tree and
+    /// background inside are separated by a graph cut; `background` does not count then.
+    pub region: Option<PixelBox>,
+    /// What is tree, for the graph cut. Without a region, all of the picture is looked at.
+    pub include: Vec<Stroke>,
+    /// What is not tree, for the graph cut. What is both included and excluded is excluded.
+    pub exclude: Vec<Stroke>,
 }
 
 /// How tree and background were separated.
@@ -94,6 +117,11 @@ pub enum Segmentation {
     },
     /// The tree is what is in the middle and has other colours than the picture's edges.
     Colors,
+    /// The tree is what a graph cut finds in a box.
+    Cut {
+        /// The box, dragged by a person or guessed.
+        region: PixelBox,
+    },
 }
 
 /// A tree in a photograph.
@@ -112,7 +140,8 @@ pub struct Mask {
     /// How likely the mask is a good one, in 0..=1, to sort masks by: those below 0.45 want a look.
     ///
     /// It falls with what would be tree or not if the least distance from the background were a little
-    /// other, with what else stood out, with how much of the picture's edge is tree, and with a foot that
+    /// other, with what else stood out, with how much of the picture's edge is tree, if that is both
+    /// the left and the right one, and with a foot that
     /// is wide as a hill's. Of an alpha channel, what counts as the least distance is half opaque, and a foot
     /// may be as wide as it likes.
     pub confidence: f64,
@@ -157,10 +186,12 @@ impl Mask {
         {
             return Err(MaskError::SeedOutside { x, y, width, height });
         }
+        let shown = Shown::new(photo, options.region, &options.include, &options.exclude)?;
         let prepared = Prepared::new(photo, options.alpha);
-        let mut made = match prepared.foreground {
-            Some(foreground) => Self::from_foreground(foreground)?,
-            None => Self::most_confident(&prepared.photo, options)?,
+        let mut made = match (prepared.foreground, &shown) {
+            (Some(foreground), _) => Self::from_foreground(foreground)?,
+            (None, Some(shown)) => Self::from_cut(&prepared.photo, shown, options)?,
+            (None, None) => Self::most_confident(&prepared.photo, options)?,
         };
         let said = said(&made.bitmap, photo, prepared.warnings, made.confidence);
         made.warnings = said;
@@ -205,18 +236,55 @@ impl Mask {
             best = best.filter(|mask| mask.confidence >= DOUBTFUL);
         }
         if options.background == Background::Auto && best.as_ref().is_none_or(|b| b.confidence < DOUBTFUL) {
-            let found = colors::foreground(photo);
-            let mask = found.and_then(|foreground| Self::by_color(&foreground, options).ok());
-            let least = best.as_ref().map_or(LEAST, |best| best.confidence);
-            if let Some(mask) = mask.filter(|mask| mask.confidence > least) {
-                best = Some(Self { confidence: BY_COLORS * mask.confidence, ..mask });
+            let colors = colors::foreground(photo).and_then(|found| Self::by_color(&found, options).ok());
+            // A tree that nothing else sees is not made up of an empty lawn.
+            let colors = colors.filter(|mask| mask.confidence > LEAST);
+            let is_seen = best.is_some() || colors.is_some();
+            let guess = best.iter().chain(&colors).find_map(|mask| guess::around(&mask.bitmap, photo));
+            let by_colors = colors.as_ref().map_or(0.0, |mask| mask.confidence);
+            // Each with what it is chosen by.
+            let mut all: Vec<(f64, Self)> = best.into_iter().map(|mask| (mask.confidence, mask)).collect();
+            for region in [guess::middle(photo)].into_iter().chain(guess).filter(|_| is_seen) {
+                if let Ok(mask) = Self::from_seeds(photo, &Seeds::guessed(region, photo), options) {
+                    let (score, confidence) = guess::score(mask.confidence, &mask.bitmap, &region, by_colors);
+                    all.push((score, Self { confidence, ..mask }));
+                }
             }
+            let confidence = BY_COLORS * by_colors;
+            all.extend(colors.map(|mask| (confidence, Self { confidence, ..mask })));
+            best = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, mask)| mask);
         }
         let none = MaskError::NoTree { why: "nothing stands out from the background" };
         best.ok_or_else(|| failed.unwrap_or(none))
     }
 
+    /// The tree in a box or under strokes.
+    ///
+    /// Evidence says 0.94 of masks of which nine in ten have an IoU of 0.9 with the truth (the example `composites`,
+    /// pictures 0 to 37): its square is what can be believed.
+    fn from_cut(photo: &Photo, shown: &Shown, options: &MaskOptions) -> Result<Self, MaskError> {
+        let made = Self::from_seeds(photo, &Seeds::shown(shown, photo), options)?;
+        Ok(Self { confidence: made.confidence * made.confidence, ..made })
+    }
+
+    fn from_seeds(photo: &Photo, seeds: &Seeds<'_>, options: &MaskOptions) -> Result<Self, MaskError> {
+        let none = MaskError::NoTree { why: "nothing in the box differs from what is around it" };
+        let converter = Converter::new();
+        let cut = Cut::new(photo, &converter, seeds).ok_or(none)?;
+        let foreground = refine::refined(photo, &converter, &cut, seeds);
+        Self::with_pieces(&foreground, options, seeds.include)
+    }
+
     fn by_color(foreground: &Foreground, options: &MaskOptions) -> Result<Self, MaskError> {
+        Self::with_pieces(foreground, options, None)
+    }
+
+    /// The largest piece, and all that were marked.
+    fn with_pieces(
+        foreground: &Foreground,
+        options: &MaskOptions,
+        marked: Option<&Bitmap>,
+    ) -> Result<Self, MaskError> {
         let (width, height) = (foreground.ink.width(), foreground.ink.height());
         let ink = pieces::without_specks(&foreground.ink, foreground.ink.area() / SPECK);
         let near = (NEAR * f64::from(width.min(height)) / 2.0).round() as u32;
@@ -227,6 +295,13 @@ impl Mask {
             (None, Some((x, y))) => return Err(MaskError::SeedOnBackground { x, y }),
             (None, None) => return Err(MaskError::NoTree { why: "nothing stands out from the background" }),
         };
+        if let Some(marked) = marked {
+            bitmap.unite(&pieces::pieces_at(
+                &foreground.ink,
+                &pieces::widened(&foreground.ink, near),
+                marked,
+            ));
+        }
         let dropped = foreground.ink.ink() - bitmap.ink();
         check(&bitmap)?;
         let largest = options.fill_holes.unwrap_or(bitmap.area() / HOLE);
