@@ -8,6 +8,7 @@ mod commands;
 mod help;
 mod input;
 mod memory;
+mod segmenter;
 mod skeleton;
 
 use pleach_console::{files, interrupted, output, regular, signals, text};

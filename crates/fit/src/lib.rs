@@ -71,8 +71,8 @@ pub use error::{FitError, ObserverError};
 pub use evaluator::{EvalWorkspace, Evaluate, Evaluator, Silhouette, SilhouetteGoal, SilhouetteMemory};
 pub use goal::{Asked, Deadline, Fitted, GoalSettings, Guessing, Stepwise, fit_goal, fit_goal_with};
 pub use guess::{
-    Candidate, Drawings, DrawingsError, FirstGuess, Guess, GuessLibrary, GuessSettings, RaceSettings,
-    Reference, References, Runner, first_guess,
+    Candidate, Contradictions, Drawings, DrawingsError, FirstGuess, Guess, GuessLibrary, GuessSettings,
+    RaceSettings, Reference, References, Runner, first_guess,
 };
 pub use individual::{FoundIndividual, IndividualProgress, IndividualSettings, individuals};
 pub use method::{

@@ -124,13 +124,13 @@ pub use at_full_size::place_at_full_size;
 
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
-    Accuracy, Assessment, AssessmentSettings, Budget, COLUMNS, Candidate, Control, CostModel, Deadline,
-    Drawings, DrawingsError, EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem, FitSettings, Fitted,
-    FoundIndividual, Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary, GuessSettings, Guessing,
-    Identifiability, IndividualProgress, IndividualSettings, Objective, Observer, ObserverError, Optimizer,
-    Outcome, Placement, PreparedSearch, Profile, Progress, Reserve, Row, RulesSettings, Score, Scored,
-    SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed, Unknown, Verdict, evaluator, fit, fit_goal,
-    fit_goal_with, individuals,
+    Accuracy, Assessment, AssessmentSettings, Budget, COLUMNS, Candidate, Contradictions, Control, CostModel,
+    Deadline, Drawings, DrawingsError, EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem,
+    FitSettings, Fitted, FoundIndividual, Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary,
+    GuessSettings, Guessing, Identifiability, IndividualProgress, IndividualSettings, Objective, Observer,
+    ObserverError, Optimizer, Outcome, Placement, PreparedSearch, Profile, Progress, Reserve, Row,
+    RulesSettings, Score, Scored, SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed, Unknown,
+    Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
 };
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
@@ -139,14 +139,18 @@ pub use pleach_fit::{
 };
 
 #[cfg(feature = "fit")]
+pub use pleach_reading::{Colors, Crown, Difference, Foot, Reader, Reading, ReadingError, annotate};
+
+#[cfg(feature = "fit")]
 mod picture;
 #[cfg(feature = "fit")]
 pub use picture::{
-    Direction, Effort, FitDrawing, FitOptions, FitReport, FitSource, FitStart, FittedTree, FurtherPicture,
-    FurtherView, GoalPair, IdentifiabilityCounts, IndividualReport, KnownFrame, Leaves, LooksLike, MaskFrom,
-    ParameterReport, PictureError, PictureSource, PrepareError, Prepared, ReportError, RulesReport,
-    SearchReport, SettingError, SideTree, SidesReport, Spent, StartFrom, TIME_KEYS, Tone, ViewReport,
-    VolumeFrom, best_of_each_family, fit_picture, optimizer_with, parse_duration, settings_of,
+    AppearanceFrom, Direction, Effort, FitDrawing, FitOptions, FitReport, FitSource, FitStart, FittedTree,
+    FurtherPicture, FurtherView, GoalPair, IdentifiabilityCounts, IndividualReport, KnownFrame, Leaves,
+    LooksLike, MaskFrom, MaskHints, ParameterReport, PictureError, PictureReading, PictureSource,
+    PrepareError, Prepared, Readings, ReportError, RulesReport, SearchReport, SettingError, SideTree,
+    SidesReport, Spent, StartFrom, TIME_KEYS, Tone, ViewReport, VolumeFrom, best_of_each_family, fit_picture,
+    optimizer_with, parse_duration, read_picture, settings_of,
 };
 
 #[cfg(feature = "fit")]

@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 /// How often Python is asked whether it was interrupted.
 const LOOK: Duration = Duration::from_millis(50);
 
-fn of_prepare(error: PrepareError) -> PyErr {
+pub(crate) fn of_prepare(error: PrepareError) -> PyErr {
     match error {
         PrepareError::Goal(error) => of_goal(error),
         PrepareError::Mask { ref source, .. } => GoalError::new_err(format!("{error}: {source}")),

@@ -14,6 +14,7 @@ mod json;
 mod params;
 mod pool;
 mod problem;
+mod reading;
 mod score;
 mod seed;
 mod species;
@@ -35,6 +36,8 @@ mod native {
     use crate::fit::fit;
     #[pymodule_export]
     use crate::problem::NativeProblem;
+    #[pymodule_export]
+    use crate::reading::read;
     #[pymodule_export]
     use crate::score::{mask, score};
     #[pymodule_export]

@@ -5,7 +5,7 @@ use crate::error::of_goal;
 use crate::goal::Source;
 use crate::{arrays, json, pool};
 use numpy::PyArray2;
-use pleach::{Bitmap, Mask, MaskOptions, Photo, ScoreCard};
+use pleach::{Bitmap, Mask, MaskHints, MaskOptions, Photo, ScoreCard};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -41,13 +41,16 @@ pub(crate) fn mask<'py>(
     py: Python<'py>,
     photo: &Bound<'py, PyAny>,
     seed_point: Option<(u32, u32)>,
+    hints: &str,
 ) -> PyResult<(Bound<'py, PyArray2<bool>>, Bound<'py, PyDict>)> {
     let Source::Picture(source) = Source::read(photo)? else {
         return Err(PyTypeError::new_err("an array of bool is a mask already; a photograph is uint8"));
     };
     let options = MaskOptions { seed_point, ..MaskOptions::default() };
+    let hints: MaskHints = serde_json::from_str(hints).map_err(of_goal)?;
     let found = pool::on(py, None, || {
         let photo = Photo::from_encoded(&source).map_err(|error| error.to_string())?;
+        let options = hints.over(options, &photo, &source.into()).map_err(|error| error.to_string())?;
         Mask::from_photo(&photo, &options).map_err(|error| error.to_string())
     })?
     .map_err(of_goal)?;

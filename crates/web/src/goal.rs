@@ -2,7 +2,9 @@
 
 use crate::error::thrown;
 use crate::tree::ink;
-use pleach::{Bitmap, Encoded, Goal as Read, GoalOptions, GoalWarning, Mask, MaskOptions, Photo, ScoreCard};
+use pleach::{
+    Bitmap, Encoded, Goal as Read, GoalOptions, GoalWarning, Mask, MaskHints, MaskOptions, Photo, ScoreCard,
+};
 use serde_json::json;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -61,10 +63,14 @@ impl Goal {
 impl Goal {
     /// Reads a PNG, JPEG, WebP or TIFF file. With `mask` `auto` what looks like a photograph is masked, with `photo`
     /// whatever it is, and with `off` nothing is: then it is split by brightness.
-    pub fn read(name: &str, bytes: Vec<u8>, mask: &str) -> Result<Self, JsError> {
+    ///
+    /// `hints`, JSON, show the tree in a photograph: see [`MaskHints`]. Where they show anything, it is one.
+    pub fn read(name: &str, bytes: Vec<u8>, mask: &str, hints: Option<String>) -> Result<Self, JsError> {
+        let hints: MaskHints = serde_json::from_str(hints.as_deref().unwrap_or("{}")).map_err(thrown)?;
         let source = Encoded::new(name, bytes);
         let by_tone = Read::from_encoded(&source, &GoalOptions::default());
         let is_photo = match (mask, &by_tone) {
+            _ if !hints.is_empty() => true,
             ("photo", _) => true,
             ("off", _) | ("auto", Err(_)) => false,
             ("auto", Ok(goal)) => goal.warnings.contains(&GoalWarning::Photograph),
@@ -72,7 +78,9 @@ impl Goal {
         };
         if is_photo {
             let photo = Photo::from_encoded(&source).map_err(thrown)?;
-            let found = Mask::from_photo(&photo, &MaskOptions::default()).map_err(thrown)?;
+            let options =
+                hints.over(MaskOptions::default(), &photo, &source.clone().into()).map_err(thrown)?;
+            let found = Mask::from_photo(&photo, &options).map_err(thrown)?;
             let full = Read::from_ink(found.bitmap.clone(), &GoalOptions::default()).map_err(thrown)?;
             return Ok(Self {
                 name: name.to_owned(),

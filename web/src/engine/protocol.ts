@@ -112,6 +112,12 @@ export interface GoalInfo {
 /** How a picture becomes a mask: as it looks, as a photograph, or by brightness. */
 export type MaskWay = "auto" | "photo" | "off";
 
+/** What is shown of the tree in a photograph, in its pixels: as in the options of a fit. */
+export interface MaskHints {
+  /** First column, first row, columns, rows. */
+  box?: [number, number, number, number];
+}
+
 export interface GoalData {
   info: GoalInfo;
   ink: Uint8Array<ArrayBuffer>;
@@ -192,6 +198,8 @@ export interface FitReport extends Card {
   fresh_seeds: { count: number; likeness: Spread; iou: Spread } | null;
   individual: (Card & { stems: number }) | null;
   references: References | null;
+  /** In what the tree differs from the goal, the largest difference first. */
+  readings: { differences: { measure: string; size: number; words: string }[] };
   parameters: { slot: string; value: number; seen: Seen }[];
 }
 export interface FitResult {
@@ -262,7 +270,10 @@ export interface Ops {
     in: { spec: Spec; seed: number; format: MeshFormat; stem: string; options: ExportOptions };
     out: NamedFile[];
   };
-  goalRead: { in: { name: string; bytes: Uint8Array; mask: MaskWay }; out: GoalData };
+  goalRead: {
+    in: { name: string; bytes: Uint8Array; mask: MaskWay; hints: MaskHints };
+    out: GoalData;
+  };
   goalCheck: { in: GoalPixels; out: GoalInfo };
   mapPlane: { in: Layout; out: Plane };
   /** "bare" grows no leaves, "coarse" draws few of them. */

@@ -15,8 +15,8 @@ export function makeGoal(pixels: GoalPixels): Goal {
 }
 
 export const goalHandlers: Handlers<"goalRead" | "goalCheck"> = {
-  goalRead({ name, bytes, mask }) {
-    const goal = Goal.read(name, bytes, mask);
+  goalRead({ name, bytes, mask, hints }) {
+    const goal = Goal.read(name, bytes, mask, JSON.stringify(hints));
     const out = { info: info(goal), ink: goal.pixels().slice(), photo: goal.photo().slice() };
     goal.free();
     return out;

@@ -42,6 +42,11 @@ pub(super) fn means(mask: &Mask) -> String {
              {} other pixels dropped, {} in small holes filled",
             mask.dropped, mask.filled
         ),
+        Segmentation::Cut { region } => format!(
+            "the tree is what a graph cut finds in the box of {} × {} pixels at {},{}\n\
+             {} other pixels dropped, {} in small holes filled",
+            region.width, region.height, region.x, region.y, mask.dropped, mask.filled
+        ),
         Segmentation::Color { threshold, horizon } => {
             let behind = horizon.map_or_else(
                 || "one background".to_owned(),

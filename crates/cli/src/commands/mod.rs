@@ -11,11 +11,13 @@ mod format;
 mod gallery;
 mod grammar;
 mod grow;
+mod hints;
 mod landmarks;
 mod man;
 mod map;
 mod mask;
 mod params;
+mod read;
 mod render;
 mod score;
 mod silhouette;
@@ -50,6 +52,7 @@ enum Command {
     Score(score::Score),
     Map(map::Map),
     Mask(mask::MaskCommand),
+    Read(read::Read),
     Blend(Box<blend::BlendCommand>),
     Species(species::SpeciesCommand),
     Params(params::Params),
@@ -89,6 +92,7 @@ impl Arguments {
             Command::Silhouette(command) => command.run(),
             Command::Map(command) => command.run(),
             Command::Mask(command) => command.run(),
+            Command::Read(command) => command.run(),
             Command::Blend(command) => command.run(),
             Command::Species(command) => command.run(),
             Command::Params(command) => command.run(),

@@ -24,13 +24,18 @@ fn the_command_line_has_no_faults_of_its_own() {
     Arguments::laid_out().debug_assert();
 }
 
+/// As a shell splits it, or at its spaces where it is more than a shell's line.
+fn words_of(command: &str) -> Vec<String> {
+    shell_words::split(command).unwrap_or_else(|_| command.split_whitespace().map(str::to_owned).collect())
+}
+
 #[test]
 fn every_example_is_understood() {
     let examples = examples(&Arguments::laid_out());
     assert!(examples.len() > 50, "{examples:#?}");
     // A pipe joins two commands.
     for example in examples.iter().flat_map(|example| example.split(" | ")) {
-        let words = example.split_whitespace().map(|word| word.trim_matches('\''));
+        let words = words_of(example);
         let matches = Arguments::laid_out().try_get_matches_from(words);
         let read = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
         assert!(read.is_ok(), "{example}\n{}", read.unwrap_err());
@@ -77,7 +82,7 @@ fn every_command_of_the_pages_is_understood() {
     let (mut count, mut wrong) = (0, Vec::new());
     for page in pages {
         for (command, named) in commands_of(&std::fs::read_to_string(&page).unwrap()) {
-            let words = command.split_whitespace().map(|word| word.trim_matches(['\'', '"']));
+            let words = words_of(&command);
             let matches = Arguments::laid_out().try_get_matches_from(words);
             let read = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
             count += 1;

@@ -54,6 +54,8 @@ fn the_run_folder_holds_what_it_should() {
         "history.csv",
         "overlay.png",
         "parameters.csv",
+        "reading.json",
+        "reading.png",
         "render.png",
         "search-state",
         "summary.json",

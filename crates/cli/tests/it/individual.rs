@@ -86,7 +86,8 @@ fn trees_of_other_families_have_one_too() {
     for species in ["coffey_winter_oak", "stylised_oak"] {
         let goal = format!("{species}.png");
         let _ = dir.run(["silhouette", species, "--seed", "7", "-o", &goal, "--size", "132"]).ok();
-        let args = ["fit", &goal, "--out", species, "--size", "132", "--from", species, "--evaluations", "20"];
+        let args =
+            ["fit", &goal, "--out", species, "--size", "132", "--from", species, "--evaluations", "20"];
         let _ = dir.run([&args[..], &["--individual", "48trees"]].concat()).ok();
         let summary: serde_json::Value =
             serde_json::from_slice(&read(&dir.path(species).join("summary.json"))).unwrap();

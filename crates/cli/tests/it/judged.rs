@@ -91,7 +91,7 @@ fn whether_a_goal_has_leaves_is_seen_and_said() {
     draw("leafy.png", &[]);
     draw("bare.png", &["--no-leaves"]);
     let fit = |goal: &str, out: &str, more: &[&str]| {
-        let args = ["fit", goal, "--out", out, "--size", "132", "--evaluations", "20"];
+        let args = ["fit", goal, "--out", out, "--size", "64", "--evaluations", "20"];
         let run = dir.run([&args[..], more].concat());
         let _ = run.ok();
         (summary(&dir, out), run.stderr())

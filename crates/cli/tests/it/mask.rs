@@ -7,7 +7,7 @@ const SIDE: u32 = 160;
 
 /// Writes photo.png, a shaded acer before a sky that pales downwards, and truth.png, its silhouette;
 /// `lawn` rows of the picture's bottom are grass.
-fn photograph(dir: &Dir, lawn: u32) {
+pub(crate) fn photograph(dir: &Dir, lawn: u32) {
     let size = SIDE.to_string();
     let render = ["render", "acer", "--seed", "2", "--size", &size, "--background", "transparent"];
     let _ = dir.run([&render[..], &["-o", "tree.png"]].concat()).ok();
@@ -107,7 +107,7 @@ fn a_fit_makes_the_same_mask() {
     photograph(&dir, 0);
     let _ = dir.run(["mask", "photo.png", "-o", "photo-mask.png"]).ok();
     let fit = |goal: &str, out: &str, more: &[&str]| {
-        let args = ["fit", goal, "--out", out, "--size", "64", "--from", "acer", "--free", "crown", "-v"];
+        let args = ["fit", goal, "--out", out, "--size", "132", "--from", "acer", "--free", "crown", "-v"];
         dir.run([&args[..], &["--evaluations", "20"], more].concat())
     };
     let auto = fit("photo.png", "auto", &["--mask", "auto"]);
@@ -206,7 +206,7 @@ fn a_fit_tells_what_its_mask_tells() {
     let mask = dir.run(["mask", "cut.png", "-o", "m.png", "--background", "plain"]);
     let _ = mask.ok();
     assert!(mask.stderr().contains("warning: the crown touches the frame: left"), "{mask}");
-    let args = ["fit", "cut.png", "--mask", "auto", "--size", "64", "--from", "acer", "--evaluations", "9"];
+    let args = ["fit", "cut.png", "--mask", "auto", "--size", "132", "--from", "acer", "--evaluations", "9"];
     let fit = dir.run(args);
     let _ = fit.ok();
     assert!(fit.stderr().contains("warning: cut.png: the crown touches the frame: left"), "{fit}");
@@ -262,4 +262,49 @@ fn warnings_of_masks_advise_nothing_that_mask_has_not() {
     let mask = dir.run(["mask", "disc.png", "-o", "m.png"]);
     let _ = mask.ok();
     assert!(mask.stderr().contains("`pleach fit` has --tree dark"), "{mask}");
+}
+
+/// Another program makes the mask, and says why it cannot.
+#[test]
+#[cfg(unix)]
+fn another_programs_segmenter_is_run_and_its_mistakes_are_told() {
+    let dir = Dir::new();
+    photograph(&dir, 0);
+    // A cut-out, and the same as white on black: truth.png is black on white.
+    let white = image::open(dir.path("truth.png")).unwrap().to_luma8();
+    image::GrayImage::from_fn(white.width(), white.height(), |x, y| {
+        image::Luma([255 - white.get_pixel(x, y)[0]])
+    })
+    .save(dir.path("white.png"))
+    .unwrap();
+    let mask = |command: &str| dir.run(["mask", "photo.png", "-o", "m.png", "--mask-command", command]);
+    for answer in ["tree.png", "white.png"] {
+        let command = format!("sh -c 'test -s \"$1\" && cp {answer} \"$2\"' - {{in}} {{out}}");
+        let _ = mask(&command).ok();
+        assert!(iou(&dir, "m.png", "truth.png") > 0.99, "{answer}");
+    }
+    std::fs::remove_file(dir.path("m.png")).unwrap();
+    for (script, words) in [
+        ("echo no weights >&2; exit 3", &["exit status: 3", "no weights"][..]),
+        ("exit 0", &["wrote no file"]),
+        ("echo rubbish > \"$2\"", &["mask.png", "not a"]),
+        ("cp photo.png \"$2\"", &["in colours", "cut-out"]),
+    ] {
+        mask(&format!("sh -c '{script}' - {{in}} {{out}}")).fails(1, words);
+        assert!(!dir.path("m.png").exists(), "{script}");
+    }
+    mask("no-such-segmenter {in} {out}").fails(1, &["no-such-segmenter", "cannot be started"]);
+    mask("rembg i {in}").fails(2, &["{out}", "rembg i {in} {out}"]);
+
+    // A fit keeps the mask, and knows its command again.
+    let fit = |command: &str, more: &[&str]| {
+        let args =
+            ["fit", "photo.png", "--out", "run", "--size", "132", "--from", "acer", "--evaluations", "5"];
+        dir.run([&args[..], &["--individual", "off", "--mask-command", command], more].concat())
+    };
+    let command = "sh -c 'cp tree.png \"$2\"' - {in} {out}";
+    let _ = fit(command, &[]).ok();
+    assert!(iou(&dir, "run/mask.png", "truth.png") > 0.99);
+    assert!(fit(command, &["--resume"]).stderr().contains("finished"));
+    fit("sh -c 'cp white.png \"$2\"' - {in} {out}", &["--resume"]).fails(1, &["--mask-command was"]);
 }

@@ -36,8 +36,8 @@ const DENSITY_OFF: f64 = 1.15;
 /// By this part of the goal's height the crown begins too high or too low.
 const BARE_OFF: f64 = 0.08;
 
-/// Whether trees are of the goal's kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+/// Whether trees are of the goal's kind, from the best to the worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum KindVerdict {
     /// As like the goal as two trees of one species are.
@@ -168,6 +168,14 @@ impl Verdict {
             share: of_kind,
             off: Mismatch::new(crown, goal),
         })
+    }
+}
+
+impl Verdict {
+    /// The same, no better than `most`, for the kind and for the tree itself.
+    #[must_use]
+    pub fn at_most(self, most: KindVerdict) -> Self {
+        Self { kind: self.kind.max(most), tree: self.tree.max(most), ..self }
     }
 }
 

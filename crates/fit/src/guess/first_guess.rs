@@ -54,7 +54,8 @@ impl GuessLibrary {
     ) -> Result<FirstGuess, FitError> {
         let known = known_views(problem);
         let evaluator = likeness_evaluator(&known, settings)?;
-        let context = GoalContext::new(&known, candidates, &evaluator, settings, stop, self.prepared.clone());
+        let context = GoalContext::new(&known, candidates, &evaluator, settings, stop, self.prepared.clone())
+            .with_contradictions(guess.contradictions);
         let preview = self.preview(&known, settings, candidates, guess, stop, &mut progress)?;
         let (entries, foliage, found) = match &preview {
             None => self.seen(&context, guess, &mut progress)?,

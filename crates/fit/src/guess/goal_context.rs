@@ -2,11 +2,14 @@
 
 use super::candidate::{Candidate, Models};
 use super::drawings::Drawings;
+use super::settings::Contradictions;
 use crate::error::FitError;
 use crate::evaluator::{Evaluator, SilhouetteGoal};
 use crate::problem::Objective;
 use crate::problem::{Azimuth, FitProblem};
 use crate::run::FitSettings;
+use pleach_reading::Reading;
+use pleach_silhouette::View;
 use std::sync::atomic::AtomicBool;
 
 /// Goals, candidates, and how they are compared.
@@ -15,6 +18,8 @@ pub(super) struct GoalContext<'a> {
     pub(super) problem: &'a FitProblem,
     pub(super) candidates: &'a [Candidate],
     pub(super) models: Models,
+    /// What is in the first of them; `None` if contradictions are ignored, or if it is not seen from the side.
+    pub(super) reading: Option<Reading>,
     /// Their silhouettes.
     pub(super) silhouettes: Vec<SilhouetteGoal>,
     pub(super) settings: &'a FitSettings,
@@ -34,7 +39,16 @@ impl<'a> GoalContext<'a> {
     ) -> Self {
         let silhouettes = problem.goals.iter().map(|goal| SilhouetteGoal::new(&goal.goal)).collect();
         let models = Models::new(candidates, evaluator);
-        Self { problem, candidates, models, silhouettes, settings, stop, drawings }
+        Self { problem, candidates, models, reading: None, silhouettes, settings, stop, drawings }
+    }
+
+    /// The same, with what is in the first goal where `contradictions` are counted.
+    pub(super) fn with_contradictions(mut self, contradictions: Contradictions) -> Self {
+        let first = self.problem.goals.first().filter(|goal| is_level(&goal.view));
+        if contradictions == Contradictions::Counted {
+            self.reading = first.map(|goal| Reading::from_silhouette(&goal.goal));
+        }
+        self
     }
 
     /// Makes the tree of `values` larger by `factor`, if the candidate's generator can.
@@ -46,6 +60,13 @@ impl<'a> GoalContext<'a> {
     pub(super) fn family(&self, candidate: usize) -> &'static str {
         self.candidates[candidate].species.generator.family()
     }
+}
+
+/// From above or below, in radians: farther, feet and trunks are not what a reading takes them for.
+const LEVEL: f64 = 0.2;
+
+fn is_level(view: &View) -> bool {
+    view.elevation.abs() <= LEVEL
 }
 
 /// `problem` without the pictures whose azimuth is unknown: the search has to find it first.

@@ -1,11 +1,12 @@
 //! Trees of the known species, grown once and compared with many goals.
 
 use super::candidate::Candidate;
+use super::contradiction::contradiction;
 use super::drawings::{Drawings, pack};
 use super::goal_context::{GoalContext, likeness_evaluator};
 use super::near::Near;
 use super::samples::{Sample, TREES_OF_SPECIES, samples, trees_of};
-use super::settings::GuessSettings;
+use super::settings::{Contradictions, GuessSettings};
 use super::silhouettes::{BothSilhouettes, Silhouettes, index_of};
 use crate::control::interrupt;
 use crate::error::FitError;
@@ -13,6 +14,7 @@ use crate::evaluator::{Buffers, Evaluator, FineSilhouette, height_of, side_for};
 use crate::problem::{FitProblem, Genome, Objective, Terms};
 use crate::run::FitSettings;
 use crate::space::TreeSeed;
+use pleach_reading::Reader;
 use pleach_silhouette::{Bitmap, Frame, View};
 use pleach_tree::{Fnv, Foliage, Limits, ModelId, Tree};
 use std::sync::atomic::AtomicBool;
@@ -65,6 +67,8 @@ pub(super) struct Resemblance {
     pub(super) likeness: f64,
     /// Intersection over union.
     pub(super) iou: f64,
+    /// What it loses of its likeness for what contradicts the goal, at least 0.
+    pub(super) contradiction: f64,
     /// The factor that brings it to the goal's height.
     pub(super) factor: f64,
     /// The pictures of its first seed, view by view; only for unvaried species.
@@ -196,7 +200,13 @@ impl Key {
         let views = |first: &Sample| views(context.models.evaluator(first.candidate), first);
         Self {
             candidates: context.candidates.iter().map(of).collect(),
-            guess: GuessSettings { detect_leaves: false, keep: 0, race: None, ..*guess },
+            guess: GuessSettings {
+                detect_leaves: false,
+                keep: 0,
+                contradictions: Contradictions::Ignored,
+                race: None,
+                ..*guess
+            },
             seed: settings.seed,
             tree_seed: settings.tree_seed,
             robust: settings.robust.get(),
@@ -295,12 +305,23 @@ pub(super) fn compare(
         let frames: Vec<Frame> =
             evaluator.placed(&entry.sample.genome).into_iter().map(|(_, frame)| frame).collect();
         let has_foliage = silhouettes.has_foliage;
-        let mut sum = Resemblance { has_foliage, likeness: 0.0, iou: 0.0, factor, pictures: Vec::new() };
+        let mut sum = Resemblance {
+            has_foliage,
+            likeness: 0.0,
+            iou: 0.0,
+            contradiction: 0.0,
+            factor,
+            pictures: Vec::new(),
+        };
         let (mut picture, mut buffers) = (Bitmap::default(), Buffers::default());
+        let mut reader = Reader::new();
         for (number, fine) in silhouettes.views.iter().enumerate() {
             let view = number % frames.len();
             fine.through(&frames[view], factor, &mut picture);
             let agreement = context.silhouettes[view].compare(&picture, LIKENESS, &mut buffers);
+            if let (0, Some(goal)) = (view, &context.reading) {
+                sum.contradiction += contradiction(goal, &picture, &mut reader);
+            }
             sum.likeness += agreement.value;
             sum.iou += agreement.iou;
             if number < frames.len() && entry.sample.is_species {
@@ -308,6 +329,7 @@ pub(super) fn compare(
             }
         }
         let pictures = silhouettes.views.len().max(1) as f64;
+        sum.contradiction *= frames.len() as f64 / pictures;
         sum.likeness /= pictures;
         sum.iou /= pictures;
         Some(sum)

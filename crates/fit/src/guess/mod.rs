@@ -17,6 +17,7 @@
 
 mod candidate;
 mod comparison;
+mod contradiction;
 mod drawings;
 mod first_guess;
 mod found;
@@ -37,4 +38,4 @@ pub use drawings::{Drawings, DrawingsError};
 pub use first_guess::first_guess;
 pub use found::{FirstGuess, Guess, Reference, References, Runner};
 pub use library::GuessLibrary;
-pub use settings::{GuessSettings, RaceSettings};
+pub use settings::{Contradictions, GuessSettings, RaceSettings};

@@ -1,6 +1,7 @@
 //! Candidates and individuals in the order of their likeness to the goal.
 
 use super::candidate::{Candidate, Models};
+use super::contradiction::NO_START;
 use super::found::Guess;
 use super::goal_context::GoalContext;
 use super::library::{Entry, Resemblance};
@@ -15,7 +16,7 @@ const ALIKE: usize = 3;
 /// How much lower the likeness of a candidate is that is e times less probable.
 const DOUBT: f64 = 0.02;
 
-/// 1 minus the likeness of an individual, its candidate, and the individual.
+/// 1 minus the likeness of an individual, with what contradicts the goal; its candidate, and the individual.
 pub(super) type Alike = (f64, usize, Genome);
 
 /// The least cost of each candidate, and the individuals that look most like the goal, at its height:
@@ -27,16 +28,22 @@ pub(super) fn ranked(
 ) -> (Vec<f64>, Vec<Alike>) {
     let mut costs = vec![f64::INFINITY; context.candidates.len()];
     let mut alike = Vec::new();
+    let (mut least, mut contradictions) = (f64::INFINITY, Vec::new());
     for (Entry { sample, .. }, found) in entries.iter().zip(found) {
-        let Some(Resemblance { likeness, factor, .. }) = found else { continue };
-        let cost = 1.0 - likeness;
+        let Some(Resemblance { likeness, contradiction, factor, .. }) = found else { continue };
+        let cost = 1.0 - likeness + contradiction;
         costs[sample.candidate] = costs[sample.candidate].min(cost);
         if sample.may_start {
             let mut genome = sample.genome.clone();
             context.resize(sample.candidate, &mut genome.values, *factor);
             alike.push((cost, sample.candidate, genome));
+            least = least.min(*contradiction);
+            contradictions.push(*contradiction);
         }
     }
+    // Where some tree does not contradict the goal, no search starts from one that does.
+    let mut contradictions = contradictions.into_iter();
+    alike.retain(|_| contradictions.next().is_some_and(|one| one <= least + NO_START));
     alike.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut kept = Vec::<Alike>::new();
     let of_family =

@@ -14,8 +14,20 @@ pub struct GuessSettings {
     /// Whether trees with leaves and without are compared with the goal, to find out whether it has leaves; if not,
     /// `FitProblem::foliage` decides.
     pub detect_leaves: bool,
+    /// Whether trees whose measures contradict the goal's are passed over.
+    pub contradictions: Contradictions,
     /// How generators compete if candidates are of several; `None`: the least cost of a candidate's tree decides.
     pub race: Option<RaceSettings>,
+}
+
+/// What becomes of trees whose feet, thickness of the trunk or bare height contradict the goal's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Contradictions {
+    /// They are taken for as probable as they look.
+    #[default]
+    Ignored,
+    /// They lose likeness for it, and no search starts from one that contradicts the goal more than another does.
+    Counted,
 }
 
 /// How generators compete for a goal: each is searched for a short while.
@@ -41,6 +53,7 @@ impl Default for GuessSettings {
             seeds: 3,
             keep: 10,
             detect_leaves: false,
+            contradictions: Contradictions::Ignored,
             race: Some(RaceSettings::default()),
         }
     }

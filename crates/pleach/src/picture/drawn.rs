@@ -2,6 +2,7 @@
 
 use super::prepared::Prepared;
 use super::report_parts::ViewReport;
+use super::words::AppearanceFrom;
 use pleach_fit::{FitProblem, Genome, Placement};
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
@@ -53,10 +54,15 @@ impl Prepared {
         FitDrawing { prepared: self, problem: problem.clone(), limits, placements }
     }
 
-    /// A species of the fit as it is given back: with the name of the result.
+    /// A species of the fit as it is given back: with the name of the result, and the colours of the goal's picture
+    /// where these were asked for.
     #[must_use]
     pub fn named(&self, species: Species) -> Species {
-        Species { name: self.name.clone(), description: String::new(), ..species }
+        let appearance = match (&self.goal.colors, self.options.appearance) {
+            (Some(colors), AppearanceFrom::Picture) => colors.appearance(&species.appearance),
+            _ => species.appearance,
+        };
+        Species { name: self.name.clone(), description: String::new(), appearance, ..species }
     }
 }
 

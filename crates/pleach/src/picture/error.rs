@@ -3,6 +3,7 @@
 use crate::option_error::OptionError;
 use pleach_fit::SpaceError;
 use pleach_generators::RegistryError;
+use pleach_reading::ReadingError;
 use pleach_silhouette::goal::GoalError;
 use pleach_silhouette::mask::MaskError;
 use std::path::PathBuf;
@@ -23,6 +24,9 @@ pub enum PrepareError {
     /// A picture is not a goal.
     #[error(transparent)]
     Goal(#[from] GoalError),
+    /// A mask of wood is not of the goal's size.
+    #[error(transparent)]
+    Wood(#[from] ReadingError),
     /// No tree was found in a photograph.
     #[error("cannot make a mask of {}", path.display())]
     Mask {

@@ -15,10 +15,13 @@ mod drawn;
 mod effort;
 mod error;
 mod goal_pair;
+mod hints;
 mod json;
 mod optimizer;
 mod options;
 mod prepared;
+mod reading;
+mod readings;
 mod report;
 mod report_parts;
 mod sides;
@@ -32,9 +35,12 @@ pub use drawn::{FitDrawing, FittedTree};
 pub use effort::{Effort, parse_duration};
 pub use error::PrepareError;
 pub use goal_pair::GoalPair;
+pub use hints::MaskHints;
 pub use optimizer::{SettingError, optimizer_with, settings_of};
 pub use options::{FitOptions, Spent};
 pub use prepared::{FurtherPicture, Prepared};
+pub use reading::{PictureReading, read_picture};
+pub use readings::Readings;
 pub use report::{FitReport, ReportError, TIME_KEYS};
 pub use report_parts::{
     IdentifiabilityCounts, IndividualReport, LooksLike, ParameterReport, RulesReport, SearchReport,
@@ -43,7 +49,7 @@ pub use report_parts::{
 pub use sides::{SideTree, SidesReport};
 pub use source::{FitSource, PictureSource};
 pub use start::FitStart;
-pub use words::{KnownFrame, Leaves, MaskFrom, StartFrom, Tone, VolumeFrom};
+pub use words::{AppearanceFrom, KnownFrame, Leaves, MaskFrom, StartFrom, Tone, VolumeFrom};
 
 use crate::plan::library;
 use pleach_fit::{Control, FitError};

@@ -2,8 +2,9 @@
 
 use super::direction::{Direction, FurtherView};
 use super::effort::{Effort, MAX_SECONDS};
+use super::hints::MaskHints;
 use super::json;
-use super::words::{KnownFrame, Leaves, MaskFrom, StartFrom, Tone, VolumeFrom};
+use super::words::{AppearanceFrom, KnownFrame, Leaves, MaskFrom, StartFrom, Tone, VolumeFrom};
 use crate::option_error::OptionError;
 use crate::plan::USUAL_TIME;
 use pleach_fit::{Azimuth, IndividualSettings, Objective, Optimizer, RulesSettings, TreeSeed};
@@ -34,6 +35,11 @@ pub struct FitOptions {
     /// What says where in the goal the tree is; by default its tones do.
     #[serde(with = "json::optional_text")]
     pub mask: Option<MaskFrom>,
+    /// What is shown of the tree in a photograph; the goal is one where anything is.
+    pub hints: MaskHints,
+    /// A picture of the goal's size that says what of the tree is wood, trunk and branches: black on white. Its name in
+    /// [`super::FitSource::pictures`], or a file.
+    pub wood: Option<String>,
     /// Which tone of the goal is the tree.
     pub tree: Tone,
     /// Row where the tree stands, in pixels of the goal from its top edge; detected by default.
@@ -57,6 +63,8 @@ pub struct FitOptions {
     pub holdout_views: Vec<FurtherView>,
     /// Whether the tree has leaves.
     pub leaves: Leaves,
+    /// Where the colours and the season of the result come from.
+    pub appearance: AppearanceFrom,
     /// Where the search starts.
     #[serde(with = "json::text")]
     pub from: StartFrom,
@@ -111,6 +119,8 @@ impl Default for FitOptions {
             height: 10.0,
             size: 256,
             mask: None,
+            hints: MaskHints::default(),
+            wood: None,
             tree: Tone::Auto,
             ground_row: None,
             axis_column: None,
@@ -120,6 +130,7 @@ impl Default for FitOptions {
             free_frame: false,
             holdout_views: Vec::new(),
             leaves: Leaves::Auto,
+            appearance: AppearanceFrom::Picture,
             from: StartFrom::Auto,
             generator: None,
             volume_from: None,
@@ -215,7 +226,8 @@ impl FitOptions {
             StartFrom::Species(name) if std::path::Path::new(name).is_file() => Some(name.as_str()),
             _ => None,
         };
-        views.chain(mask).chain(volume).chain(from).collect()
+        let shown = [&self.hints.strokes, &self.wood].into_iter().filter_map(Option::as_deref);
+        views.chain(mask).chain(shown).chain(volume).chain(from).collect()
     }
 
     /// Tells whether each option has a value that can be, and whether they go together. What depends on a picture or on
@@ -236,6 +248,13 @@ impl FitOptions {
         }
         if !(16..=2048).contains(&self.size) {
             return error("size", format!("is {}, expected from 16 to 2048 pixels", self.size));
+        }
+        self.hints.check()?;
+        if let (Some(MaskFrom::File(file)), false) = (&self.mask, self.hints.is_empty()) {
+            return error(
+                "hints",
+                format!("are for a photograph, and `mask` says what is tree: leave out {file}"),
+            );
         }
         if let Some(frame) = self.frame {
             let scale = frame.meters_per_pixel;
@@ -354,9 +373,11 @@ mod tests {
 
     /// Every field with a value that is not its default, as JSON.
     pub(crate) const OTHERS: &str = r#"{
-        "height": 12.0, "size": 64, "mask": "auto", "tree": "dark", "ground_row": 200.0, "axis_column": 100.5,
+        "height": 12.0, "size": 64, "mask": "auto",
+        "hints": { "box": [1, 2, 30, 40], "include": [[5, 6]], "exclude": [[7, 8]], "strokes": "marks.png" },
+        "wood": "wood.png", "tree": "dark", "ground_row": 200.0, "axis_column": 100.5,
         "frame": [0.05, 30.0, 60.0], "view": "30", "views": ["auto=other.png"], "free_frame": true,
-        "holdout_views": ["45,2=corner.png"], "leaves": "on", "from": "acer", "generator": "fractal",
+        "holdout_views": ["45,2=corner.png"], "leaves": "on", "appearance": "species", "from": "acer", "generator": "fractal",
         "volume_from": "goal", "free": ["crown"], "fix": ["leaves"], "optimizer": { "cma": { "population": 20 } },
         "evolve_rules": true, "objective": "iou", "seed": 2, "tree_seed": "any", "robust": 3, "individual": "20s",
         "individuals": 2, "timeout": 20.5, "evaluations": 30, "generations": 7, "target_iou": 0.5, "name": "oak"

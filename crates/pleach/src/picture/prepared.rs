@@ -3,6 +3,7 @@
 use super::error::PrepareError;
 use super::goal_pair::GoalPair;
 use super::options::{FitOptions, Spent};
+use super::reading::trust_colors;
 use super::source::FitSource;
 use super::start::FitStart;
 use super::volume::Outlined;
@@ -10,9 +11,11 @@ use super::words::{MaskFrom, Tone};
 use crate::plan::{DRAWING, Shares};
 use pleach_fit::{
     Accuracy, Control, CostModel, FitError, FitProblem, Fitted, GoalSettings, GoalView, GuessLibrary,
-    Unknown, fit_goal_with,
+    Guessing, Unknown, fit_goal_with,
 };
+use pleach_reading::{Colors, Reading};
 use pleach_silhouette::{GoalOptions, Polarity, View};
+use pleach_tree::Foliage;
 use pleach_tree::species::safe_name;
 use std::path::PathBuf;
 
@@ -48,6 +51,8 @@ pub struct Prepared {
     pub detects_leaves: bool,
     /// What is fitted.
     pub problem: FitProblem,
+    /// What is in the goal's picture.
+    pub reading: Reading,
     /// How.
     pub settings: GoalSettings,
     shares: Option<Shares>,
@@ -67,8 +72,15 @@ impl FitOptions {
     /// # Errors
     /// As [`FitOptions::prepare`].
     pub fn prepare_after(&self, source: &FitSource, spent: &Spent) -> Result<Prepared, PrepareError> {
-        let FitStart { species, foliage, detects_leaves, mut settings, shares, .. } = self.start(source)?;
+        let FitStart { species, mut foliage, detects_leaves, mut settings, shares, .. } =
+            self.start(source)?;
         let goal = self.goal(source)?;
+        if let (true, Some(leaves)) = (detects_leaves, goal.colors.as_ref().and_then(sure_of_leaves)) {
+            foliage = if leaves { Foliage::All } else { Foliage::None };
+            if let Guessing::Compare(guess) = &mut settings.guess {
+                guess.detect_leaves = false;
+            }
+        }
         let height = match self.frame {
             Some(frame) => frame.meters_per_pixel * goal.full.height_in_pixels(),
             None => self.height,
@@ -97,9 +109,12 @@ impl FitOptions {
             settings = GoalSettings { individual, ..outlined.plan(settings.search)? };
         }
         add(&mut settings, spent);
+        let mut reading = self.measure(source, &*self.silhouette(source, &goal)?)?;
+        trust_colors(&mut reading, goal.colors.as_ref());
         let prepared = Prepared {
             options: self.after(spent),
             name: safe_name(&self.name.clone().unwrap_or_else(|| source.species_name())),
+            reading,
             goal,
             view,
             views,
@@ -114,8 +129,20 @@ impl FitOptions {
     }
 
     /// The goal's picture.
-    fn goal(&self, source: &FitSource) -> Result<GoalPair, PrepareError> {
-        let options = GoalOptions {
+    pub(super) fn goal(&self, source: &FitSource) -> Result<GoalPair, PrepareError> {
+        let options = self.goal_options();
+        match self.mask {
+            Some(MaskFrom::Auto) => GoalPair::of_photograph(source, &self.hints, options, self.size),
+            None if !self.hints.is_empty() => {
+                GoalPair::of_photograph(source, &self.hints, options, self.size)
+            }
+            _ => Ok(GoalPair::read(&source.goal, options, self.size)?),
+        }
+    }
+
+    /// How the goal's picture is read.
+    pub(super) fn goal_options(&self) -> GoalOptions {
+        GoalOptions {
             mask: match &self.mask {
                 Some(MaskFrom::File(file)) => Some(PathBuf::from(file)),
                 Some(MaskFrom::Auto) | None => None,
@@ -128,12 +155,15 @@ impl FitOptions {
             ground_row: self.frame.map_or(self.ground_row, |frame| Some(frame.ground_row)),
             axis_column: self.frame.map_or(self.axis_column, |frame| Some(frame.axis_column)),
             ..GoalOptions::default()
-        };
-        match self.mask {
-            Some(MaskFrom::Auto) => GoalPair::of_photograph(&source.goal, options, self.size),
-            _ => Ok(GoalPair::read(&source.goal, options, self.size)?),
         }
     }
+}
+
+/// From this confidence on, colours decide whether there are leaves, and no silhouette is asked.
+const SURE: f64 = 0.8;
+
+fn sure_of_leaves(colors: &Colors) -> Option<bool> {
+    colors.leaves.filter(|_| colors.leaves_confidence >= SURE)
 }
 
 /// Adds what earlier parts have used to the budgets of the search.

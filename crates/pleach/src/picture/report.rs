@@ -4,6 +4,7 @@ use super::drawn::{FitDrawing, FittedTree};
 use super::optimizer::settings_of;
 use super::options::FitOptions;
 use super::prepared::{FurtherPicture, Prepared};
+use super::readings::Readings;
 use super::report_parts::{
     IdentifiabilityCounts, IndividualReport, LooksLike, ParameterReport, RulesReport, SearchReport,
     ViewReport, best_of_each_family,
@@ -50,6 +51,8 @@ pub struct FitReport {
     pub references: Option<References>,
     /// Whether the kind is right.
     pub verdict: Option<Verdict>,
+    /// What is in the goal and in the pictures of the trees that were found, and how they differ.
+    pub readings: Readings,
     /// How many of the free parameters the goal determines; `None` if the result was not judged.
     pub determined: Option<IdentifiabilityCounts>,
     /// How well the goal determines each free parameter.
@@ -211,6 +214,7 @@ impl Prepared {
         let individual =
             fitted.individuals.first().zip(trees.first()).map(|(found, tree)| individual(found, tree));
 
+        let readings = Readings::new(&self.reading, &kind, trees.first());
         let outcome = &fitted.outcome;
         let settings = &fitted.settings;
         let judged = fitted.assessment.as_ref();
@@ -228,7 +232,8 @@ impl Prepared {
             individual,
             individuals,
             references: fitted.references().cloned(),
-            verdict: fitted.verdict(&kind.scores),
+            verdict: fitted.verdict(&kind.scores).map(|verdict| readings.bound(verdict)),
+            readings,
             determined: judged.map(IdentifiabilityCounts::new),
             parameters: parameters(&fitted, &kind.species),
             evaluations: outcome.evaluations,

@@ -1,6 +1,7 @@
 //! The pictures of a fit, as callers have them.
 
 use pleach_silhouette::goal::{Encoded, GoalError};
+use pleach_silhouette::mask::Photo;
 use pleach_silhouette::{Bitmap, Goal, GoalOptions};
 use pleach_tree::Species;
 use std::borrow::Cow;
@@ -33,6 +34,18 @@ impl PictureSource {
             Self::File(path) => Goal::load(path, options),
             Self::Encoded(encoded) => Goal::from_encoded(encoded, options),
             Self::Ink(ink) => Goal::from_ink(ink.clone(), options),
+        }
+    }
+
+    /// The picture in colour; ink is black on white.
+    pub(crate) fn photo(&self) -> Result<Photo, GoalError> {
+        match self {
+            Self::File(path) => Photo::load(path),
+            Self::Encoded(encoded) => Photo::from_encoded(encoded),
+            Self::Ink(ink) => Ok(Photo::from_fn(ink.width(), ink.height(), |x, y| {
+                let light = if ink.get(x, y) { 0 } else { 255 };
+                [light, light, light, 255]
+            })),
         }
     }
 

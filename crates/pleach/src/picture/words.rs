@@ -18,6 +18,17 @@ pub enum Leaves {
     Off,
 }
 
+/// Where the colours and the season of a result come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum AppearanceFrom {
+    /// From the goal's picture, where it has colours; what cannot be read in it from the species.
+    #[default]
+    Picture,
+    /// From the species that the goal looks like, or that the fit started from.
+    Species,
+}
+
 /// Which tone of a picture is the tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

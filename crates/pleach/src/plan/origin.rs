@@ -1,7 +1,8 @@
 //! Where a fit begins.
 
 use pleach_fit::{
-    Candidate, FitSettings, GoalSettings, GuessSettings, Guessing, SpaceError, Start, check_freedom,
+    Candidate, Contradictions, FitSettings, GoalSettings, GuessSettings, Guessing, SpaceError, Start,
+    check_freedom,
 };
 use pleach_generators::GeneratorChoice;
 use pleach_tree::Appearance;
@@ -41,7 +42,8 @@ pub fn plan(
         if candidates.is_empty() {
             check(start)?;
         }
-        Guessing::Compare(GuessSettings { detect_leaves, ..GuessSettings::default() })
+        let contradictions = Contradictions::Counted;
+        Guessing::Compare(GuessSettings { detect_leaves, contradictions, ..GuessSettings::default() })
     } else {
         check(start)?;
         let lists = || Start::Lists(vec![start.params.values().to_vec()]);

@@ -27,6 +27,7 @@ from ._native import (
     generators,
 )
 from ._problem import Problem, Scores
+from ._reading import Reading, read
 from ._score import Card, Mask, mask, score
 from ._species import species
 
@@ -40,6 +41,7 @@ __all__ = [
     "Mask",
     "PleachError",
     "Problem",
+    "Reading",
     "Scores",
     "Species",
     "SpeciesError",
@@ -49,6 +51,7 @@ __all__ = [
     "fit",
     "generators",
     "mask",
+    "read",
     "score",
     "species",
 ]

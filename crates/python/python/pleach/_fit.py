@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._goal import Goal, given
-from ._score import Card, card_of
+from ._score import Card, Point, card_of, hints
 
 
 @dataclass(frozen=True)
@@ -197,6 +197,11 @@ def fit(
     height: float = 10.0,
     size: int = 256,
     mask: Optional[str] = None,
+    box: Optional[tuple[int, int, int, int]] = None,
+    include: Sequence[Point] = (),
+    exclude: Sequence[Point] = (),
+    strokes: Optional[str] = None,
+    wood: Optional[str] = None,
     tree: str = "auto",
     ground_row: Optional[float] = None,
     axis_column: Optional[float] = None,
@@ -206,6 +211,7 @@ def fit(
     free_frame: bool = False,
     holdout_views: Sequence[tuple[Goal, Direction]] = (),
     leaves: Optional[bool] = None,
+    appearance: str = "picture",
     volume_from: Optional[str] = None,
     optimizer: Union[str, dict[str, dict[str, Any]]] = "evolution",
     evolve_rules: bool = False,
@@ -229,8 +235,9 @@ def fit(
 
     The picture is a path, an array (bool of shape (height, width), True where the tree is; or uint8), a PIL image or
     an open file. ``height`` is the tree's, in metres; ``size`` the longer side that the search compares at, in
-    pixels. ``mask`` is ``"auto"`` for a photograph, or a file that says what is tree; ``tree`` the tone that is the
-    tree: ``"auto"``, ``"dark"`` or ``"light"``. ``ground_row`` and ``axis_column`` are where the tree stands, in pixels
+    pixels. ``mask`` is ``"auto"`` for a photograph, or a file that says what is tree; ``box``, ``include``, ``exclude``
+    and ``strokes`` show the tree in a photograph, as in ``pleach.mask``; ``wood`` is a file that says what of the tree is wood. ``tree`` is the tone that is the tree:
+    ``"auto"``, ``"dark"`` or ``"light"``. ``ground_row`` and ``axis_column`` are where the tree stands, in pixels
     of the picture; ``frame``, where it is known, is metres per pixel, the column of the trunk's foot and the row of the
     ground: it is taken as exact, and the height follows from it. ``view`` is the azimuth, or azimuth and elevation, in
     degrees. ``views`` are further pictures of the same tree, each with where it was taken from:
@@ -239,7 +246,8 @@ def fit(
 
     The fit begins at ``start``: ``"auto"``, the species that the goal looks like; ``"random"``; or a species.
     ``volume_from`` starts from a tree of paths in the outline of the ``"goal"`` or of a file. ``leaves`` says whether the
-    tree has some; None looks for them. ``optimizer`` is a name, or a name and settings such as
+    tree has some; None looks for them. ``appearance`` says where the colours of the result come from: the ``"picture"``
+    where it has some, or the ``"species"``. ``optimizer`` is a name, or a name and settings such as
     ``{"cma": {"population": 20}}``; ``evolve_rules`` searches the rules of a grammar too. ``tree_seed`` None searches the
     seed too; ``robust`` is the number of seeds that parameters are scored by.
 
@@ -275,6 +283,8 @@ def fit(
         "height": height,
         "size": size,
         "mask": mask,
+        "hints": hints(box, include, exclude, strokes),
+        "wood": wood,
         "tree": tree,
         "ground_row": ground_row,
         "axis_column": axis_column,
@@ -283,6 +293,7 @@ def fit(
         "views": named("view", views),
         "free_frame": free_frame,
         "holdout_views": named("holdout", holdout_views),
+        "appearance": appearance,
         "leaves": {None: "auto", True: "on", False: "off"}[leaves],
         # A species may have any name.
         "from": start if isinstance(start, str) else f"species {start.name}",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Optional
 
@@ -83,10 +85,39 @@ class Mask:
     """What about it is not as a fit expects."""
 
 
-def mask(photo: Goal, *, seed_point: Optional[tuple[int, int]] = None) -> Mask:
+Point = tuple[int, int]
+
+
+def hints(
+    box: Optional[tuple[int, int, int, int]],
+    include: Sequence[Point],
+    exclude: Sequence[Point],
+    strokes: Optional[str],
+) -> dict[str, Any]:
+    """What is shown of the tree in a photograph, as the options of a fit have it."""
+    return {
+        "box": None if box is None else [int(side) for side in box],
+        "include": [[int(x), int(y)] for x, y in include],
+        "exclude": [[int(x), int(y)] for x, y in exclude],
+        "strokes": strokes,
+    }
+
+
+def mask(
+    photo: Goal,
+    *,
+    seed_point: Optional[Point] = None,
+    box: Optional[tuple[int, int, int, int]] = None,
+    include: Sequence[Point] = (),
+    exclude: Sequence[Point] = (),
+    strokes: Optional[str] = None,
+) -> Mask:
     """Finds the tree in a photograph: a path, uint8 of shape (height, width, 3 or 4), a PIL image or an open file.
 
-    ``seed_point`` is a pixel on the tree, column and row. Raises ``GoalError`` where there is no tree.
+    ``box`` is a rectangle around all of the tree: first column, first row, columns and rows. ``include`` and ``exclude``
+    are pixels, column and row, of the tree and of something else; ``strokes`` is a file of the photograph's size in
+    which what is painted green is tree and what is red is not. ``seed_point`` is a pixel on the tree, where there is
+    neither. Raises ``GoalError`` where there is no tree.
 
     >>> import numpy as np, pleach
     >>> photo = np.full((120, 100, 3), (120, 170, 230), np.uint8)
@@ -94,5 +125,5 @@ def mask(photo: Goal, *, seed_point: Optional[tuple[int, int]] = None) -> Mask:
     >>> pleach.mask(photo).ink.sum()
     np.int64(890)
     """
-    ink, about = _native.mask(given(photo), seed_point)
+    ink, about = _native.mask(given(photo), seed_point, json.dumps(hints(box, include, exclude, strokes)))
     return Mask(ink, about["confidence"], about["warnings"])

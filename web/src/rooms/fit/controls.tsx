@@ -73,6 +73,7 @@ function GoalPart(): JSX.Element {
           options={[
             { value: "add", label: "Add" },
             { value: "take", label: "Take away" },
+            { value: "box", label: "Box" },
           ]}
           onPick={(picked) => {
             brush.value = picked;
@@ -94,6 +95,9 @@ function GoalPart(): JSX.Element {
           onPress={redoMask}
         />
       </div>
+      {brush.value === "box" && (
+        <p class="hint">Drag a box around all of the tree: it is then looked for inside.</p>
+      )}
       <Field label="Brush size">
         {(id) => (
           <input

@@ -1,12 +1,13 @@
-// The goal with its mask: a brush that adds and takes away, and two lines to drag.
+// The goal with its mask: a brush that adds and takes away, a box around the tree, and two lines to drag.
 import { signal, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
 import { GOAL_ONLY, show } from "../../ui/ink";
 import { running } from "./fit-state";
-import { info, masks, picture, setMask } from "./goal-state";
+import { canReadAgain, info, masks, picture, readAgain, setMask } from "./goal-state";
 
-export const brush = signal<"add" | "take">("add");
+/** What dragging over the picture does: paint the tree, paint what is not the tree, or draw a box around the tree. */
+export const brush = signal<"add" | "take" | "box">("add");
 /** Diameter in hundredths of the picture's longer side. */
 export const brushSize = signal(5);
 
@@ -65,11 +66,41 @@ interface Point {
   y: number;
 }
 
+/** Two corners of a rectangle. */
+interface Box {
+  from: Point;
+  to: Point;
+}
+
+/** Boxes of fewer pixels a side are slips of the hand. */
+const SMALLEST_BOX = 8;
+
+/** First column and row, columns and rows of what a box covers of the picture; null if that is next to nothing. */
+function within({ from, to }: Box, width: number, height: number): [number, number, number, number] | null {
+  const clamp = (at: number, side: number) => Math.round(Math.min(side, Math.max(0, at)));
+  const [left, right] = [clamp(Math.min(from.x, to.x), width), clamp(Math.max(from.x, to.x), width)];
+  const [top, bottom] = [clamp(Math.min(from.y, to.y), height), clamp(Math.max(from.y, to.y), height)];
+  if (right - left < SMALLEST_BOX || bottom - top < SMALLEST_BOX) return null;
+  return [left, top, right - left, bottom - top];
+}
+
+/** Where a box lies over the picture, in parts of its sides. */
+function edges({ from, to }: Box, width: number, height: number): Record<string, string> {
+  const part = (at: number, side: number) => `${(100 * at) / side}%`;
+  return {
+    left: part(Math.min(from.x, to.x), width),
+    top: part(Math.min(from.y, to.y), height),
+    width: part(Math.abs(to.x - from.x), width),
+    height: part(Math.abs(to.y - from.y), height),
+  };
+}
+
 export function GoalEditor(): JSX.Element | null {
   const canvas = useRef<HTMLCanvasElement>(null);
   const stroking = useRef<{ ink: Uint8Array<ArrayBuffer>; last: Point } | null>(null);
   const frame = useRef(0);
   const cursor = useSignal<Point | null>(null);
+  const box = useSignal<Box | null>(null);
 
   useSignalEffect(() => {
     picture.value;
@@ -101,6 +132,10 @@ export function GoalEditor(): JSX.Element | null {
     const now = stroking.current;
     stroking.current = null;
     if (now) setMask({ ink: now.ink });
+    const drawn = box.peek();
+    box.value = null;
+    const sides = drawn && within(drawn, width, height);
+    if (sides) void readAgain("photo", { box: sides });
   };
   const text = `Goal ${shown.name}, ${width} by ${height} pixels, ${info.value ? `${Math.round((100 * info.value.ink) / (width * height))} % tree` : "mask"}`;
   return (
@@ -115,12 +150,17 @@ export function GoalEditor(): JSX.Element | null {
           if (running.peek() || event.button !== 0) return;
           event.currentTarget.setPointerCapture(event.pointerId);
           const at = place(event);
+          if (brush.peek() === "box") {
+            if (canReadAgain()) box.value = { from: at, to: at };
+            return;
+          }
           stroking.current = { ink: masks.peek().ink.slice(), last: at };
           draw(at);
         }}
         onPointerMove={(event) => {
           cursor.value = place(event);
           if (stroking.current) draw(place(event));
+          if (box.peek()) box.value = { from: box.peek()?.from ?? place(event), to: place(event) };
         }}
         onPointerUp={end}
         onPointerCancel={end}
@@ -128,7 +168,8 @@ export function GoalEditor(): JSX.Element | null {
           cursor.value = null;
         }}
       />
-      {cursor.value && !running.value && (
+      {box.value && <span class="box" style={edges(box.value, width, height)} />}
+      {cursor.value && !running.value && brush.value !== "box" && (
         <span
           class={`brush ${brush.value}`}
           style={{

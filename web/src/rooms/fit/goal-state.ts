@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import { goalClient } from "../../engine/clients";
 import { thumbnails } from "../../engine/pool";
-import type { GoalInfo, GoalPixels, MaskWay } from "../../engine/protocol";
+import type { GoalInfo, GoalPixels, MaskHints, MaskWay } from "../../engine/protocol";
 import { History } from "../../state/history";
 import { announce, sayError, sentence } from "../../state/notes";
 import { baseName } from "../../ui/files";
@@ -39,12 +39,18 @@ const MAX_FILE = 150_000_000;
 /** The bytes of the picture, to read it once more in another way. */
 let lastBytes: { name: string; bytes: Uint8Array; target: string | null } | null = null;
 
-async function read(name: string, bytes: Uint8Array, mask: MaskWay, target: string | null): Promise<void> {
+async function read(
+  name: string,
+  bytes: Uint8Array,
+  mask: MaskWay,
+  target: string | null,
+  hints: MaskHints = {},
+): Promise<void> {
   reading.value = name;
   goalError.value = null;
   announce(`Reading ${name}`);
   try {
-    const goal = await goalClient.call("goalRead", { name, bytes, mask });
+    const goal = await goalClient.call("goalRead", { name, bytes, mask, hints });
     const { width, height } = goal.info;
     // A silhouette is its own mask: there is nothing to see beneath it.
     const shows = goal.info.masked || mask === "off";
@@ -70,9 +76,9 @@ export async function takePicture(file: File): Promise<void> {
   await read(file.name, new Uint8Array(await file.arrayBuffer()), "auto", null);
 }
 
-/** Reads the same picture again, as a photograph or as a drawing. */
-export async function readAgain(mask: MaskWay): Promise<void> {
-  if (lastBytes) await read(lastBytes.name, lastBytes.bytes, mask, lastBytes.target);
+/** Reads the same picture again, as a photograph or as a drawing, with what is shown of the tree in it. */
+export async function readAgain(mask: MaskWay, hints: MaskHints = {}): Promise<void> {
+  if (lastBytes) await read(lastBytes.name, lastBytes.bytes, mask, lastBytes.target, hints);
 }
 
 export const canReadAgain = () => lastBytes !== null;

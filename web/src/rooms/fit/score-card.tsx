@@ -45,6 +45,20 @@ function Row({
   );
 }
 
+/** So many differences are shown. */
+const SHOWN = 3;
+
+function Differences({ of }: { of: string[] }): JSX.Element | null {
+  if (of.length === 0) return null;
+  return (
+    <ul class="differences" data-testid="differences">
+      {of.slice(0, SHOWN).map((words) => (
+        <li key={words}>{words}</li>
+      ))}
+    </ul>
+  );
+}
+
 function Fresh({ fresh }: { fresh: FitReport["fresh_seeds"] }): JSX.Element | null {
   if (!fresh) return null;
   return (
@@ -138,6 +152,7 @@ export function ScoreCard(): JSX.Element | null {
         <Fresh fresh={fit.report.fresh_seeds} />
       </dl>
       {fit.verdict && <p class="verdict">{fit.verdict}.</p>}
+      <Differences of={fit.report.readings.differences.map((one) => one.words)} />
       <References references={fit.report.references} />
     </section>
   );

@@ -1,13 +1,15 @@
 //! The arguments of `pleach fit`, as they are typed.
 
+use super::super::hints::HintArgs;
 use super::help;
 use super::run_folder::Mode;
 use super::values::{self, Shard, ViewArg};
 use crate::choice::one_of;
 use crate::input;
+use crate::segmenter::Segmenter;
 use pleach::{
-    Effort, FurtherView, GeneratorChoice, KnownFrame, Leaves, MaskFrom, Objective, Optimizer, StartFrom,
-    Tone, TreeSeed, VolumeFrom, parse_duration,
+    AppearanceFrom, Effort, FurtherView, GeneratorChoice, KnownFrame, Leaves, MaskFrom, Objective, Optimizer,
+    StartFrom, Tone, TreeSeed, VolumeFrom, parse_duration,
 };
 use pleach_fit::IndividualSettings;
 use std::num::NonZeroU32;
@@ -77,6 +79,14 @@ pub(super) struct GoalArgs {
     /// photograph, and its mask is made as by `pleach mask`
     #[arg(long, value_name = "FILE|auto")]
     pub(super) mask: Option<MaskFrom>,
+    /// A program that makes the mask of a photograph, as in `pleach mask`
+    #[arg(long, value_name = "COMMAND", conflicts_with = "mask")]
+    pub(super) mask_command: Option<Segmenter>,
+    #[command(flatten)]
+    pub(super) hints: HintArgs,
+    /// A picture of the goal's size that says what of the tree is wood, trunk and branches: black on white
+    #[arg(long, value_name = "FILE")]
+    pub(super) wood: Option<String>,
     /// Which of the two tones is the tree
     #[arg(long, default_value = "auto", value_parser = one_of(values::TONES))]
     pub(super) tree: Tone,
@@ -108,6 +118,9 @@ pub(super) struct GoalArgs {
     /// like bare ones (with --from auto; otherwise it has)
     #[arg(long, default_value = "auto", value_parser = one_of(values::LEAVES), conflicts_with = "no_leaves")]
     pub(super) leaves: Leaves,
+    /// Where the colours and the season of the result come from
+    #[arg(long, default_value = "picture", value_parser = one_of(values::APPEARANCES))]
+    pub(super) appearance: AppearanceFrom,
     /// The same as --leaves off
     #[arg(long)]
     pub(super) no_leaves: bool,

@@ -48,6 +48,7 @@ pub(super) fn run(fit: &Fit, start: Option<&Species>) -> anyhow::Result<()> {
         !matches!(fit.goal_options.mask, Some(MaskFrom::File(_))),
         "a --mask file belongs to one goal; --mask auto makes one for each"
     );
+    ensure!(fit.goal_options.hints.is_empty(), "a --box, points and strokes belong to one goal");
     let is_stdin = |goal: &PathBuf| input::is_standard(goal);
     ensure!(!fit.goals.iter().any(is_stdin), "standard input is one picture, and there are several goals");
     let out = fit.out.clone().unwrap_or_else(|| RUNS.into());
@@ -160,7 +161,8 @@ fn jobs(
             );
         }
         let options = fit.options(&args)?;
-        let task = Task { goal, options, start: start.cloned(), folder: RunFolder::at(folder) };
+        let segmenter = args.mask_command;
+        let task = Task { goal, options, segmenter, start: start.cloned(), folder: RunFolder::at(folder) };
         jobs.push(Job { task, state: State::Waiting, again: false, is_elsewhere: false });
     }
     Ok(jobs)

@@ -1,7 +1,7 @@
 //! What is written of a tree that is found: a species file, its silhouette over the goal, a shaded picture.
 
 use crate::files;
-use pleach::{FitDrawing, GoalPair};
+use pleach::{FitDrawing, GoalPair, Reading, annotate};
 use pleach_fit::CostModel;
 use pleach_mesh::Palette;
 use pleach_render::{Preview, PreviewSettings, png_file};
@@ -55,6 +55,12 @@ pub(super) fn write_silhouette(path: &Path, over_file: &Bitmap) -> anyhow::Resul
 /// Writes a silhouette over its goal in two colours, with the margins that are compared.
 pub(super) fn write_overlay(path: &Path, silhouette: &Bitmap, goal: &Bitmap) -> anyhow::Result<()> {
     let picture = picture::overlay(silhouette, goal);
+    files::write_whole(path, |file| Ok(picture.write_png(file)?))
+}
+
+/// Writes what was read of a goal, over the goal.
+pub(super) fn write_reading(path: &Path, goal: &Bitmap, reading: &Reading) -> anyhow::Result<()> {
+    let picture = annotate(goal, reading);
     files::write_whole(path, |file| Ok(picture.write_png(file)?))
 }
 

@@ -26,7 +26,8 @@ a verdict, and what to do next.
 
 The run folder holds best.toml (a species file that `pleach grow` takes), best.png, overlay.png (grey is \
 agreement, orange is missing, blue is too much), render.png, history.csv (a row per generation), \
-parameters.csv (how well the goal determines each parameter) and summary.json; with --mask auto mask.png, \
+parameters.csv (how well the goal determines each parameter), reading.json and reading.png (what is in the goal, as by \
+`pleach read`) and summary.json; with --mask auto mask.png, \
 with further views an overlay of each. That is the kind; individual.toml is this very tree, whose branches \
 were re-sampled one by one until they lie on the picture, with individual.png, overlay-individual.png and \
 individual-render.png. With --individuals there are individual-2.toml and so on, and individuals.png, a sheet of \

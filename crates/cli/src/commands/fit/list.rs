@@ -36,6 +36,7 @@ const COLUMNS: [Column; 7] = [
         set: |args, cell, folder| {
             let cell = if cell == "auto" { cell.to_owned() } else { folder.join(cell).display().to_string() };
             args.mask = cell.parse::<MaskFrom>().ok();
+            args.mask_command = None;
             Ok(())
         },
     },

@@ -27,7 +27,7 @@ mod signals;
 mod summary;
 pub(super) mod table;
 mod task;
-mod values;
+pub(super) mod values;
 mod views;
 mod watch;
 
@@ -73,7 +73,9 @@ impl Fit {
             .out
             .clone()
             .unwrap_or_else(|| Path::new(RUNS).join(run_name(goal).unwrap_or_else(|| "goal".to_owned())));
-        let task = Task { goal: goal.to_owned(), options, start, folder: RunFolder::at(path.clone()) };
+        let segmenter = self.goal_options.mask_command.clone();
+        let folder = RunFolder::at(path.clone());
+        let task = Task { goal: goal.to_owned(), options, segmenter, start, folder };
         let mode = self.mode();
         if mode == Mode::Resume
             && let Some(summary) = task.done_before()?

@@ -4,7 +4,7 @@ use super::args::{Fit, GoalArgs};
 use super::flags;
 use super::values::ViewArg;
 use anyhow::{Context, bail};
-use pleach::{FitOptions, Leaves, optimizer_with, settings_of};
+use pleach::{FitOptions, Leaves, MaskFrom, optimizer_with, settings_of};
 use pleach_fit::{Optimizer, Setting};
 
 impl Fit {
@@ -26,7 +26,10 @@ impl Fit {
         Ok(FitOptions {
             height: goal.height,
             size: goal.size,
-            mask: goal.mask.clone(),
+            // What the command writes is a cut-out, which a mask is made of.
+            mask: goal.mask.clone().or(goal.mask_command.as_ref().map(|_| MaskFrom::Auto)),
+            hints: goal.hints.hints(),
+            wood: goal.wood.clone(),
             tree: goal.tree,
             ground_row: goal.ground_row,
             axis_column: goal.axis_column,
@@ -36,6 +39,7 @@ impl Fit {
             free_frame: goal.free_frame,
             holdout_views: goal.holdout_view.clone(),
             leaves: if goal.no_leaves { Leaves::Off } else { goal.leaves },
+            appearance: goal.appearance,
             from: search.from.clone(),
             generator: search.generator,
             volume_from: search.volume_from.clone(),

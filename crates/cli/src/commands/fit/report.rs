@@ -88,7 +88,10 @@ fn beside(references: &References) -> String {
     format!("for this goal, about: {}\n", said.join("; "))
 }
 
-/// The verdict and the next command, each on its line; nothing where there is nothing to compare with.
+/// So many differences between goal and tree are said below the verdict; all are in the summary.
+const SHOWN: usize = 3;
+
+/// The verdict, in what tree and goal differ, and the next command, each on its line; nothing where there is nothing to compare with.
 fn verdict(summary: &FitReport, goal: &Path, folder: &Path) -> String {
     let Some(verdict) = &summary.verdict else { return String::new() };
     let mut fit = format!("pleach fit {}", quoted(goal));
@@ -112,7 +115,9 @@ fn verdict(summary: &FitReport, goal: &Path, folder: &Path) -> String {
             quoted(&folder.join("overlay.png"))
         ),
     };
-    format!("verdict  {verdict}\nnext     {next}\n\n")
+    let differences: String =
+        summary.readings.differences.iter().take(SHOWN).map(|one| format!("         {one}\n")).collect();
+    format!("verdict  {verdict}\n{differences}next     {next}\n\n")
 }
 
 /// As a shell takes it for one word.

@@ -2,6 +2,7 @@
 //! same.
 
 use super::flags::{defaults, flag};
+use crate::segmenter::Segmenter;
 use anyhow::Context;
 use pleach::{Encoded, FitOptions};
 use serde::Serialize;
@@ -19,6 +20,9 @@ pub(super) struct Request {
     pub(super) goal_sha256: String,
     /// The same of every other file that is read: masks, further pictures, the species of the start.
     pub(super) inputs_sha256: BTreeMap<String, String>,
+    /// The program that makes the goal's mask.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) mask_command: Option<String>,
     /// All options, which the report of the fit writes.
     #[serde(skip)]
     pub(super) options: Map<String, Value>,
@@ -26,7 +30,12 @@ pub(super) struct Request {
 
 impl Request {
     /// The request of a fit of `goal`, whose file is `source`.
-    pub(super) fn new(goal: &Path, source: &Encoded, options: &FitOptions) -> anyhow::Result<Self> {
+    pub(super) fn new(
+        goal: &Path,
+        source: &Encoded,
+        options: &FitOptions,
+        segmenter: Option<&Segmenter>,
+    ) -> anyhow::Result<Self> {
         let inputs =
             options.files().into_iter().map(|file| Ok((file.to_owned(), file_sha256(file.as_ref())?)));
         let Value::Object(written) = serde_json::to_value(options.spelled_out())? else {
@@ -36,6 +45,7 @@ impl Request {
             goal: goal.display().to_string(),
             goal_sha256: digits(Sha256::digest(source.bytes())),
             inputs_sha256: inputs.collect::<anyhow::Result<_>>()?,
+            mask_command: segmenter.map(|command| command.text().to_owned()),
             options: written,
         })
     }
@@ -69,6 +79,11 @@ impl Request {
                     shown(key, value)
                 )),
             }
+        }
+        let (before, now) = (summary["mask_command"].as_str(), self.mask_command.as_deref());
+        if before != now {
+            let said = |command: Option<&str>| command.unwrap_or("nothing").to_owned();
+            list.push(format!("--mask-command was {} and is {}", said(before), said(now)));
         }
         let changed = self.inputs_sha256.iter().filter(|(path, hash)| {
             summary["inputs_sha256"][path.as_str()].as_str().is_some_and(|then| then != hash.as_str())
@@ -134,6 +149,7 @@ mod tests {
             goal: "oak.png".to_owned(),
             goal_sha256: "ab".to_owned(),
             inputs_sha256: BTreeMap::from([("side.png".to_owned(), "01".to_owned())]),
+            mask_command: None,
             options,
         }
     }
@@ -159,6 +175,8 @@ mod tests {
         let side = BTreeMap::from([("side.png".to_owned(), "02".to_owned())]);
         let side = Request { inputs_sha256: side, ..request(1) };
         assert_eq!(side.differences(&summary), ["side.png has changed since"]);
+        let command = Request { mask_command: Some("rembg i {in} {out}".to_owned()), ..request(1) };
+        assert_eq!(command.differences(&summary), ["--mask-command was nothing and is rembg i {in} {out}"]);
         let silent = serde_json::json!({ "finished": true });
         assert_eq!(request(1).differences(&silent).len(), 3, "a summary that says nothing is of another fit");
         // An option that came later, by default and not.
@@ -191,16 +209,23 @@ mod tests {
     }
 
     /// The options of `pleach fit`, and what each of them may be given that is not its default.
-    const GIVEN: [(&str, &str); 30] = [
+    const GIVEN: [(&str, &str); 37] = [
         ("height", "12"),
         ("size", "64"),
         ("mask", "auto"),
+        ("mask_command", "rembg i {in} {out}"),
+        ("region", "1,2,30,40"),
+        ("include", "5,6"),
+        ("exclude", "7,8"),
+        ("strokes", "marks.png"),
+        ("wood", "wood.png"),
         ("tree", "dark"),
         ("ground_row", "200"),
         ("axis_column", "100.5"),
         ("view", "30"),
         ("free_frame", ""),
         ("holdout_view", "45=corner.png"),
+        ("appearance", "species"),
         ("leaves", "on"),
         ("no_leaves", ""),
         ("from", "acer"),

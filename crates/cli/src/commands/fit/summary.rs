@@ -1,6 +1,8 @@
 //! `summary.json` and the other files of a result.
 
-use super::drawing::{RENDER_SIZE, write_overlay, write_render, write_silhouette, write_species};
+use super::drawing::{
+    RENDER_SIZE, write_overlay, write_reading, write_render, write_silhouette, write_species,
+};
 use super::request::Request;
 use super::rows::{write_history, write_table};
 use super::run_folder::Claim;
@@ -58,6 +60,9 @@ pub(super) fn write(
         write_table(&claim.file("parameters.csv"), judged::table(assessment, &fitted.best.genome, space))?;
     }
     write_species(&claim.file("best.toml"), &kind.species, &comments)?;
+    let reading = &report.readings.goal;
+    files::write_text(&claim.file("reading.json"), &(serde_json::to_string_pretty(reading)? + "\n"))?;
+    write_reading(&claim.file("reading.png"), &goal.full.bitmap, reading)?;
     write_silhouette(&claim.file("best.png"), kind.over_file())?;
     write_overlay(&claim.file("overlay.png"), &kind.silhouette, &goal.full.bitmap)?;
     write_history(&claim.file("history.csv"), &fitted.outcome.history)?;

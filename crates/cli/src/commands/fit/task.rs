@@ -7,6 +7,7 @@ use super::summary::{self, Summary};
 use super::watch::Watch;
 use super::{drawing, flags, goal};
 use crate::input;
+use crate::segmenter::Segmenter;
 use anyhow::ensure;
 use pleach::{Encoded, FitOptions, FitSource, Spent};
 use pleach_fit::{CheckpointSettings, Control, FitError, GuessLibrary};
@@ -22,6 +23,8 @@ use std::time::{Duration, Instant};
 pub(super) struct Task {
     pub(super) goal: PathBuf,
     pub(super) options: FitOptions,
+    /// The program that makes the goal's mask.
+    pub(super) segmenter: Option<Segmenter>,
     /// The species that `--from` says, where it came from standard input.
     pub(super) start: Option<Species>,
     pub(super) folder: RunFolder,
@@ -38,7 +41,7 @@ impl Task {
     /// What is asked for of this goal, whose file is `source`.
     pub(super) fn request(&self, source: &Encoded) -> anyhow::Result<Request> {
         // As a fit has it that goes on from nothing.
-        Request::new(&self.goal, source, &self.options.after(&Spent::default()))
+        Request::new(&self.goal, source, &self.options.after(&Spent::default()), self.segmenter.as_ref())
     }
 
     /// The summary of the fit that `--resume` leaves as it is: one that is finished and was asked for the same.
@@ -77,7 +80,12 @@ impl Task {
             Mode::Continue => spent(self.folder.finished().as_ref()),
             _ => Spent::default(),
         };
-        let request = Request::new(&self.goal, &picture, &self.options.after(&spent))?;
+        let request =
+            Request::new(&self.goal, &picture, &self.options.after(&spent), self.segmenter.as_ref())?;
+        let picture = match &self.segmenter {
+            Some(segmenter) => segmenter.cut_out(&picture)?,
+            None => picture,
+        };
         // Standard input is called so in errors, and `stdin` in what is made of it.
         let name = input::stem(&self.goal).map(|stem| stem.to_string_lossy().into_owned());
         let source = FitSource { start: self.start.clone(), name, ..picture.into() };

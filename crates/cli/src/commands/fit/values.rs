@@ -2,16 +2,22 @@
 
 use crate::choice::Choice;
 use crate::input;
-use pleach::{Direction, FurtherView, KnownFrame, Leaves, Tone, TreeSeed};
+use pleach::{AppearanceFrom, Direction, FurtherView, KnownFrame, Leaves, Tone, TreeSeed};
 use pleach_fit::Azimuth;
 use std::num::NonZeroU32;
 use std::str::FromStr;
 
 /// Words of `--tree`.
-pub(super) const TONES: &[Choice<Tone>] = &[
+pub(in crate::commands) const TONES: &[Choice<Tone>] = &[
     ("auto", "Whichever does not fill the border", Tone::Auto),
     ("dark", "The darker one", Tone::Dark),
     ("light", "The lighter one", Tone::Light),
+];
+
+/// Words of `--appearance`.
+pub(super) const APPEARANCES: &[Choice<AppearanceFrom>] = &[
+    ("picture", "From the picture, where it has colours", AppearanceFrom::Picture),
+    ("species", "From the species that the fit started from", AppearanceFrom::Species),
 ];
 
 /// Words of `--leaves`.

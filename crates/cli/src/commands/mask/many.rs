@@ -61,6 +61,11 @@ pub(super) fn run(command: &MaskCommand, photos: &[PathBuf]) -> anyhow::Result<(
         "a --seed-point belongs to one photograph, and there are {}",
         photos.len()
     );
+    ensure!(
+        command.hints.is_empty() || photos.len() == 1,
+        "a --box, points and strokes belong to one photograph, and there are {}",
+        photos.len()
+    );
     for folder in std::iter::once(out).chain(&command.overlay) {
         let is_file = folder.is_file() || folder.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
         if (is_file && !folder.is_dir()) || input::is_standard(folder) {

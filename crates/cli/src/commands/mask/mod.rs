@@ -3,7 +3,9 @@
 mod many;
 
 use super::describe::{cannot, means, places};
+use super::hints::HintArgs;
 use crate::choice::{Choice, one_of};
+use crate::segmenter::Segmenter;
 use crate::{files, input, output};
 use anyhow::{Context, bail, ensure};
 use pleach_silhouette::goal::{Goal, GoalWarning};
@@ -13,9 +15,12 @@ use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "Examples:
   pleach mask oak.jpg -o oak.png --overlay look.png   and look at what was found
+  pleach mask oak.jpg -o oak.png --box 120,40,600,760  the tree in this rectangle
+  pleach mask oak.jpg -o oak.png --box 120,40,600,760 --exclude 300,700  but not that
   pleach mask oak.jpg -o oak.png --seed-point 800,420  that tree
   pleach mask shed.jpg -o a.png --background plain    a tree before an even wall
   pleach mask photos/*.jpg -o masks/                  many, with masks/masks.csv
+  pleach mask oak.jpg -o oak.png --mask-command 'rembg i {in} {out}'  by another program
   pleach mask oak.jpg -o - | pleach fit - --out oak   from one to the other
   pleach fit oak.jpg --mask auto                      the same in one go
 
@@ -55,6 +60,13 @@ pub(crate) struct MaskCommand {
     /// thing is the tree
     #[arg(long, value_name = "X,Y", value_parser = point)]
     seed_point: Option<(u32, u32)>,
+    /// A program that makes the mask, such as 'rembg i {in} {out}': {in} stands for the photograph's file, {out} for
+    /// the file that it is to write: the photograph with what is not the tree transparent, or a mask in white on black,
+    /// of the photograph's size. Split as by a shell, and run without one
+    #[arg(long, value_name = "COMMAND", conflicts_with_all = ["background", "alpha"])]
+    mask_command: Option<Segmenter>,
+    #[command(flatten)]
+    hints: HintArgs,
     /// Fill holes of up to this many pixels; 1 of 100,000 of the picture's by default
     #[arg(long, value_name = "PIXELS")]
     fill_holes: Option<u64>,
@@ -170,8 +182,15 @@ impl MaskCommand {
             alpha: self.alpha,
             seed_point: self.seed_point,
             fill_holes: self.fill_holes,
+            ..MaskOptions::default()
         };
-        let picture = Photo::from_encoded(&input::picture(photo)?)?;
+        let encoded = input::picture(photo)?;
+        let encoded = match &self.mask_command {
+            Some(segmenter) => segmenter.cut_out(&encoded)?,
+            None => encoded,
+        };
+        let picture = Photo::from_encoded(&encoded)?;
+        let options = self.hints.hints().over(options, &picture, &encoded.into())?;
         let mask = Mask::from_photo(&picture, &options).with_context(|| cannot(photo))?;
         let goal = Goal::from_bitmap(mask.bitmap.clone()).with_context(|| cannot(photo))?;
         Ok(Made { photo: picture, mask, goal })
@@ -193,6 +212,7 @@ impl Made {
         let (by, threshold, horizon) = match mask.segmentation {
             Segmentation::Opacity => ("opacity", None, None),
             Segmentation::Colors => ("colours", None, None),
+            Segmentation::Cut { .. } => ("cut", None, None),
             Segmentation::TwoTones => ("two-tones", None, None),
             Segmentation::Color { threshold, horizon } => ("colour", Some(threshold), horizon),
         };

@@ -9,7 +9,7 @@ pub(super) const CHECKPOINT: &str = "checkpoint";
 /// The same of a finished one, for `--continue`.
 pub(super) const STATE: &str = "search-state";
 /// What a fit writes into its folder; trees of several, and overlays of further views, beside it.
-pub(super) const FILES: [&str; 14] = [
+pub(super) const FILES: [&str; 16] = [
     "best.toml",
     "best.png",
     "overlay.png",
@@ -19,6 +19,8 @@ pub(super) const FILES: [&str; 14] = [
     "individual-render.png",
     SHEET,
     "mask.png",
+    "reading.json",
+    "reading.png",
     "history.csv",
     "parameters.csv",
     SUMMARY,
