@@ -58,7 +58,7 @@ def test_this_very_tree_can_be_left_out() -> None:
     for off in ("off", False):
         found = pleach.fit(GOAL, **{**SMALL, "individual": off})
         assert found.individuals == [] and found.best is found.species
-    with pytest.raises(pleach.FitError, match="400trees`, or `off`"):
+    with pytest.raises(pleach.FitError, match="400trees`, `share` or `off`"):
         pleach.fit(GOAL, **{**SMALL, "individual": "on"})
 
 
