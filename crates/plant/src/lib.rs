@@ -60,7 +60,7 @@ mod tree;
 pub mod trig;
 pub mod turtle;
 
-pub use appearance::{Appearance, BarkPattern, Color, Look, Season};
+pub use appearance::{Appearance, BarkPattern, Color, Look, Season, oklab};
 pub use dendrometry::{BREAST_HEIGHT, Dendrometry};
 pub use fnv::Fnv;
 pub use glam;

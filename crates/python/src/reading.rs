@@ -26,13 +26,13 @@ pub(crate) fn read<'py>(
     for (name, picture) in pictures {
         let _ = source.pictures.insert(name, Source::read(&picture)?.into());
     }
-    let found = pool::on(py, None, || read_picture(source, &options))?.map_err(of_prepare)?;
-    let measures = serde_json::to_value(&found).map_err(of_fit)?;
-    Ok((json::to_python(py, &measures)?, of_ink(py, &found.silhouette)?, drawn(py, &found)?))
+    let read = pool::on(py, None, || read_picture(source, &options))?.map_err(of_prepare)?;
+    let found = serde_json::to_value(&read.found).map_err(of_fit)?;
+    Ok((json::to_python(py, &found)?, of_ink(py, &read.silhouette)?, drawn(py, &read)?))
 }
 
-fn drawn<'py>(py: Python<'py>, found: &PictureReading) -> PyResult<Bound<'py, PyArray3<u8>>> {
-    let picture = found.annotated();
+fn drawn<'py>(py: Python<'py>, read: &PictureReading) -> PyResult<Bound<'py, PyArray3<u8>>> {
+    let picture = read.annotated();
     let (width, height) = (picture.width(), picture.height());
     let colors =
         (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).flat_map(|(x, y)| picture.get(x, y));

@@ -5,11 +5,44 @@ use pleach_plant::math;
 use serde::Serialize;
 use std::fmt;
 
+/// A measure that two trees may differ in. In JSON it is called as its field of [`Reading`], and the thickness of the
+/// trunk `width`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Measure {
+    /// The number of feet.
+    Feet,
+    /// The thickness of the main trunk.
+    Width,
+    /// The lean of the main trunk.
+    #[serde(rename = "lean_deg")]
+    Lean,
+    /// The height of the first fork.
+    FirstFork,
+    /// Whether there are leaves.
+    Leaves,
+    /// The height up to which the trunk is bare.
+    BareHeight,
+    /// How much heavier the crown is on one side.
+    Asymmetry,
+    /// The part of the crown that is gaps.
+    GapShare,
+}
+
+impl Measure {
+    /// Whether it is of a species: trees of one species differ little in it, whatever their seeds.
+    #[must_use]
+    pub const fn is_of_species(self) -> bool {
+        matches!(self, Self::Feet | Self::Width | Self::BareHeight)
+    }
+}
+
 /// A measure in which a tree differs from its goal by more than two trees of one kind do.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
-    /// The measure, as its field of [`Reading`] is called.
-    pub measure: &'static str,
+    /// The measure.
+    pub measure: Measure,
     /// How large it is: 1 is as much as two trees of one kind may differ by.
     pub size: f64,
     /// How sure it is: the lesser confidence of the two readings, in 0..=1.
@@ -66,7 +99,7 @@ impl Reading {
             self.forks_apart(tree),
             self.leaves_apart(tree),
             apart(
-                "bare_height",
+                Measure::BareHeight,
                 (self.bare_height, self.bare_height_confidence),
                 (tree.bare_height, tree.bare_height_confidence),
                 BARE,
@@ -75,14 +108,14 @@ impl Reading {
                 },
             ),
             apart(
-                "asymmetry",
+                Measure::Asymmetry,
                 (self.asymmetry, self.asymmetry_confidence),
                 (tree.asymmetry, tree.asymmetry_confidence),
                 ASYMMETRY,
                 |goal, tree| format!("the crown is {} in the picture, {} in the fit", side(goal), side(tree)),
             ),
             apart(
-                "gap_share",
+                Measure::GapShare,
                 (self.gap_share, self.gap_share_confidence),
                 (tree.gap_share, tree.gap_share_confidence),
                 GAPS,
@@ -107,7 +140,12 @@ impl Reading {
             return None;
         }
         let words = format!("{} in the picture, {} in the fit", trunks(goal), number(fit));
-        Some(Difference { measure: "feet", size: factor(goal as f64, fit as f64, FEET), confidence, words })
+        Some(Difference {
+            measure: Measure::Feet,
+            size: factor(goal as f64, fit as f64, FEET),
+            confidence,
+            words,
+        })
     }
 
     fn widths_apart(&self, tree: &Self) -> Option<Difference> {
@@ -118,7 +156,7 @@ impl Reading {
         } else {
             format!("the trunk is {:.1} times as thin as in the picture", goal / fit)
         };
-        Some(Difference { measure: "trunk", size: factor(goal, fit, WIDTH), confidence, words })
+        Some(Difference { measure: Measure::Width, size: factor(goal, fit, WIDTH), confidence, words })
     }
 
     /// Thickness of the main trunk.
@@ -128,7 +166,7 @@ impl Reading {
 
     fn leans_apart(&self, tree: &Self) -> Option<Difference> {
         apart(
-            "lean_deg",
+            Measure::Lean,
             (self.lean_deg, self.lean_deg_confidence),
             (tree.lean_deg, tree.lean_deg_confidence),
             LEAN,
@@ -138,7 +176,7 @@ impl Reading {
 
     fn forks_apart(&self, tree: &Self) -> Option<Difference> {
         apart(
-            "first_fork",
+            Measure::FirstFork,
             (self.first_fork, self.first_fork_confidence),
             (tree.first_fork, tree.first_fork_confidence),
             FORK,
@@ -153,7 +191,7 @@ impl Reading {
         let state = |leaves: bool| if leaves { "in leaf" } else { "bare" };
         let words = format!("{} in the picture, {} in the fit", state(self.leaves), state(tree.leaves));
         let size = if self.leaves == tree.leaves { 0.0 } else { LEAVES };
-        Some(Difference { measure: "leaves", size, confidence, words })
+        Some(Difference { measure: Measure::Leaves, size, confidence, words })
     }
 }
 
@@ -165,7 +203,7 @@ fn sure(goal: f64, tree: f64) -> Option<f64> {
 
 /// How far two numbers that are measured and confident are apart, in `tolerance`s.
 fn apart(
-    measure: &'static str,
+    measure: Measure,
     (goal, of_goal): (Option<f64>, f64),
     (tree, of_tree): (Option<f64>, f64),
     tolerance: f64,

@@ -44,8 +44,8 @@ mod skeleton;
 mod words;
 
 pub use annotate::annotate;
-pub use colors::{Colors, ColorsError};
-pub use compare::Difference;
+pub use colors::Colors;
+pub use compare::{Difference, Measure};
 pub use confidence::Evidence;
 pub use error::ReadingError;
 pub use reader::Reader;

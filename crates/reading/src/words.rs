@@ -1,6 +1,8 @@
 //! A reading in plain words.
 
+use crate::colors::Colors;
 use crate::reading::Reading;
+use pleach_plant::Color;
 use std::fmt;
 
 /// Names, values and confidences of what was read.
@@ -26,11 +28,7 @@ impl Reading {
             lines.extend(value.map(|value| (name, value, confidence)));
         };
         add("lean", self.lean_deg.map(lean), self.lean_deg_confidence);
-        add(
-            "bare trunk",
-            self.bare_height.map(|h| format!("up to {h:.2} of the height")),
-            self.bare_height_confidence,
-        );
+        add("bare trunk", self.bare_height.map(bare), self.bare_height_confidence);
         let fork =
             self.first_fork.map_or_else(|| "none seen".to_owned(), |height| self.fork_in_words(height));
         add("first fork", Some(fork), self.first_fork_confidence);
@@ -86,9 +84,47 @@ fn asymmetry(share: f64) -> String {
     }
 }
 
+fn bare(height: f64) -> String {
+    if height < 0.005 {
+        "branches or foliage down to the ground".to_owned()
+    } else {
+        format!("up to {height:.2} of the height")
+    }
+}
+
 fn strokes(degrees: f64) -> String {
+    if degrees.abs() < 0.5 {
+        return "level on average".to_owned();
+    }
     let how = if degrees < 0.0 { "hanging" } else { "rising" };
     format!("{how} by {:.0}° on average", degrees.abs())
+}
+
+impl Colors {
+    /// What was read as lines of name, value in plain words, and confidence.
+    ///
+    /// ```
+    /// use pleach_reading::Colors;
+    /// use pleach_silhouette::Bitmap;
+    /// use pleach_silhouette::mask::Photo;
+    ///
+    /// let photo = Photo::from_fn(90, 90, |_, y| if y < 60 { [92, 131, 54, 255] } else { [107, 76, 48, 255] });
+    /// let tree = Bitmap::from_fn(90, 90, |x, y| y < 60 || (40..50).contains(&x));
+    /// let table = Colors::read(&photo, &tree)?.table();
+    /// assert_eq!((table[0].0, table[0].1.as_str()), ("leaf color", "#5c8336"));
+    /// # Ok::<(), pleach_reading::ReadingError>(())
+    /// ```
+    #[must_use]
+    pub fn table(&self) -> Vec<(&'static str, String, f64)> {
+        let color = |name, color: Option<Color>, confidence| Some((name, color?.to_string(), confidence));
+        let lines = [
+            color("leaf color", self.leaf, self.leaf_confidence),
+            color("bark", self.bark, self.bark_confidence),
+            color("blossom", self.blossom, self.blossom_confidence),
+            self.season.map(|season| ("season", season.name().to_owned(), self.season_confidence)),
+        ];
+        lines.into_iter().flatten().collect()
+    }
 }
 
 impl fmt::Display for Reading {

@@ -78,8 +78,7 @@ impl Goal {
         };
         if is_photo {
             let photo = Photo::from_encoded(&source).map_err(thrown)?;
-            let options =
-                hints.over(MaskOptions::default(), &photo, &source.clone().into()).map_err(thrown)?;
+            let options = hints.over(MaskOptions::default(), &photo, &source.into()).map_err(thrown)?;
             let found = Mask::from_photo(&photo, &options).map_err(thrown)?;
             let full = Read::from_ink(found.bitmap.clone(), &GoalOptions::default()).map_err(thrown)?;
             return Ok(Self {

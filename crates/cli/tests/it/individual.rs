@@ -130,6 +130,7 @@ fn threads_change_nothing_and_a_fit_that_is_searched_on_has_one_again() {
         read(&dir.path(threads).join("individual.toml"))
     };
     let one = on("1");
+    assert_eq!(one, on("2"));
     assert_eq!(one, on("8"));
     let individual = ["--individual", "24trees"];
     let _ = dir.run(fit(&goal, "1", "20", &[&individual[..], &["--continue"]].concat())).ok();

@@ -3,8 +3,6 @@
 use pleach_reading::{Reader, Reading};
 use pleach_silhouette::Bitmap;
 
-/// The measures that a species has; others are a single tree's.
-const OF_A_SPECIES: [&str; 3] = ["feet", "trunk", "bare_height"];
 /// Differences up to this size are found between trees of one species …
 const FROM: f64 = 1.5;
 /// … and those above this one say no more.
@@ -21,7 +19,7 @@ pub(super) fn contradiction(goal: &Reading, picture: &Bitmap, reader: &mut Reade
     let mut tree = Reading::default();
     reader.read(picture, &mut tree);
     let differences = goal.differences(&tree);
-    let of_species = differences.iter().filter(|one| OF_A_SPECIES.contains(&one.measure));
+    let of_species = differences.iter().filter(|one| one.measure.is_of_species());
     of_species.map(|one| WORTH * one.confidence * (one.size.min(UP_TO) - FROM).max(0.0)).sum()
 }
 

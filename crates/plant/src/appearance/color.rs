@@ -60,8 +60,9 @@ impl Color {
         ]
     }
 
-    /// The way back, to the nearest colour that a screen has.
-    fn from_oklab([lightness, a, b]: [f64; 3]) -> Self {
+    /// The nearest colour that a screen has, from lightness, green to red, and blue to yellow in Oklab.
+    #[must_use]
+    pub fn from_oklab([lightness, a, b]: [f64; 3]) -> Self {
         let l = math::powi(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
         let m = math::powi(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
         let s = math::powi(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);

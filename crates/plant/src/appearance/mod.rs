@@ -4,6 +4,7 @@
 
 mod blend;
 mod color;
+pub mod oklab;
 mod words;
 
 pub use color::Color;

@@ -5,8 +5,8 @@ use super::hints::MaskHints;
 use super::source::{FitSource, PictureSource};
 use pleach_reading::Colors;
 use pleach_silhouette::goal::{Crop, GoalError, GoalWarning};
-use pleach_silhouette::mask::{Mask, MaskOptions, Photo};
-use pleach_silhouette::{Bitmap, Goal, GoalOptions};
+use pleach_silhouette::mask::{Mask, MaskOptions};
+use pleach_silhouette::{Goal, GoalOptions};
 
 /// A picture of the tree at its own size, which scores are of, and reduced, which the search compares with.
 ///
@@ -26,12 +26,12 @@ pub struct GoalPair {
 }
 
 impl GoalPair {
-    /// Reads a picture as `options` say, and reduces it to `size` pixels.
+    /// Reads a picture as `options` say, and reduces it to `size` pixels. Its colours are not looked at.
     pub(super) fn read(picture: &PictureSource, options: GoalOptions, size: u32) -> Result<Self, GoalError> {
         let full = picture.goal(&GoalOptions { crop: Crop::ToTree, max_side: None, ..options })?;
         let working = full.reduced(size)?;
         let warnings = full.warnings.clone();
-        Ok(Self { full, working, mask: None, colors: colors_of_cut_out(picture), warnings })
+        Ok(Self { full, working, mask: None, colors: None, warnings })
     }
 
     /// The same of the goal of `source`, a photograph, whose mask is made of its colours and of what `hints` show.
@@ -41,35 +41,21 @@ impl GoalPair {
         options: GoalOptions,
         size: u32,
     ) -> Result<Self, PrepareError> {
-        let picture = source.goal.read()?;
-        let PictureSource::Encoded(encoded) = &*picture else {
+        if matches!(source.goal, PictureSource::Ink(_)) {
             // Ink needs no mask.
-            return Ok(Self::read(&picture, options, size)?);
-        };
-        let photo = Photo::from_encoded(encoded)?;
-        let mask = Mask::from_photo(&photo, &hints.over(MaskOptions::default(), &photo, source)?)
-            .map_err(|source| PrepareError::Mask { path: encoded.name().to_owned(), source })?;
-        let colors = Colors::read(&photo, &mask.bitmap).ok();
-        drop(photo);
+            return Ok(Self::read(&source.goal, options, size)?);
+        }
+        let (mask, colors) = masked(source, hints)?;
         let pair = Self::read(&PictureSource::Ink(mask.bitmap.clone()), options, size)?;
         Ok(Self { warnings: mask.warnings.clone(), mask: Some(mask), colors, ..pair })
     }
 }
 
-/// Opacity from which a pixel of a cut-out is tree, as in [`Mask::from_photo`].
-const OPAQUE: u8 = 128;
-
-/// The colours of a picture whose alpha channel says what is tree.
-fn colors_of_cut_out(picture: &PictureSource) -> Option<Colors> {
-    if matches!(picture, PictureSource::Ink(_)) {
-        return None;
-    }
-    let photo = picture.photo().ok()?;
-    let width = photo.width() as usize;
-    let pixels = photo.pixels();
-    let tree = Bitmap::from_fn(photo.width(), photo.height(), |x, y| {
-        pixels[y as usize * width + x as usize][3] >= OPAQUE
-    });
-    // Without transparent pixels nothing is cut out.
-    if tree.ink() == tree.area() { None } else { Colors::read(&photo, &tree).ok() }
+/// The mask of the goal of `source`, a photograph, and the colours of its tree.
+pub(super) fn masked(source: &FitSource, hints: &MaskHints) -> Result<(Mask, Option<Colors>), PrepareError> {
+    let photo = source.goal.photo()?;
+    let mask = Mask::from_photo(&photo, &hints.over(MaskOptions::default(), &photo, source)?)
+        .map_err(|error| PrepareError::Mask { path: source.goal.name().to_owned(), source: error })?;
+    let colors = Colors::read(&photo, &mask.bitmap).ok();
+    Ok((mask, colors))
 }

@@ -39,7 +39,7 @@ pub use hints::MaskHints;
 pub use optimizer::{SettingError, optimizer_with, settings_of};
 pub use options::{FitOptions, Spent};
 pub use prepared::{FurtherPicture, Prepared};
-pub use reading::{PictureReading, read_picture};
+pub use reading::{GoalReading, PictureReading, read_picture};
 pub use readings::Readings;
 pub use report::{FitReport, ReportError, TIME_KEYS};
 pub use report_parts::{

@@ -3,7 +3,7 @@
 use super::error::PrepareError;
 use super::goal_pair::GoalPair;
 use super::options::{FitOptions, Spent};
-use super::reading::trust_colors;
+use super::reading::GoalReading;
 use super::source::FitSource;
 use super::start::FitStart;
 use super::volume::Outlined;
@@ -13,7 +13,7 @@ use pleach_fit::{
     Accuracy, Control, CostModel, FitError, FitProblem, Fitted, GoalSettings, GoalView, GuessLibrary,
     Guessing, Unknown, fit_goal_with,
 };
-use pleach_reading::{Colors, Reading};
+use pleach_reading::Colors;
 use pleach_silhouette::{GoalOptions, Polarity, View};
 use pleach_tree::Foliage;
 use pleach_tree::species::safe_name;
@@ -52,7 +52,7 @@ pub struct Prepared {
     /// What is fitted.
     pub problem: FitProblem,
     /// What is in the goal's picture.
-    pub reading: Reading,
+    pub reading: GoalReading,
     /// How.
     pub settings: GoalSettings,
     shares: Option<Shares>,
@@ -109,8 +109,7 @@ impl FitOptions {
             settings = GoalSettings { individual, ..outlined.plan(settings.search)? };
         }
         add(&mut settings, spent);
-        let mut reading = self.measure(source, &*self.silhouette(source, &goal)?)?;
-        trust_colors(&mut reading, goal.colors.as_ref());
+        let reading = self.read(source, &goal)?;
         let prepared = Prepared {
             options: self.after(spent),
             name: safe_name(&self.name.clone().unwrap_or_else(|| source.species_name())),
@@ -129,15 +128,18 @@ impl FitOptions {
     }
 
     /// The goal's picture.
-    pub(super) fn goal(&self, source: &FitSource) -> Result<GoalPair, PrepareError> {
+    fn goal(&self, source: &FitSource) -> Result<GoalPair, PrepareError> {
         let options = self.goal_options();
-        match self.mask {
-            Some(MaskFrom::Auto) => GoalPair::of_photograph(source, &self.hints, options, self.size),
-            None if !self.hints.is_empty() => {
-                GoalPair::of_photograph(source, &self.hints, options, self.size)
-            }
-            _ => Ok(GoalPair::read(&source.goal, options, self.size)?),
+        if self.is_photograph() {
+            return GoalPair::of_photograph(source, &self.hints, options, self.size);
         }
+        let pair = GoalPair::read(&source.goal, options, self.size)?;
+        Ok(GoalPair { colors: source.goal.colors_of_cut_out(), ..pair })
+    }
+
+    /// Whether the goal is said to be a photograph.
+    pub(super) fn is_photograph(&self) -> bool {
+        self.mask == Some(MaskFrom::Auto) || self.mask.is_none() && !self.hints.is_empty()
     }
 
     /// How the goal's picture is read.

@@ -1,35 +1,57 @@
 //! What is in a picture of a tree, before anything is fitted to it.
 
 use super::error::PrepareError;
-use super::goal_pair::GoalPair;
+use super::goal_pair::{GoalPair, masked};
 use super::options::FitOptions;
 use super::source::FitSource;
-use super::words::MaskFrom;
 use pleach_reading::{Colors, Reader, Reading, annotate};
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::mask::Mask;
 use pleach_silhouette::picture::Picture;
-use pleach_silhouette::{Bitmap, GoalOptions};
+use pleach_silhouette::{Bitmap, Goal, GoalOptions};
 use serde::Serialize;
-use std::borrow::Cow;
 
-/// What is in a picture of a tree: see [`read_picture`].
+/// What is in a picture of a tree, as data: the program's `reading.json`.
 #[derive(Clone, Debug, Serialize)]
-pub struct PictureReading {
+pub struct GoalReading {
     /// The measures.
     #[serde(flatten)]
-    pub reading: Reading,
+    pub measures: Reading,
     /// The colours of the tree, and the season; `None` of a picture without colours.
     pub colors: Option<Colors>,
     /// How likely the mask of a photograph is a good one, in 0..=1; `None` if the picture needed none.
     pub mask_confidence: Option<f64>,
     /// What about the picture, or its mask, is not as a fit expects.
     pub warnings: Vec<GoalWarning>,
-    /// The tree as ink.
-    #[serde(skip)]
+}
+
+impl GoalReading {
+    /// Of a picture with these measures. Whether there are leaves is taken from the colours where they say it more
+    /// surely than the silhouette.
+    pub(super) fn new(
+        mut measures: Reading,
+        colors: Option<Colors>,
+        mask: Option<&Mask>,
+        warnings: Vec<GoalWarning>,
+    ) -> Self {
+        if let Some(colors) = &colors
+            && let Some(leaves) = colors.leaves
+            && colors.leaves_confidence > measures.leaves_confidence
+        {
+            (measures.leaves, measures.leaves_confidence) = (leaves, colors.leaves_confidence);
+        }
+        Self { measures, colors, mask_confidence: mask.map(|mask| mask.confidence), warnings }
+    }
+}
+
+/// A picture of a tree, and what is in it: see [`read_picture`].
+#[derive(Clone, Debug)]
+pub struct PictureReading {
+    /// What is in it.
+    pub found: GoalReading,
+    /// The tree as ink, of the size of the picture.
     pub silhouette: Bitmap,
     /// The mask that was made of a photograph.
-    #[serde(skip)]
     pub mask: Option<Mask>,
 }
 
@@ -37,7 +59,7 @@ impl PictureReading {
     /// The measures drawn over the tree.
     #[must_use]
     pub fn annotated(&self) -> Picture {
-        annotate(&self.silhouette, &self.reading)
+        annotate(&self.silhouette, &self.found.measures)
     }
 }
 
@@ -51,9 +73,9 @@ impl PictureReading {
 /// use pleach::{FitOptions, View, read_picture};
 ///
 /// let goal = pleach::silhouette(&pleach::species("acer")?.grow(7)?, View::FRONT, 256);
-/// let found = read_picture(goal, &FitOptions::default())?;
-/// assert_eq!(found.reading.feet.len(), 1);
-/// print!("{}", found.reading);
+/// let read = read_picture(goal, &FitOptions::default())?;
+/// assert_eq!(read.found.measures.feet.len(), 1);
+/// print!("{}", read.found.measures);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -65,54 +87,50 @@ pub fn read_picture(
 ) -> Result<PictureReading, PrepareError> {
     let source = source.into();
     options.check()?;
-    let by_tone = options.goal(&source);
-    let says_nothing = options.mask.is_none() && options.hints.is_empty();
-    let is_photo = says_nothing
-        && by_tone.as_ref().map_or(true, |pair| pair.warnings.contains(&GoalWarning::Photograph));
-    let pair = if is_photo {
-        let masked = FitOptions { mask: Some(MaskFrom::Auto), ..options.clone() }.goal(&source);
-        masked.or(by_tone)?
-    } else {
-        by_tone?
-    };
-    let silhouette = match &pair.mask {
-        Some(mask) => mask.bitmap.clone(),
-        // Without the margins that a fit compares.
-        None => source.goal.goal(&options.goal_options())?.bitmap,
-    };
-    let mut reading = options.measure(&source, &silhouette)?;
-    let GoalPair { mask, colors, warnings, .. } = pair;
-    trust_colors(&mut reading, colors.as_ref());
-    let mask_confidence = mask.as_ref().map(|mask| mask.confidence);
-    Ok(PictureReading { reading, colors, mask_confidence, warnings, silhouette, mask })
+    if options.is_photograph() {
+        return of_photograph(&source, options);
+    }
+    let by_tone = source.goal.goal(&options.goal_options());
+    let looks_as_photo =
+        by_tone.as_ref().map_or(true, |goal| goal.warnings.contains(&GoalWarning::Photograph));
+    if options.mask.is_none()
+        && looks_as_photo
+        && let Ok(read) = of_photograph(&source, options)
+    {
+        return Ok(read);
+    }
+    let Goal { bitmap: silhouette, warnings, .. } = by_tone?;
+    let measures = options.measure(&source, &silhouette)?;
+    let colors = source.goal.colors_of_cut_out();
+    Ok(PictureReading { found: GoalReading::new(measures, colors, None, warnings), silhouette, mask: None })
 }
 
-/// Takes from colours whether there are leaves, where they say it more surely than the silhouette.
-pub(super) fn trust_colors(reading: &mut Reading, colors: Option<&Colors>) {
-    if let Some(colors) = colors
-        && let Some(leaves) = colors.leaves
-        && colors.leaves_confidence > reading.leaves_confidence
-    {
-        (reading.leaves, reading.leaves_confidence) = (leaves, colors.leaves_confidence);
-    }
+fn of_photograph(source: &FitSource, options: &FitOptions) -> Result<PictureReading, PrepareError> {
+    let (mask, colors) = masked(source, &options.hints)?;
+    let measures = options.measure(source, &mask.bitmap)?;
+    let found = GoalReading::new(measures, colors, Some(&mask), mask.warnings.clone());
+    Ok(PictureReading { found, silhouette: mask.bitmap.clone(), mask: Some(mask) })
 }
 
 impl FitOptions {
-    /// The tree of the goal, which was read as `pair`: a mask of wood is of the picture as it came.
-    pub(super) fn silhouette<'a>(
-        &self,
-        source: &FitSource,
-        pair: &'a GoalPair,
-    ) -> Result<Cow<'a, Bitmap>, PrepareError> {
-        Ok(match (&pair.mask, &self.wood) {
-            (Some(mask), _) => Cow::Borrowed(&mask.bitmap),
-            (None, Some(_)) => Cow::Owned(source.goal.goal(&self.goal_options())?.bitmap),
-            (None, None) => Cow::Borrowed(&pair.full.bitmap),
-        })
+    /// What is in the goal of `source`, which was read as `pair`.
+    pub(super) fn read(&self, source: &FitSource, pair: &GoalPair) -> Result<GoalReading, PrepareError> {
+        // A mask of wood is of the picture as it came.
+        let whole;
+        let silhouette = match (&pair.mask, &self.wood) {
+            (Some(mask), _) => &mask.bitmap,
+            (None, Some(_)) => {
+                whole = source.goal.goal(&self.goal_options())?.bitmap;
+                &whole
+            }
+            (None, None) => &pair.full.bitmap,
+        };
+        let measures = self.measure(source, silhouette)?;
+        Ok(GoalReading::new(measures, pair.colors.clone(), pair.mask.as_ref(), pair.warnings.clone()))
     }
 
     /// What is in the goal of `source`, whose tree is `silhouette`.
-    pub(super) fn measure(&self, source: &FitSource, silhouette: &Bitmap) -> Result<Reading, PrepareError> {
+    fn measure(&self, source: &FitSource, silhouette: &Bitmap) -> Result<Reading, PrepareError> {
         let (mut reader, mut reading) = (Reader::new(), Reading::default());
         match self.wood.as_deref() {
             Some(wood) => {

@@ -1,15 +1,16 @@
 //! What is in a goal and in the trees of its fit, side by side.
 
 use super::drawn::FittedTree;
+use super::reading::GoalReading;
 use pleach_fit::{KindVerdict, Verdict};
-use pleach_reading::{Difference, Reading};
+use pleach_reading::{Difference, Measure, Reading};
 use serde::Serialize;
 
 /// What is in a goal and in the pictures of the trees that were found, read by the same code.
 #[derive(Clone, Debug, Serialize)]
 pub struct Readings {
     /// Of the goal.
-    pub goal: Reading,
+    pub goal: GoalReading,
     /// Of the kind's own tree.
     pub kind: Reading,
     /// Of the goal's own tree, where there is one.
@@ -22,23 +23,20 @@ pub struct Readings {
 const ROUGHLY: f64 = 1.5;
 /// … and from this one on, it is not.
 const NOT_AT_ALL: f64 = 2.5;
-/// The measures that a kind has: others are the single tree's.
-const OF_A_KIND: [&str; 4] = ["feet", "trunk", "bare_height", "leaves"];
-
 impl Readings {
-    pub(super) fn new(goal: &Reading, kind: &FittedTree, individual: Option<&FittedTree>) -> Self {
+    pub(super) fn new(goal: &GoalReading, kind: &FittedTree, individual: Option<&FittedTree>) -> Self {
         let goal = goal.clone();
         let kind = Reading::from_silhouette(&kind.silhouette);
         let individual = individual.map(|tree| Reading::from_silhouette(&tree.silhouette));
-        let differences = goal.differences(&kind);
+        let differences = goal.measures.differences(&kind);
         Self { goal, kind, individual, differences }
     }
 
     /// `verdict`, no better than what the tree's measures allow: a clump of canes is not of the kind of a tree with one
     /// trunk, however alike their outlines are.
     pub(super) fn bound(&self, verdict: Verdict) -> Verdict {
-        let of_kind = self.differences.iter().filter(|one| OF_A_KIND.contains(&one.measure));
-        let largest = of_kind.map(|one| one.size).fold(0.0, f64::max);
+        let counts = |one: &&Difference| one.measure.is_of_species() || one.measure == Measure::Leaves;
+        let largest = self.differences.iter().filter(counts).map(|one| one.size).fold(0.0, f64::max);
         if largest >= NOT_AT_ALL {
             verdict.at_most(KindVerdict::NotOfItsKind)
         } else if largest >= ROUGHLY {
@@ -46,5 +44,39 @@ impl Readings {
         } else {
             verdict
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_verdict_is_no_better_than_the_measures_of_a_species_allow() {
+        let best =
+            Verdict { kind: KindVerdict::OfItsKind, tree: KindVerdict::OfItsKind, share: 0.9, off: None };
+        let bound = |differences: &[(Measure, f64)]| {
+            let one = |&(measure, size): &(Measure, f64)| Difference {
+                measure,
+                size,
+                confidence: 0.9,
+                words: String::new(),
+            };
+            let reading = Reading::default();
+            let goal = GoalReading::new(reading.clone(), None, None, Vec::new());
+            let differences = differences.iter().map(one).collect();
+            Readings { goal, kind: reading, individual: None, differences }.bound(best).kind
+        };
+        assert_eq!(bound(&[]), KindVerdict::OfItsKind);
+        assert_eq!(bound(&[(Measure::Feet, 1.4)]), KindVerdict::OfItsKind);
+        assert_eq!(bound(&[(Measure::Width, 1.5)]), KindVerdict::Roughly);
+        assert_eq!(bound(&[(Measure::Lean, 9.0), (Measure::BareHeight, 1.6)]), KindVerdict::Roughly);
+        assert_eq!(bound(&[(Measure::Feet, 2.5)]), KindVerdict::NotOfItsKind);
+        assert_eq!(bound(&[(Measure::Leaves, 3.0)]), KindVerdict::NotOfItsKind);
+        // How a single tree leans, forks or is heavier on one side is not of its species.
+        assert_eq!(bound(&[(Measure::Lean, 9.0), (Measure::FirstFork, 4.0)]), KindVerdict::OfItsKind);
+        // What is bad already stays.
+        let bad = Verdict { kind: KindVerdict::NoMoreThanAnother, ..best };
+        assert_eq!(bad.at_most(KindVerdict::Roughly).kind, KindVerdict::NoMoreThanAnother);
     }
 }

@@ -1,5 +1,6 @@
 //! The pictures of a fit, as callers have them.
 
+use pleach_reading::Colors;
 use pleach_silhouette::goal::{Encoded, GoalError};
 use pleach_silhouette::mask::Photo;
 use pleach_silhouette::{Bitmap, Goal, GoalOptions};
@@ -7,6 +8,9 @@ use pleach_tree::Species;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// Opacity from which a pixel of a cut-out is tree, as in [`pleach_silhouette::mask::Mask::from_photo`].
+const OPAQUE: u8 = 128;
 
 /// A picture that a goal is read from.
 #[derive(Clone, Debug)]
@@ -20,14 +24,6 @@ pub enum PictureSource {
 }
 
 impl PictureSource {
-    /// The same with the bytes of its file.
-    pub(super) fn read(&self) -> Result<Cow<'_, Self>, GoalError> {
-        Ok(match self {
-            Self::File(path) => Cow::Owned(Self::Encoded(Encoded::load(path)?)),
-            _ => Cow::Borrowed(self),
-        })
-    }
-
     /// The goal of the picture.
     pub(super) fn goal(&self, options: &GoalOptions) -> Result<Goal, GoalError> {
         match self {
@@ -47,6 +43,24 @@ impl PictureSource {
                 [light, light, light, 255]
             })),
         }
+    }
+
+    /// The colours of a picture whose alpha channel says what is tree; `None` of others.
+    pub(super) fn colors_of_cut_out(&self) -> Option<Colors> {
+        if matches!(self, Self::Ink(_)) {
+            return None;
+        }
+        let photo = self.photo().ok()?;
+        let (width, pixels) = (photo.width() as usize, photo.pixels());
+        let is_tree = |x: u32, y: u32| pixels[y as usize * width + x as usize][3] >= OPAQUE;
+        let tree = Bitmap::from_fn(photo.width(), photo.height(), is_tree);
+        // Without transparent pixels nothing is cut out.
+        if tree.ink() == tree.area() { None } else { Colors::read(&photo, &tree).ok() }
+    }
+
+    /// What errors call it.
+    pub(super) fn name(&self) -> &Path {
+        self.path().unwrap_or_else(|| "the goal".as_ref())
     }
 
     /// The path that it was given with, if any.

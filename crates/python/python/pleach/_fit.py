@@ -236,8 +236,8 @@ def fit(
     The picture is a path, an array (bool of shape (height, width), True where the tree is; or uint8), a PIL image or
     an open file. ``height`` is the tree's, in metres; ``size`` the longer side that the search compares at, in
     pixels. ``mask`` is ``"auto"`` for a photograph, or a file that says what is tree; ``box``, ``include``, ``exclude``
-    and ``strokes`` show the tree in a photograph, as in ``pleach.mask``; ``wood`` is a file that says what of the tree is wood. ``tree`` is the tone that is the tree:
-    ``"auto"``, ``"dark"`` or ``"light"``. ``ground_row`` and ``axis_column`` are where the tree stands, in pixels
+    and ``strokes`` show the tree in a photograph, as in ``pleach.mask``; ``wood`` is a file that says what of the tree
+    is wood. ``tree`` is the tone that is the tree: ``"auto"``, ``"dark"`` or ``"light"``. ``ground_row`` and ``axis_column`` are where the tree stands, in pixels
     of the picture; ``frame``, where it is known, is metres per pixel, the column of the trunk's foot and the row of the
     ground: it is taken as exact, and the height follows from it. ``view`` is the azimuth, or azimuth and elevation, in
     degrees. ``views`` are further pictures of the same tree, each with where it was taken from:

@@ -5,8 +5,9 @@
 //! draws them at 256 pixels (some at 600), and reads the pictures. Constants are tuned on even seeds; odd seeds judge.
 //! The table says which part of the readings is right, and for each class of confidence how many of its readings
 //! are; the same for ragged masks of the same trees, as they are cut out of photographs. No photograph takes part. To
-//! MODELS goes `src/confidence/models.rs`, fitted to the even seeds. The CSV has a row per picture with what confidences are made from. Pictures with a wrong measure go to the
-//! folder, with the reading on the left and the truth on the right.
+//! MODELS goes `src/confidence/models.rs`, fitted to the even seeds. The CSV has a row per picture with what confidences
+//! are made from. Pictures with a wrong measure go to the folder, with the reading on the left and the truth on the
+//! right.
 #![allow(clippy::print_stdout, reason = "it is a program")]
 #![allow(clippy::unwrap_used, reason = "a program for engineers")]
 
@@ -271,8 +272,8 @@ const SPARSE_WEIGHT: f64 = 3.0;
 
 /// Models of these outcomes, as a source file.
 fn models(outcomes: &[&Outcome], judged: &[&Outcome]) -> String {
-    let mut text = "//! Logistic models of what was read on grown trees: written by the example `judge`, fitted by ridge \
-        regression to the\n//! even seeds, as drawn and as ragged masks.\n\nuse super::logistic::Logistic;\n"
+    let mut text = "//! Logistic models of what was read on grown trees: fitted by ridge regression, from what the example \
+        `judge` measures,\n//! to the even seeds, as drawn and as ragged masks.\n\nuse super::logistic::Logistic;\n"
         .to_owned();
     for (name, measure, what) in MODELS {
         let samples = |outcomes: &[&Outcome]| -> Vec<Sample> {

@@ -17,7 +17,6 @@
 //! Snow on an evergreen is taken for blossom, and fruit for foliage.
 
 mod appearance;
-mod error;
 mod evidence;
 mod grid;
 mod layers;
@@ -32,8 +31,7 @@ mod tones;
 mod trunk;
 mod words;
 
-pub use error::ColorsError;
-
+use crate::error::ReadingError;
 use grid::Grid;
 use layers::{Kind, Layers};
 use pleach_plant::{Color, Season};
@@ -59,7 +57,7 @@ use tones::Tones;
 /// let colors = Colors::read(&photo, &tree)?;
 /// assert_eq!(colors.leaves, Some(true));
 /// assert_eq!(colors.leaf.map(|leaf| leaf.to_string()).as_deref(), Some("#5c8336"));
-/// # Ok::<(), pleach_reading::ColorsError>(())
+/// # Ok::<(), pleach_reading::ReadingError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -115,11 +113,11 @@ impl Colors {
     /// Reads the part of `photo` that is `tree`; both are of one size. Pixels less than half opaque have no colour.
     ///
     /// # Errors
-    /// [`ColorsError::MaskSize`] if photograph and mask differ in size.
-    pub fn read(photo: &Photo, tree: &Bitmap) -> Result<Self, ColorsError> {
+    /// [`ReadingError::MaskSize`] if photograph and mask differ in size.
+    pub fn read(photo: &Photo, tree: &Bitmap) -> Result<Self, ReadingError> {
         let sizes = ((tree.width(), tree.height()), (photo.width(), photo.height()));
         if sizes.0 != sizes.1 {
-            return Err(ColorsError::MaskSize { mask: sizes.0, photo: sizes.1 });
+            return Err(ReadingError::MaskSize { mask: sizes.0, photo: sizes.1 });
         }
         let mut colors = Self {
             wood: Bitmap::new(tree.width(), tree.height()),

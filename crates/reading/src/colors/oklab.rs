@@ -1,12 +1,7 @@
-//! Colours as people see them apart, and back again.
-//!
-//! Oklab: Björn Ottosson, "A perceptual color space for image processing" (2020). Light that is `k` times as strong
-//! multiplies all three coordinates by the cube root of `k`, so their ratios are the same in sun and shade.
+//! Hues in Oklab, whose ratios to the lightness are the same in sun and shade.
 
+pub(super) use pleach_plant::oklab::{Oklab, from_linear, linear_table};
 use pleach_plant::{Color, math};
-
-/// Lightness 0 to 1, green to red, blue to yellow.
-pub(super) type Oklab = [f32; 3];
 
 /// Darker than this, hues are mostly noise: ratios to the lightness are taken to this one instead.
 const DARK: f32 = 0.25;
@@ -33,44 +28,9 @@ pub(super) fn chroma(a: f32, b: f32) -> f32 {
     (a * a + b * b).sqrt()
 }
 
-/// Light of each of the 256 values of a channel (IEC 61966-2-1).
-pub(super) fn linear_table() -> [f32; 256] {
-    std::array::from_fn(|value| {
-        let v = value as f32 / 255.0;
-        if v <= 0.04045 { v / 12.92 } else { math::powf((v + 0.055) / 1.055, 2.4) }
-    })
-}
-
-/// From light, 0 to 1 per channel.
-#[expect(clippy::excessive_precision, reason = "as they were published")]
-pub(super) fn from_linear([r, g, b]: [f32; 3]) -> Oklab {
-    let l = math::cbrtf(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
-    let m = math::cbrtf(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
-    let s = math::cbrtf(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-    [
-        0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
-        1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
-        0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s,
-    ]
-}
-
 /// The nearest colour of screens.
-#[expect(clippy::excessive_precision, reason = "as they were published")]
-pub(super) fn to_color([lightness, a, b]: Oklab) -> Color {
-    let cube = |x: f32| x * x * x;
-    let l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b);
-    let m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b);
-    let s = cube(lightness - 0.0894841775 * a - 1.2914855480 * b);
-    let linear = [
-        4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
-        -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
-        -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s,
-    ];
-    Color(linear.map(|v| {
-        let v = v.clamp(0.0, 1.0);
-        let v = if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * math::powf(v, 1.0 / 2.4) - 0.055 };
-        (255.0 * v).round() as u8
-    }))
+pub(super) fn to_color(color: Oklab) -> Color {
+    Color::from_oklab(color.map(f64::from))
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ const APART: f32 = 0.04;
 /// Flat colours have sunlit leaves lighter than usual ones by at most this.
 const FLAT: f64 = 0.01;
 /// Crowns up to this roughness are smooth, and from the second on all leaves: stylised ones have 0.02 to 0.1,
-/// photographs and renders of leaves 0.5 to 1.2.
+/// renders of leaves 0.5 to 1.2.
 const SMOOTH: f64 = 0.15;
 const ROUGH: f64 = 0.45;
 

@@ -1,5 +1,5 @@
-//! Logistic models of what was read on grown trees: fitted by ridge regression, from what the example `judge` measures, to the
-//! even seeds, as drawn and as ragged masks.
+//! Logistic models of what was read on grown trees: fitted by ridge regression, from what the example `judge` measures,
+//! to the even seeds, as drawn and as ragged masks.
 
 use super::logistic::Logistic;
 

@@ -14,8 +14,7 @@ pub(crate) const LEAN_FROM: f64 = 0.03;
 pub(crate) const LEAN_AT_LEAST: f64 = 0.12;
 pub(crate) const LEAN_AT_MOST: f64 = 0.5;
 
-/// The height in rows up to which nothing leaves the trunk, and whether the trunk ends there without a trace of
-/// what is above.
+/// The height in rows up to which nothing leaves the trunk.
 pub(super) fn bare_rows(grid: &Grid, rows: Rows, samples: &[Sample], room: f64) -> usize {
     let beside = (BESIDE * rows.count as f64).max(3.0).min(room);
     let window = rows.part(WINDOW).max(3);

@@ -176,8 +176,8 @@ impl fmt::Display for GoalWarning {
             Self::DoubtfulMask { confidence } => write!(
                 f,
                 "the mask is doubtful (confidence {confidence:.2} of 1); look at it with `pleach mask PHOTO \
-                 -o mask.png --overlay look.png`, and try --seed-point or --background, or a mask made by \
-                 hand"
+                 -o mask.png --overlay look.png`, and try --box, --seed-point or --background, or a mask made \
+                 by hand"
             ),
         }
     }

@@ -256,8 +256,8 @@ impl<'a> Level<'a> {
         Self { small, seeds, features, prior, out: outs, is_sky: skies }
     }
 
-    /// A first guess: an ellipse without the sky, and without what looks as the outside of the box, and its corners, do at its height;
-    /// unless all of the ellipse does, as a tree before others of its kind.
+    /// A first guess: an ellipse without the sky, and without what looks as the outside of the box, and its corners,
+    /// do at its height; unless all of the ellipse does, as a tree before others of its kind.
     fn first(&self) -> Vec<bool> {
         let is_inner = |i: usize| match self.seeds[i] {
             Seed::Tree | Seed::Trunk => true,

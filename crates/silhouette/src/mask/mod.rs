@@ -4,7 +4,8 @@
 //!    and corners that were made transparent are left out.
 //! 2. The horizon is where colours step at the picture's sides, if they do. Unless the background is said to
 //!    be plain or a sky, no horizon, a clear and a faint one are tried, and the most confident mask is taken.
-//!    If that is still doubtful, so is what has other colours than all of the picture's edges.
+//!    If that is still doubtful, so are what has other colours than all of the picture's edges, and what a graph cut
+//!    finds in boxes that are guessed (`guess.rs`).
 //! 3. What the background looks like is read off the picture's frame, above and below the horizon,
 //!    and continued behind the tree; colours are compared in Oklab.
 //! 4. What is farther from it than Otsu's threshold on that distance, and than half of what is usual
@@ -14,7 +15,8 @@
 //! 6. Small holes are filled, such as glints on leaves; the sky between leaves stays.
 //!
 //! It takes an even background: sky, clouds, haze, a wall. Before houses and other trees it finds what differs
-//! from them in colour, and says that it is doubtful.
+//! from them in colour, and says that it is doubtful. There a person may show the tree by a box around it, or by points
+//! and strokes: a graph cut then takes the place of steps 2 to 4 (`cut.rs`, `refine.rs`).
 
 mod backdrop;
 mod clear_sky;
@@ -140,9 +142,8 @@ pub struct Mask {
     /// How likely the mask is a good one, in 0..=1, to sort masks by: those below 0.45 want a look.
     ///
     /// It falls with what would be tree or not if the least distance from the background were a little
-    /// other, with what else stood out, with how much of the picture's edge is tree, if that is both
-    /// the left and the right one, and with a foot that
-    /// is wide as a hill's. Of an alpha channel, what counts as the least distance is half opaque, and a foot
+    /// other, with what else stood out, with how much of the picture's edge is tree, more so if that is both
+    /// the left and the right one, and with a foot that is wide as a hill's. Of an alpha channel, what counts as the least distance is half opaque, and a foot
     /// may be as wide as it likes.
     pub confidence: f64,
     /// What about the mask is not as a fit expects, as of a goal.

@@ -1,13 +1,7 @@
-//! Colours as people see them apart.
-//!
-//! Oklab: Björn Ottosson, "A perceptual color space for image processing" (2020). Distances in it are
-//! about even to the eye: 0.02 can just be told apart, black and white are 1 apart. It keeps the hue of
-//! blues steady while they fade, as skies do.
+//! Colours as people see them apart. Oklab keeps the hue of blues steady while they fade, as skies do.
 
-use pleach_plant::math;
-
-/// Lightness 0 to 1, green to red, blue to yellow.
-pub(super) type Oklab = [f32; 3];
+pub(super) use pleach_plant::oklab::Oklab;
+use pleach_plant::oklab::{from_linear, linear_table};
 
 /// From sRGB with 8 bits a channel.
 pub(super) struct Converter {
@@ -16,26 +10,12 @@ pub(super) struct Converter {
 }
 
 impl Converter {
-    /// IEC 61966-2-1: the curve of sRGB.
     pub(super) fn new() -> Self {
-        let linear = std::array::from_fn(|value| {
-            let v = value as f32 / 255.0;
-            if v <= 0.04045 { v / 12.92 } else { math::powf((v + 0.055) / 1.055, 2.4) }
-        });
-        Self { linear }
+        Self { linear: linear_table() }
     }
 
-    #[expect(clippy::excessive_precision, reason = "as they were published")]
-    pub(super) fn oklab(&self, [r, g, b]: [u8; 3]) -> Oklab {
-        let [r, g, b] = [r, g, b].map(|v| self.linear[usize::from(v)]);
-        let l = math::cbrtf(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
-        let m = math::cbrtf(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
-        let s = math::cbrtf(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-        [
-            0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
-            1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
-            0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s,
-        ]
+    pub(super) fn oklab(&self, rgb: [u8; 3]) -> Oklab {
+        from_linear(rgb.map(|v| self.linear[usize::from(v)]))
     }
 }
 

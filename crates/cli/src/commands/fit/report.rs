@@ -91,7 +91,8 @@ fn beside(references: &References) -> String {
 /// So many differences between goal and tree are said below the verdict; all are in the summary.
 const SHOWN: usize = 3;
 
-/// The verdict, in what tree and goal differ, and the next command, each on its line; nothing where there is nothing to compare with.
+/// The verdict, in what tree and goal differ, and the next command, each on its line; nothing where there is nothing to
+/// compare with.
 fn verdict(summary: &FitReport, goal: &Path, folder: &Path) -> String {
     let Some(verdict) = &summary.verdict else { return String::new() };
     let mut fit = format!("pleach fit {}", quoted(goal));

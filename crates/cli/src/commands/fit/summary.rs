@@ -62,7 +62,7 @@ pub(super) fn write(
     write_species(&claim.file("best.toml"), &kind.species, &comments)?;
     let reading = &report.readings.goal;
     files::write_text(&claim.file("reading.json"), &(serde_json::to_string_pretty(reading)? + "\n"))?;
-    write_reading(&claim.file("reading.png"), &goal.full.bitmap, reading)?;
+    write_reading(&claim.file("reading.png"), &goal.full.bitmap, &reading.measures)?;
     write_silhouette(&claim.file("best.png"), kind.over_file())?;
     write_overlay(&claim.file("overlay.png"), &kind.silhouette, &goal.full.bitmap)?;
     write_history(&claim.file("history.csv"), &fitted.outcome.history)?;
