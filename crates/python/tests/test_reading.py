@@ -19,7 +19,9 @@ def photograph() -> npt.NDArray[np.uint8]:
     rows, columns = np.ogrid[:160, :200]
     crown = (rows - 60) ** 2 + (columns - 100) ** 2 < 40**2
     photo[crown] = (60, 115, 45)
-    return np.clip(photo + rough[..., None] - 11, 0, 255).astype(np.uint8)
+    # Named with its type: some versions of NumPy leave the type of `clip` open.
+    noisy: npt.NDArray[np.uint8] = np.clip(photo + rough[..., None] - 11, 0, 255).astype(np.uint8)
+    return noisy
 
 
 def test_a_picture_is_read() -> None:
