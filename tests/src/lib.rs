@@ -108,7 +108,7 @@ pub fn results(folder: &Path) -> (Vec<u8>, Vec<u8>, Vec<String>) {
 /// known species are built in, and the result is compared with trees that are grown for it, which takes longer.
 #[must_use]
 pub fn small<'a>(goal: &'a str, out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    [&["fit", goal, "--out", out, "--size", "132", "--from", "acer", "--individual", "off"], more].concat()
+    [&["fit", goal, "--out", out, "--size", "140", "--from", "acer", "--individual", "off"], more].concat()
 }
 
 /// A fresh directory in which the program is run; removed at the end.

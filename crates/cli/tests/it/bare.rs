@@ -59,7 +59,7 @@ fn a_bare_fit_writes_species_that_grow_bare() {
     let dir = Dir::new();
     let _ = dir.run(["silhouette", "acer", "--seed", "3", "--no-leaves", "--size", "96", "-o", "g.png"]).ok();
     let fit = |goal: &str, out: &str, more: &[&str]| {
-        let args = ["fit", goal, "--out", out, "--size", "132", "--from", "acer", "--tree-seed", "5"];
+        let args = ["fit", goal, "--out", out, "--size", "140", "--from", "acer", "--tree-seed", "5"];
         let _ = dir.run([&args[..], &["--evaluations", "20", "--individual", "32trees"], more].concat()).ok();
     };
     fit("g.png", "winter", &["--leaves", "off"]);

@@ -9,11 +9,11 @@ fn goals(dir: &Dir) {
     std::fs::create_dir(dir.path("goals")).unwrap();
     for name in ["acer", "palm", "small_pine"] {
         let out = format!("goals/{name}.png");
-        let _ = dir.run(["silhouette", name, "--seed", "3", "--size", "132", "-o", &out]).ok();
+        let _ = dir.run(["silhouette", name, "--seed", "3", "--size", "140", "-o", &out]).ok();
     }
 }
 
-const FIT: [&str; 9] = ["fit", "--size", "132", "--from", "acer", "--free", "crown", "--evaluations", "20"];
+const FIT: [&str; 9] = ["fit", "--size", "140", "--from", "acer", "--free", "crown", "--evaluations", "20"];
 const ALL: [&str; 3] = ["goals/acer.png", "goals/palm.png", "goals/small_pine.png"];
 
 fn fit<'a>(goals: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {

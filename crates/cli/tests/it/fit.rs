@@ -126,7 +126,7 @@ fn the_first_guess_names_the_species_and_starts_the_fit() {
     let dir = Dir::new();
     // A tree of a seed that the fit does not use.
     let _ = dir.run(["silhouette", "small_pine", "--seed", "21", "--size", "128", "-o", "pine.png"]).ok();
-    let args = ["fit", "pine.png", "--size", "132", "--evaluations", "60", "--individual", "off", "--json"];
+    let args = ["fit", "pine.png", "--size", "140", "--evaluations", "60", "--individual", "off", "--json"];
     let run = |more: &[&str]| dir.run([&args[..], more].concat());
     let auto = run(&["--out", "auto"]);
     assert!(auto.stderr().contains("looks like small_pine"), "{}", auto.stderr());
@@ -327,7 +327,7 @@ fn a_time_budget_ends_a_fit_and_a_target_ends_it_sooner() {
     let timed = dir.run(small(&goal, "timed", &["--timeout", "1s", "--json"])).json();
     assert_eq!(timed["stopped_by"], "timeout");
     // The first guess takes longer than this, and what it found is tried.
-    let short = ["fit", &goal, "--out", "short", "--size", "132", "--timeout", "1ms", "--json"];
+    let short = ["fit", &goal, "--out", "short", "--size", "140", "--timeout", "1ms", "--json"];
     let short = dir.run(short).json();
     assert_eq!(short["stopped_by"], "timeout");
     assert!(short["evaluations"].as_u64().unwrap() > 0);

@@ -3,7 +3,7 @@
 use pleach_tests::{Dir, read, target, wait_for};
 
 fn fit<'a>(goal: &'a str, out: &'a str, evaluations: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    let start = ["--size", "132", "--from", "acer", "--tree-seed", "5", "--evaluations", evaluations];
+    let start = ["--size", "140", "--from", "acer", "--tree-seed", "5", "--evaluations", evaluations];
     [&["fit", goal, "--out", out], &start[..], more].concat()
 }
 
@@ -41,14 +41,14 @@ fn a_fit_ends_with_the_kind_and_with_this_very_tree() {
     assert_eq!(own, svg("run/individual.toml", &["--seed", "5"], "one.ply"));
     let other = svg("run/individual.toml", &["--seed", "9"], "other.ply");
     assert_eq!(other, svg("run/best.toml", &["--seed", "9"], "kind9.ply"));
-    let _ = dir.run(["render", "run/individual.toml", "-o", "one.png", "--size", "132"]).ok();
+    let _ = dir.run(["render", "run/individual.toml", "-o", "one.png", "--size", "140"]).ok();
     let _ = dir.run(["grow", "run/individual.toml", "--lod", "2", "-o", "lod.glb"]).ok();
     let _ = dir.run(["grow", "run/individual.toml", "--wind", "-o", "wind.glb"]).ok();
     let score = dir.run(["silhouette", "run/individual.toml", "-o", "s.png"]);
     let _ = score.ok();
     // A fit may start from it.
     let _ =
-        dir.run(["fit", &goal, "--from", "run/individual.toml", "--evaluations", "5", "--size", "132"]).ok();
+        dir.run(["fit", &goal, "--from", "run/individual.toml", "--evaluations", "5", "--size", "140"]).ok();
 }
 
 #[test]
@@ -85,9 +85,9 @@ fn trees_of_other_families_have_one_too() {
     let dir = Dir::new();
     for species in ["coffey_winter_oak", "stylised_oak"] {
         let goal = format!("{species}.png");
-        let _ = dir.run(["silhouette", species, "--seed", "7", "-o", &goal, "--size", "132"]).ok();
+        let _ = dir.run(["silhouette", species, "--seed", "7", "-o", &goal, "--size", "140"]).ok();
         let args =
-            ["fit", &goal, "--out", species, "--size", "132", "--from", species, "--evaluations", "20"];
+            ["fit", &goal, "--out", species, "--size", "140", "--from", species, "--evaluations", "20"];
         let _ = dir.run([&args[..], &["--individual", "48trees"]].concat()).ok();
         let summary: serde_json::Value =
             serde_json::from_slice(&read(&dir.path(species).join("summary.json"))).unwrap();
@@ -107,7 +107,7 @@ fn nobody_has_to_have_one() {
     assert!(summary["individual"].is_null());
     // Grammars have no stems with addresses, and nothing is said of it.
     let grammar =
-        ["fit", &goal, "--out", "g", "--size", "132", "--from", "grammar_acer", "--evaluations", "5"];
+        ["fit", &goal, "--out", "g", "--size", "140", "--from", "grammar_acer", "--evaluations", "5"];
     let _ = dir.run(grammar).ok();
     assert!(!dir.path("g/individual.toml").exists());
     // But of one that was asked for.

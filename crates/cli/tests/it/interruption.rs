@@ -189,7 +189,7 @@ fn judging_can_be_interrupted() {
     let dir = Dir::new();
     let goal = target("quaking_aspen.png");
     let args = |out: &'static str| {
-        ["fit", &goal, "--out", out, "--size", "132", "--from", "black_tupelo", "--evaluations", "4"].to_vec()
+        ["fit", &goal, "--out", out, "--size", "140", "--from", "black_tupelo", "--evaluations", "4"].to_vec()
     };
     let mut stopped = spawn(&dir, &args("parts"));
     // With so few evaluations, the second checkpoint is the end of the search.

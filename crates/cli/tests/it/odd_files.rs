@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 fn goal(dir: &Dir, name: &str) {
-    let _ = dir.run(["silhouette", "acer", "--seed", "3", "--size", "132", "-o", "goal.png"]).ok();
+    let _ = dir.run(["silhouette", "acer", "--seed", "3", "--size", "140", "-o", "goal.png"]).ok();
     std::fs::rename(dir.path("goal.png"), dir.path(name)).unwrap();
 }
 

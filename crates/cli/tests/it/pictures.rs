@@ -23,7 +23,7 @@ fn piped(dir: &Dir, args: &[&str], bytes: &[u8]) -> Run {
     Run::new(format!("{args:?} with a pipe"), output)
 }
 
-const QUICK: [&str; 8] = ["--evaluations", "12", "--size", "132", "--from", "acer", "--free", "crown"];
+const QUICK: [&str; 8] = ["--evaluations", "12", "--size", "140", "--from", "acer", "--free", "crown"];
 
 #[test]
 fn goals_come_from_standard_input() {

@@ -12,11 +12,11 @@ use std::time::{Duration, Instant};
 fn goals(dir: &Dir) {
     for (species, file) in [("acer", "a/tree.png"), ("palm", "b/tree.png"), ("acer", "acer.png")] {
         std::fs::create_dir_all(dir.path(file).parent().unwrap()).unwrap();
-        let _ = dir.run(["silhouette", species, "--seed", "3", "--size", "132", "-o", file]).ok();
+        let _ = dir.run(["silhouette", species, "--seed", "3", "--size", "140", "-o", file]).ok();
     }
 }
 
-const FIT: [&str; 8] = ["fit", "--size", "132", "--from", "acer", "--free", "crown", "--threads=2"];
+const FIT: [&str; 8] = ["fit", "--size", "140", "--from", "acer", "--free", "crown", "--threads=2"];
 
 fn fit<'a>(goal: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&FIT[..], &[goal], more].concat()
