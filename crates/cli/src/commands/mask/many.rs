@@ -27,6 +27,8 @@ const COLUMNS: [Column; 9] = [
     ("warnings", |_, found| kinds(&found.warnings).join(" ")),
 ];
 const ERROR: &str = "error";
+/// In the place of a confidence, so that photographs without a mask come first.
+const FAILED: f64 = -1.0;
 
 /// A path as a cell of the table.
 fn cell(path: &Path) -> String {
@@ -82,8 +84,8 @@ pub(super) fn run(command: &MaskCommand, photos: &[PathBuf]) -> anyhow::Result<(
         files::make_folder(folder)?;
     }
 
-    let mut rows =
-        vec![COLUMNS.iter().map(|(name, _)| (*name).to_owned()).chain([ERROR.to_owned()]).collect()];
+    let head = COLUMNS.iter().map(|(name, _)| *name).chain([ERROR]);
+    let mut rows: Vec<(f64, Vec<String>)> = Vec::new();
     let mut failed = Vec::new();
     for (i, job) in jobs.iter().enumerate() {
         let name = format!("[{}/{}] {}", i + 1, jobs.len(), text::path(job.photo));
@@ -99,9 +101,8 @@ pub(super) fn run(command: &MaskCommand, photos: &[PathBuf]) -> anyhow::Result<(
                     let (file, mask) = (job.photo.display().to_string(), job.mask.display().to_string());
                     output::json(&Line { file, mask, found: &found })?;
                 }
-                rows.push(
-                    COLUMNS.iter().map(|(_, value)| value(job, &found)).chain([String::new()]).collect(),
-                );
+                let cells = COLUMNS.iter().map(|(_, value)| value(job, &found)).chain([String::new()]);
+                rows.push((found.confidence, cells.collect()));
             }
             Err(error) => {
                 let why = output::causes(&error, ": ");
@@ -109,17 +110,17 @@ pub(super) fn run(command: &MaskCommand, photos: &[PathBuf]) -> anyhow::Result<(
                 let mut row: Vec<String> = vec![String::new(); COLUMNS.len() + 1];
                 row[0] = cell(job.photo);
                 row[COLUMNS.len()] = text::cell(&why).into_owned();
-                rows.push(row);
+                rows.push((FAILED, row));
                 failed.push(text::path(job.photo).to_string());
             }
         }
     }
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
     let table = out.join(TABLE);
     files::write_whole(&table, |file| {
         let mut csv = csv::Writer::from_writer(file);
-        for row in &rows {
-            csv.write_record(row)?;
-        }
+        csv.write_record(head)?;
+        rows.iter().try_for_each(|(_, row)| csv.write_record(row))?;
         Ok(csv.flush()?)
     })?;
     if !command.json {

@@ -30,10 +30,10 @@ what has other colours than the edges; what has the tree's own colours is taken 
 which something was cut out (an alpha channel) is its own mask, and so is one of two tones. A frame, and \
 corners that are transparent since a picture was turned, are left out.
 
-Confidence says how likely a mask is a good one, from 0 to 1; sort by it, and look at those below 0.45.
+Confidence says how likely a mask is a good one, from 0 to 1; look at those below 0.45.
 
-With several photographs, --out is a folder. It gets STEM.png for each, and masks.csv, a row for each: \
-where the tree stands, its confidence, and what there is to be said about it. A photograph without a tree is \
+With several photographs, --out is a folder. It gets STEM.png for each, and masks.csv, a row for each, \
+the least confident first: where the tree stands, its confidence, and what there is to be said about it. A photograph without a tree is \
 named, and the others go on.";
 
 /// Make a silhouette from a photograph, or from many
