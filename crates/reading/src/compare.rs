@@ -150,7 +150,7 @@ impl Reading {
 
     fn widths_apart(&self, tree: &Self) -> Option<Difference> {
         let confidence = sure(self.width_confidence, tree.width_confidence)?;
-        let (goal, fit) = (self.thickest()?, tree.thickest()?);
+        let (goal, fit) = (self.trunk_width()?, tree.trunk_width()?);
         let words = if fit > goal {
             format!("the trunk is {:.1} times as thick as in the picture", fit / goal)
         } else {
@@ -159,8 +159,9 @@ impl Reading {
         Some(Difference { measure: Measure::Width, size: factor(goal, fit, WIDTH), confidence, words })
     }
 
-    /// Thickness of the main trunk.
-    fn thickest(&self) -> Option<f64> {
+    /// Thickness of the main trunk, the thickest one, in heights of the tree; `None` where none is known.
+    #[must_use]
+    pub fn trunk_width(&self) -> Option<f64> {
         self.feet.iter().map(|foot| foot.width).max_by(f64::total_cmp).filter(|width| *width > 0.0)
     }
 

@@ -14,6 +14,15 @@ use pleach_plant::{Individual, Spread};
 use std::fmt;
 use std::sync::Arc;
 
+/// Numbers of a generator that measures of a trunk follow from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TrunkSlots {
+    /// The trunk's thickness is in proportion to this one.
+    pub thickness: Option<Slot>,
+    /// The part of the height up to which the trunk bears nothing rises with this one, by about as much.
+    pub bare_height: Option<Slot>,
+}
+
 /// A growth model with everything settled but its numbers.
 ///
 /// Shared between threads behind an `Arc`; cheap to call, since all memory comes from the caller.
@@ -86,6 +95,11 @@ pub trait Generator: Send + Sync + fmt::Debug {
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {
         let _ = (values, slot);
         true
+    }
+
+    /// The numbers that measures of the trunk follow from: none where there are no such.
+    fn trunk(&self) -> TrunkSlots {
+        TrunkSlots::default()
     }
 
     /// Checks what no declaration of a single parameter can say: rules between the numbers.

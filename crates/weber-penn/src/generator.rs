@@ -6,12 +6,13 @@ use crate::leafless::leafless;
 use crate::model::Model;
 use crate::params::active::is_active;
 use crate::params::space;
+use crate::params::table::Id;
 use crate::solid::{Solid, Surroundings};
 use crate::spread::spreads;
 use pleach_tree::param::table::Parameters;
 use pleach_tree::{
     CheckedParams, Conflict, Generator, GrowError, Growth, Leafless, ParamSpace, Slot, Spread, Tree,
-    Workspace,
+    TrunkSlots, Workspace,
 };
 use std::sync::Arc;
 
@@ -45,6 +46,10 @@ impl Generator for WeberPenn {
 
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {
         is_active(Model::read(values), &self.surroundings, slot)
+    }
+
+    fn trunk(&self) -> TrunkSlots {
+        TrunkSlots { thickness: Some(Id::ratio.slot(0)), bare_height: Some(Id::base_size.slot(0)) }
     }
 
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {

@@ -5,6 +5,7 @@ use super::comparison::pictures_of;
 use super::found::{FirstGuess, References};
 use super::goal_context::{GoalContext, known_views, likeness_evaluator};
 use super::library::{GuessLibrary, compare};
+use super::measured::measured;
 use super::near::Near;
 use super::race;
 use super::ranking::{confidence, first_of, ranked, scored};
@@ -67,11 +68,12 @@ impl GuessLibrary {
             }
         };
         let keep = guess.keep.max(1);
-        let (mut costs, alike) = ranked(&context, (entries, &found), keep);
+        let (mut costs, mut alike) = ranked(&context, (entries, &found), keep);
         let mut by_candidate = references::by_candidate(candidates.len(), entries, &found);
         if let Some(preview) = preview {
             preview.complete(&mut costs, &mut by_candidate);
         }
+        alike.extend(measured(&context, &alike, foliage)?);
         // A tree that looks like the goal may still stand beside it: the objective of the search decides.
         let known = FitProblem { foliage, ..known.clone() };
         let mut all = race::contenders(&context, scored(&known, &context, alike)?, &costs, keep);

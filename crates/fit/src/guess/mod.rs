@@ -24,6 +24,7 @@ mod found;
 mod goal_context;
 mod leaves;
 mod library;
+mod measured;
 mod near;
 mod preview;
 mod race;

@@ -1,6 +1,6 @@
 //! What each parameter of Appendix C does to a tree, seen from outside.
 
-use pleach_tree::{Species, SpeciesDoc, SpeciesError, StemKind, Tree};
+use pleach_tree::{Slot, Species, SpeciesDoc, SpeciesError, StemKind, Tree};
 use pleach_weber_penn::WeberPennFamily;
 
 fn read(text: &str) -> Result<Species, SpeciesError> {
@@ -44,6 +44,29 @@ fn with(lines: &str) -> String {
     let replaced: Vec<&str> = lines.lines().filter_map(|l| l.split('=').next()).map(str::trim).collect();
     let kept = PLAIN.lines().filter(|l| !replaced.contains(&l.split('=').next().unwrap_or("").trim()));
     kept.chain(lines.lines()).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn a_trunk_follows_the_numbers_that_are_named_for_it() {
+    let species = read(PLAIN).unwrap();
+    let slots = species.generator.trunk();
+    let grown = |slot: Option<Slot>, change: fn(f64) -> f64| {
+        let (slot, mut values) = (slot.unwrap(), species.params.values().to_vec());
+        values[slot.index()] = change(values[slot.index()]);
+        let params = species.generator.space().check(values).unwrap();
+        Species { params, ..species.clone() }.grow(1).unwrap()
+    };
+    let radius = |tree: &Tree| tree.knots[0].radius;
+    let lowest = |tree: &Tree| {
+        let feet =
+            tree.stems.iter().filter(|stem| stem.level == 1).map(|stem| tree.knots_of(stem)[0].point.z);
+        feet.fold(f64::INFINITY, f64::min)
+    };
+    let same = grown(slots.thickness, |value| value);
+    let thick = grown(slots.thickness, |value| 1.5 * value);
+    assert!((radius(&thick) / radius(&same) - 1.5).abs() < 1e-6);
+    let bare = grown(slots.bare_height, |value| value + 0.3);
+    assert!(((lowest(&bare) - lowest(&same)) / 10.0 - 0.3).abs() < 0.05, "of ten metres");
 }
 
 #[test]

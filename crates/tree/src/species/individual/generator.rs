@@ -1,7 +1,7 @@
 //! A generator one of whose trees is an individual.
 
 use super::table::to_toml;
-use crate::generator::{Generator, Variation};
+use crate::generator::{Generator, TrunkSlots, Variation};
 use crate::grow_error::{Conflict, GrowError};
 use crate::growth::{Growth, Workspace};
 use crate::leafless::Leafless;
@@ -61,6 +61,10 @@ impl Generator for WithIndividual {
 
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {
         self.kind.is_active(values, slot)
+    }
+
+    fn trunk(&self) -> TrunkSlots {
+        self.kind.trunk()
     }
 
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
