@@ -4,6 +4,7 @@ use super::families::FamiliesSpec;
 use super::individual::IndividualSpec;
 use super::likeness::LikenessSpec;
 use super::needle::NeedleSpec;
+use super::reading::ReadingSpec;
 use super::robustness::RobustnessSpec;
 use super::rules::RulesSpec;
 use super::spec::{BlendSpec, FitsSpec, GrowthSpec, Kind, Source};
@@ -26,6 +27,7 @@ pub(super) enum Spec {
     Individual(IndividualSpec),
     Yao(YaoSpec),
     Stylised(StylisedSpec),
+    Reading(ReadingSpec),
 }
 
 impl Spec {
@@ -43,6 +45,7 @@ impl Spec {
             Kind::Robustness => Self::Robustness(source.parse::<RobustnessSpec>()?.checked(source)?),
             Kind::Rules => Self::Rules(source.parse::<RulesSpec>()?.checked(source)?),
             Kind::Yao => Self::Yao(source.parse::<YaoSpec>()?.checked(source)?),
+            Kind::Reading => Self::Reading(source.parse::<ReadingSpec>()?.checked(source)?),
             Kind::Stylised => Self::Stylised(source.parse::<StylisedSpec>()?.checked(source)?),
         })
     }

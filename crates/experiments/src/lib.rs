@@ -18,6 +18,7 @@ mod outputs;
 mod part;
 mod pictured;
 mod plot;
+mod reading;
 mod record;
 mod robustness;
 mod rules;
@@ -59,6 +60,7 @@ impl Spec {
             Self::Rules(spec) => spec,
             Self::Families(spec) => spec,
             Self::Stylised(spec) => spec,
+            Self::Reading(spec) => spec,
         }
     }
 }

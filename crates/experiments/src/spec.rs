@@ -40,6 +40,8 @@ pub(super) enum Kind {
     Yao,
     /// Time, memory and vertices of stylised trees.
     Stylised,
+    /// What is read in pictures of grown trees.
+    Reading,
 }
 
 impl Kind {
@@ -58,6 +60,7 @@ impl Kind {
             Self::Families => "families",
             Self::Yao => "yao",
             Self::Stylised => "stylised",
+            Self::Reading => "reading",
         }
     }
 }

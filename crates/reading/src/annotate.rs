@@ -3,6 +3,7 @@
 use crate::reading::Reading;
 use pleach_silhouette::Bitmap;
 use pleach_silhouette::picture::{LETTER, Picture, Rgb};
+use serde::Serialize;
 
 const INK: Rgb = [190, 190, 190];
 /// Colours that people with any eyes can tell apart (Okabe and Ito 2008).
@@ -14,15 +15,30 @@ const CROWN: Rgb = [230, 159, 0];
 /// Length of a fork's arms as drawn, in heights.
 const ARM: f64 = 0.1;
 
-/// From heights of the tree to pixels.
-struct Place {
-    origin: f64,
-    ground: f64,
-    height: f64,
+/// Where the tree of a reading stands in its picture, in pixels from the upper left: from heights of the tree to pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Anchor {
+    /// The column of x = 0.
+    pub origin: f64,
+    /// The row of y = 0.
+    pub ground: f64,
+    /// Rows of one height.
+    pub height: f64,
 }
 
-impl Place {
-    fn at(&self, x: f64, y: f64) -> (f64, f64) {
+impl Anchor {
+    /// That of `reading`, which was read in `silhouette`; `None` where there is no tree.
+    #[must_use]
+    pub fn new(silhouette: &Bitmap, reading: &Reading) -> Option<Self> {
+        let (_, top, _, bottom) = silhouette.ink_box()?;
+        let ground = f64::from(bottom + 1);
+        let height = ground - f64::from(top);
+        Some(Self { origin: origin(silhouette, reading, height, ground)?, ground, height })
+    }
+
+    /// The column and the row of a point in heights of the tree.
+    #[must_use]
+    pub fn at(&self, x: f64, y: f64) -> (f64, f64) {
         (self.origin + x * self.height, self.ground - y * self.height)
     }
 }
@@ -33,7 +49,7 @@ impl Place {
 pub fn annotate(silhouette: &Bitmap, reading: &Reading) -> Picture {
     let mut picture = Picture::new(silhouette.width(), silhouette.height());
     picture.stamp(silhouette, 0, 0, INK);
-    let Some(place) = place(silhouette, reading) else { return picture };
+    let Some(place) = Anchor::new(silhouette, reading) else { return picture };
     let steps = (reading.crown.left.len().max(2) - 1) as f64;
     for (side, sign) in [(&reading.crown.left, -1.0), (&reading.crown.right, 1.0)] {
         let points = side.iter().zip(0_u32..).map(|(&reach, i)| place.at(sign * reach, f64::from(i) / steps));
@@ -67,14 +83,6 @@ pub fn annotate(silhouette: &Bitmap, reading: &Reading) -> Picture {
     let leaves = if reading.leaves { "leafy" } else { "bare" };
     picture.write(&format!("{} feet, {leaves}", reading.feet.len()), 1, 1 + LETTER / 4);
     picture
-}
-
-/// Where the tree stands in its picture, found as the reading did.
-fn place(silhouette: &Bitmap, reading: &Reading) -> Option<Place> {
-    let (_, top, _, bottom) = silhouette.ink_box()?;
-    let ground = f64::from(bottom + 1);
-    let height = ground - f64::from(top);
-    Some(Place { origin: origin(silhouette, reading, height, ground)?, ground, height })
 }
 
 /// The column that the outline is measured from: the one for which rows agree with it best.

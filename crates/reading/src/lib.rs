@@ -43,7 +43,7 @@ mod reading;
 mod skeleton;
 mod words;
 
-pub use annotate::annotate;
+pub use annotate::{Anchor, annotate};
 pub use colors::Colors;
 pub use compare::{Difference, Measure};
 pub use confidence::Evidence;

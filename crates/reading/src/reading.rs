@@ -36,7 +36,7 @@ pub struct Crown {
 
 /// What is in a picture of a tree: measures, each with a confidence in 0..=1.
 ///
-/// Six confidences are calibrated: fitted by the example `judge` to pictures of grown trees and to ragged masks of them,
+/// Six confidences are calibrated: fitted to pictures of grown trees and to ragged masks of them,
 /// so that of the readings with such a confidence that part is right in both together. They are `feet_confidence`,
 /// `width_confidence`, `lean_deg_confidence`, `bare_height_confidence`, `first_fork_confidence` and
 /// `leaves_confidence`. That of the lean is lowered further where the trunk is bare over less than 10 % of the height,

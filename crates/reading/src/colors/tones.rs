@@ -18,7 +18,7 @@ pub(super) struct Tones {
 }
 
 /// How much more green or red, and more yellow, a leaf is than sunlit leaves are shown: sunlight is warm, and cameras
-/// and the renderer take saturation from what is bright. Fitted to renders of even seeds by `judge_colors`.
+/// and the renderer take saturation from what is bright. Fitted to renders of the even ones of the seeds from 0 to 7.
 const SATURATION: [f32; 2] = [1.22, 1.02];
 /// Hues nearer than this to the background's cannot be told from it.
 const APART: f32 = 0.04;

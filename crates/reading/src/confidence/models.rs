@@ -1,4 +1,5 @@
-//! Logistic models of what was read on grown trees: fitted by ridge regression, from what the example `judge` measures,
+//! Logistic models of what was read on grown trees: fitted by ridge regression, from what the example
+//! `calibrate_reading` of `pleach-experiments` measures,
 //! to the even seeds, as drawn and as ragged masks.
 
 use super::logistic::Logistic;

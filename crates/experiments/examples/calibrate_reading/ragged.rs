@@ -1,6 +1,6 @@
 //! Drawn trees as if they had been cut out of photographs: speckled, blurred, partly closed, without their foot.
 
-use super::draw;
+use super::trees::draw;
 use pleach_silhouette::Bitmap;
 
 /// Draws of one picture, one after another.

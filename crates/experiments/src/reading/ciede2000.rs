@@ -3,13 +3,13 @@
 //! Sharma, Wu, Dalal: "The CIEDE2000 color-difference formula: implementation notes, supplementary test data, and
 //! mathematical observations" (Color Research and Application 30, 2005), with weights of 1. sRGB is seen in D65.
 
-use pleach_plant::{Color, math};
+use pleach_tree::{Color, math};
 
 /// CIE L*a*b*.
 type Lab = [f64; 3];
 
 /// The difference of two colours: 1 can just be told apart.
-pub(crate) fn difference(a: Color, b: Color) -> f64 {
+pub(super) fn difference(a: Color, b: Color) -> f64 {
     of_lab(lab(a), lab(b))
 }
 

@@ -13,49 +13,21 @@
 
 mod calibrate;
 mod ragged;
+#[path = "../../src/reading/trees.rs"]
+mod trees;
 
 use calibrate::{Model, Sample};
-use pleach_plant::glam::{DVec3, Vec3};
-use pleach_plant::{Parts, Tree, math};
 use pleach_reading::{Reader, Reading, annotate};
 use pleach_silhouette::picture::sheet_of_pictures;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
+use pleach_tree::Parts;
 use ragged::{Dice, ragged};
 use std::fmt::Write as _;
+use trees::{Case, draw};
 
 /// Ragged masks of every tree, of one of these sizes each.
 const RAGGED: usize = 3;
 const RAGGED_SIZES: [u32; 4] = [128, 256, 256, 600];
-
-/// Species that are curves, herbs or rows, not trees with a trunk.
-const NOT_TREES: [&str; 15] = [
-    "abop_dragon",
-    "abop_gosper",
-    "abop_hilbert",
-    "abop_hilbert_space",
-    "abop_koch_island",
-    "abop_sierpinski",
-    "abop_row_of_trees",
-    "abop_plant_a",
-    "abop_plant_b",
-    "abop_plant_c",
-    "abop_plant_d",
-    "abop_plant_e",
-    "abop_plant_f",
-    "abop_plant_stochastic",
-    "abop_flowering_plant",
-];
-
-/// A picture and what it is of.
-#[derive(Clone)]
-struct Case {
-    name: String,
-    seed: u64,
-    lean: f64,
-    stems: usize,
-    parts: Parts,
-    size: u32,
-}
 
 /// What came of it: for each measure whether it is right (`None`: cannot be judged) and the confidence.
 struct Outcome {
@@ -69,56 +41,9 @@ struct Outcome {
     stem: Vec<f64>,
 }
 
-/// A number in 0..1 that is a function of a seed and a purpose.
-fn draw(seed: u64, purpose: u64) -> f64 {
-    let mut x = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ purpose.wrapping_mul(0xD1B5_4A32_D192_ED03);
-    x ^= x >> 31;
-    x = x.wrapping_mul(0x94D0_49BB_1331_11EB);
-    x ^= x >> 29;
-    (x >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// Leans a tree to the right by an angle in degrees and moves it to the right by metres.
-fn lean(tree: &mut Tree, degrees: f64, right: f64) {
-    let (sin, cos) = math::sin_cos(degrees.to_radians());
-    let turn = |p: DVec3| DVec3::new(p.x * cos + p.z * sin, p.y, p.z * cos - p.x * sin);
-    let turned = |p: Vec3| turn(p.as_dvec3()).as_vec3();
-    let move_to = DVec3::X * right;
-    for knot in &mut tree.knots {
-        knot.point = turn(knot.point) + move_to;
-        knot.handle_in = turn(knot.handle_in) + move_to;
-        knot.handle_out = turn(knot.handle_out) + move_to;
-    }
-    for leaf in tree.leaves.iter_mut().chain(&mut tree.blossoms) {
-        leaf.position = turned(leaf.position) + move_to.as_vec3();
-        (leaf.along, leaf.across) = (turned(leaf.along), turned(leaf.across));
-    }
-    tree.blob_vertices.iter_mut().for_each(|v| *v = turned(*v) + move_to.as_vec3());
-}
-
-fn grow(case: &Case) -> Option<Tree> {
-    let species = pleach_generators::preset(&case.name)?;
-    let mut tree = species.grow(case.seed).ok()?;
-    let height = tree.knots.iter().map(|knot| knot.point.z).fold(0.0, f64::max);
-    lean(&mut tree, case.lean, 0.0);
-    for i in 1..case.stems {
-        let mut other = species.grow(case.seed + 1000 * i as u64).ok()?;
-        let side = if i % 2 == 1 { 1.0 } else { -1.0 };
-        let away = 0.07 + 0.12 * draw(case.seed, 20 + i as u64);
-        lean(
-            &mut other,
-            side * 12.0 * draw(case.seed, 30 + i as u64),
-            side * height * away * i.div_ceil(2) as f64,
-        );
-        tree.append(&other, |_| false);
-    }
-    tree.well_formed().ok()?;
-    Some(tree)
-}
-
 /// Judges the picture of a case and its ragged masks.
 fn judge_all(case: &Case, reader: &mut Reader, folder: Option<&str>) -> Option<Vec<Outcome>> {
-    let tree = grow(case)?;
+    let tree = case.grow()?;
     let view = View::FRONT;
     let mut picture = Bitmap::default();
     let mut outcomes = Vec::new();
@@ -235,7 +160,7 @@ fn judge(
 
 fn cases(seeds: u64) -> Vec<Case> {
     let mut cases = Vec::new();
-    for name in pleach_generators::names().into_iter().filter(|name| !NOT_TREES.contains(name)) {
+    for name in trees::names() {
         for seed in 0..seeds {
             let key = seed + name.bytes().fold(7, |key: u64, byte| key.wrapping_mul(31) + u64::from(byte));
             let size = if draw(key, 1) < 0.2 { 600 } else { 256 };
@@ -273,7 +198,7 @@ const SPARSE_WEIGHT: f64 = 3.0;
 /// Models of these outcomes, as a source file.
 fn models(outcomes: &[&Outcome], judged: &[&Outcome]) -> String {
     let mut text = "//! Logistic models of what was read on grown trees: fitted by ridge regression, from what the example \
-        `judge` measures,\n//! to the even seeds, as drawn and as ragged masks.\n\nuse super::logistic::Logistic;\n"
+        `calibrate_reading` of `pleach-experiments` measures,\n//! to the even seeds, as drawn and as ragged masks.\n\nuse super::logistic::Logistic;\n"
         .to_owned();
     for (name, measure, what) in MODELS {
         let samples = |outcomes: &[&Outcome]| -> Vec<Sample> {

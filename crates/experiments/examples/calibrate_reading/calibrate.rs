@@ -1,6 +1,6 @@
 //! Logistic models, fitted by ridge regression.
 
-use pleach_plant::math;
+use pleach_tree::math;
 use std::fmt::Write as _;
 
 /// Numbers, whether it is so, and the weight of the sample.
