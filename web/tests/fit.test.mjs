@@ -231,6 +231,67 @@ test("a tree is found in a photograph by its colour", async () => {
   await context.close();
 });
 
+test("what was read in the goal is dragged, and can be taken back", async () => {
+  const { page, problems, context } = await fit("#fit?goal=acer");
+  await page.getByRole("radio", { name: "Measures" }).check({ force: true });
+  const row = (name) => page.getByTestId("reading-table").locator("tr", { has: page.locator(`th:text-is("${name}")`) });
+  await row("feet").filter({ hasText: "one trunk" }).waitFor();
+  const bare = page.getByRole("slider", { name: "Bare" });
+  const before = Number(await bare.getAttribute("aria-valuenow"));
+  const from = await bare.boundingBox();
+  const goal = await page.getByTestId("goal").boundingBox();
+  await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2 - goal.height * 0.2, { steps: 5 });
+  await page.mouse.up();
+  const dragged = Number(await bare.getAttribute("aria-valuenow"));
+  assert.ok(dragged > before + 0.1, `bare up to ${before}, then ${dragged}`);
+  await row("bare trunk").filter({ hasText: "100 %" }).waitFor();
+  await page.getByRole("slider", { name: "Lean" }).focus();
+  await page.keyboard.press("ArrowLeft");
+  await row("lean").filter({ hasText: "100 %" }).waitFor();
+  await page.getByLabel("Trunks").fill("3");
+  await page.getByLabel("Trunks").press("Enter");
+  await row("feet").filter({ hasText: "3 trunks" }).waitFor();
+  await page.getByRole("button", { name: "As it was read" }).click();
+  await row("feet").filter({ hasText: "one trunk" }).waitFor();
+  assert.equal(Number(await bare.getAttribute("aria-valuenow")), before);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("a fit has the colours of the picture that its mask is of", async () => {
+  const { Evaluator, Fit, Goal, Species } = await library();
+  const side = 128;
+  const tree = Species.named("acer").grow(3, true).silhouette(side, 0, 0);
+  const orange = [208, 120, 30];
+  const photo = Uint8Array.from(
+    [...tree].flatMap((ink, at) => {
+      const trunk = at > side * side * 0.9;
+      const light = ((at * 7) % 31) - 15;
+      const color = ink ? (trunk ? [80, 62, 45] : orange) : [150, 190, 235];
+      return [...color.map((value) => value + light), 255];
+    }),
+  );
+  const inked = () => Goal.from_pixels("tree", side, side, tree);
+  assert.equal(JSON.parse(inked().look(undefined, "{}")).found.colors, null);
+  const { found, anchor } = JSON.parse(inked().look(photo, '{"lean_deg": -8}'));
+  assert.equal(found.lean_deg, -8);
+  assert.ok(anchor.height > 100 && found.colors.season === "autumn", JSON.stringify(found.colors));
+  const autumn = (goal) => {
+    const fit = new Fit(goal, '{"evaluations": 4, "individual": "off", "from": "acer"}');
+    fit.guess(() => {});
+    const evaluator = new Evaluator(fit.recipe());
+    const pieces = fit.ask(1, 0);
+    fit.tell(
+      pieces.map((piece) => evaluator.score(piece)),
+      0,
+    );
+    return /season = "autumn"/.test(fit.best_toml());
+  };
+  assert.ok(autumn(inked().with_colors(JSON.stringify(found.colors))) && !autumn(inked()));
+});
+
 test("pictures that are none are refused in words, and the goal stays", async () => {
   const { page, problems, context } = await fit();
   const bad = [

@@ -49,6 +49,7 @@ impl Fit {
         let source = FitSource {
             start: start.map_err(thrown)?,
             name: Some(goal.species_name()),
+            colors: goal.colors.clone(),
             ..goal.ink().clone().into()
         };
         Ok(Self {

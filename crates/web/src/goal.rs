@@ -3,7 +3,8 @@
 use crate::error::thrown;
 use crate::tree::ink;
 use pleach::{
-    Bitmap, Encoded, Goal as Read, GoalOptions, GoalWarning, Mask, MaskHints, MaskOptions, Photo, ScoreCard,
+    Anchor, Bitmap, Colors, Corrections, Encoded, FitOptions, FitSource, Goal as Read, GoalOptions,
+    GoalWarning, Mask, MaskHints, MaskOptions, Photo, PictureReading, ScoreCard, read_picture,
 };
 use serde_json::json;
 use wasm_bindgen::JsError;
@@ -25,6 +26,8 @@ pub struct Goal {
     /// What is to be said of the mask, where one was made.
     mask_warnings: Vec<GoalWarning>,
     photo: Option<Photo>,
+    /// Colours of the tree, where the page has seen them.
+    pub(crate) colors: Option<Colors>,
 }
 
 /// Where the tree stands, so far as the user has said.
@@ -89,6 +92,7 @@ impl Goal {
                 confidence: Some(found.confidence),
                 mask_warnings: found.warnings,
                 photo: Some(photo),
+                colors: None,
             });
         }
         let full = by_tone.map_err(thrown)?;
@@ -101,6 +105,7 @@ impl Goal {
             confidence: None,
             mask_warnings: Vec::new(),
             photo,
+            colors: None,
         })
     }
 
@@ -115,6 +120,7 @@ impl Goal {
             confidence: None,
             mask_warnings: Vec::new(),
             photo: None,
+            colors: None,
         })
     }
 
@@ -171,7 +177,41 @@ impl Goal {
             confidence: self.confidence,
             mask_warnings: self.mask_warnings.clone(),
             photo: self.photo.clone(),
+            colors: self.colors.clone(),
         })
+    }
+
+    /// What is in the picture: JSON. `photo` are its colours, four bytes per pixel; `corrections`, JSON, what is otherwise
+    /// than it is read.
+    ///
+    /// `found` is what `pleach read --json` gives, `table` the same in words, with confidences, and `anchor` where the
+    /// tree stands in pixels.
+    pub fn look(&self, photo: Option<Vec<u8>>, corrections: &str) -> Result<String, JsError> {
+        let tree = self.ink();
+        let (width, height) = (tree.width(), tree.height());
+        let photo = photo.filter(|bytes| bytes.len() == 4 * width as usize * height as usize);
+        let colors = photo.and_then(|bytes| {
+            let (pixels, _) = bytes.as_chunks();
+            let photo =
+                Photo::from_fn(width, height, |x, y| pixels[y as usize * width as usize + x as usize]);
+            // A picture in black and white has none.
+            Colors::read(&photo, tree).ok().filter(|colors| colors.leaves.is_some())
+        });
+        let options = FitOptions {
+            reading: Corrections::from_json(corrections).map_err(thrown)?,
+            ..FitOptions::default()
+        };
+        let source = FitSource { colors, ..tree.clone().into() };
+        let PictureReading { found, silhouette, .. } = read_picture(source, &options).map_err(thrown)?;
+        let colors = found.colors.iter().flat_map(Colors::table);
+        let table: Vec<_> = found.measures.table().into_iter().chain(colors).collect();
+        let anchor = Anchor::new(&silhouette, &found.measures);
+        Ok(json!({ "found": found, "table": table, "anchor": anchor }).to_string())
+    }
+
+    /// The same goal with these colours of its tree: JSON, as in what `look` has found.
+    pub fn with_colors(self, colors: &str) -> Result<Self, JsError> {
+        Ok(Self { colors: serde_json::from_str(colors).map_err(thrown)?, ..self })
     }
 
     /// The score card of a picture of the same size: JSON.

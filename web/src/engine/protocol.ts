@@ -128,6 +128,31 @@ export interface GoalPixels extends Ink {
   name: string;
   ground: number | null;
   axis: number | null;
+  /** Colours of the tree as JSON, where they were seen. */
+  colors: string | null;
+}
+
+/** What is otherwise in a picture than it is read: keys of `reading.json`, and `trunks`. */
+export type Corrections = Partial<Record<"trunks" | "lean_deg" | "bare_height" | "first_fork", number>>;
+
+/** What is in a picture of a tree; lengths are in heights of the tree. */
+export interface Look {
+  found: {
+    feet: { x: number; width: number }[];
+    /** Points of the trunk's axis: x, y, width. */
+    trunk: [number, number, number][];
+    lean_deg: number | null;
+    first_fork: number | null;
+    fork_x: number | null;
+    fork_arms_deg: number[];
+    bare_height: number | null;
+    crown: { left: number[]; right: number[] };
+    colors: object | null;
+  };
+  /** Names, values in words, confidences. */
+  table: [string, string, number][];
+  /** Where the tree stands in pixels: the column of x = 0, the row of y = 0, and rows of one height. */
+  anchor: { origin: number; ground: number; height: number } | null;
 }
 /** Scores of a tree against the goal: keys of the library's score card. */
 export interface Card {
@@ -151,6 +176,7 @@ export interface FitOptions {
   leaves?: "auto" | "on" | "off";
   /** How long this very tree is looked for, after its kind. */
   individual?: "share" | "off";
+  reading?: Corrections;
 }
 export interface LooksLike {
   species: string;
@@ -275,6 +301,10 @@ export interface Ops {
     out: GoalData;
   };
   goalCheck: { in: GoalPixels; out: GoalInfo };
+  goalLook: {
+    in: { goal: GoalPixels; photo: Uint8Array | null; corrections: Corrections };
+    out: Look;
+  };
   mapPlane: { in: Layout; out: Plane };
   /** "bare" grows no leaves, "coarse" draws few of them. */
   mapTree: { in: At & { size: number; detail: "bare" | "coarse" | "full" }; out: Ink };

@@ -32,6 +32,7 @@ import {
   setMask,
   undoMask,
 } from "./goal-state";
+import { MeasuresPart } from "./measures";
 import { SearchPart } from "./search-part";
 
 function GoalPart(): JSX.Element {
@@ -74,6 +75,7 @@ function GoalPart(): JSX.Element {
             { value: "add", label: "Add" },
             { value: "take", label: "Take away" },
             { value: "box", label: "Box" },
+            { value: "measures", label: "Measures" },
           ]}
           onPick={(picked) => {
             brush.value = picked;
@@ -98,6 +100,7 @@ function GoalPart(): JSX.Element {
       {brush.value === "box" && (
         <p class="hint">Drag a box around all of the tree: it is then looked for inside.</p>
       )}
+      {brush.value === "measures" && <MeasuresPart />}
       <Field label="Brush size">
         {(id) => (
           <input

@@ -3,7 +3,8 @@ import { computed, signal } from "@preact/signals";
 import type { Card, FitOptions, FitProgress, FitResult, Guess } from "../../engine/protocol";
 import { FitSession } from "../../engine/session";
 import { announce, sentence } from "../../state/notes";
-import { goalPixels, treeHeight } from "./goal-state";
+import { corrections, goalPixels, treeHeight } from "./goal-state";
+import { seenColors } from "./look-state";
 
 export type Phase = "idle" | "guessing" | "searching" | "paused" | "judging" | "done";
 
@@ -85,15 +86,16 @@ function addPoint(point: CurvePoint): void {
 }
 
 export async function startFit(): Promise<void> {
-  const goal = goalPixels();
-  if (!goal || running.peek()) return;
-  const { width, height } = goal;
+  const pixels = goalPixels();
+  if (!pixels || running.peek()) return;
+  const { width, height } = pixels;
   const options: FitOptions = {
     height: treeHeight.peek(),
     generator: generator.peek(),
     timeout: seconds.peek(),
     leaves: leafiness.peek(),
     individual: individual.peek() ? "share" : "off",
+    reading: corrections.peek(),
   };
   // On a telephone the pictures are above the button.
   document.getElementById("room")?.scrollTo({ top: 0, behavior: "smooth" });
@@ -107,6 +109,7 @@ export async function startFit(): Promise<void> {
   const keptBest = best.peek();
   const keptResult = result.peek();
   let said = 0;
+  const goal = { ...pixels, colors: await seenColors() };
   session = new FitSession(goal, options, {
     stage(now) {
       const share = now.done !== undefined && now.all ? now.done / now.all : null;

@@ -5,9 +5,11 @@ import { useRef } from "preact/hooks";
 import { GOAL_ONLY, show } from "../../ui/ink";
 import { running } from "./fit-state";
 import { canReadAgain, info, masks, picture, readAgain, setMask } from "./goal-state";
+import { Measures } from "./measures";
 
-/** What dragging over the picture does: paint the tree, paint what is not the tree, or draw a box around the tree. */
-export const brush = signal<"add" | "take" | "box">("add");
+/** What dragging over the picture does: paint the tree, paint what is not the tree, draw a box around the tree, or move
+ * what was read. */
+export const brush = signal<"add" | "take" | "box" | "measures">("add");
 /** Diameter in hundredths of the picture's longer side. */
 export const brushSize = signal(5);
 
@@ -145,9 +147,9 @@ export function GoalEditor(): JSX.Element | null {
         role="img"
         aria-label={text}
         data-testid="goal"
-        class={running.value ? "" : "paintable"}
+        class={running.value || brush.value === "measures" ? "" : "paintable"}
         onPointerDown={(event) => {
-          if (running.peek() || event.button !== 0) return;
+          if (running.peek() || event.button !== 0 || brush.peek() === "measures") return;
           event.currentTarget.setPointerCapture(event.pointerId);
           const at = place(event);
           if (brush.peek() === "box") {
@@ -169,7 +171,7 @@ export function GoalEditor(): JSX.Element | null {
         }}
       />
       {box.value && <span class="box" style={edges(box.value, width, height)} />}
-      {cursor.value && !running.value && brush.value !== "box" && (
+      {cursor.value && !running.value && (brush.value === "add" || brush.value === "take") && (
         <span
           class={`brush ${brush.value}`}
           style={{
@@ -179,8 +181,14 @@ export function GoalEditor(): JSX.Element | null {
           }}
         />
       )}
-      <Line kind="ground" size={height} at={masks.value.ground ?? info.value?.ground_row ?? height - 1} />
-      <Line kind="axis" size={width} at={masks.value.axis ?? info.value?.axis_column ?? width / 2} />
+      {brush.value === "measures" ? (
+        <Measures />
+      ) : (
+        <>
+          <Line kind="ground" size={height} at={masks.value.ground ?? info.value?.ground_row ?? height - 1} />
+          <Line kind="axis" size={width} at={masks.value.axis ?? info.value?.axis_column ?? width / 2} />
+        </>
+      )}
     </div>
   );
 }

@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import { goalClient } from "../../engine/clients";
 import { thumbnails } from "../../engine/pool";
-import type { GoalInfo, GoalPixels, MaskHints, MaskWay } from "../../engine/protocol";
+import type { Corrections, GoalInfo, GoalPixels, MaskHints, MaskWay } from "../../engine/protocol";
 import { History } from "../../state/history";
 import { announce, sayError, sentence } from "../../state/notes";
 import { baseName } from "../../ui/files";
@@ -30,11 +30,16 @@ export const masks = new History<Mask>({ ink: new Uint8Array(0), ground: null, a
 export const info = signal<GoalInfo | null>(null);
 export const reading = signal<string | null>(null);
 export const goalError = signal<string | null>(null);
+/** What the user says is otherwise in the picture than it is read. */
+export const corrections = signal<Corrections>({});
 export const treeHeight = signal(12);
 
 const USUAL_HEIGHT = 12;
 /** Larger files are not read: the picture would not fit into a worker's memory. */
 const MAX_FILE = 150_000_000;
+
+/** The picture in colour, RGBA, whether it is shown or not; null where it is not known. */
+let colored: Uint8Array<ArrayBuffer> | null = null;
 
 /** The bytes of the picture, to read it once more in another way. */
 let lastBytes: { name: string; bytes: Uint8Array; target: string | null } | null = null;
@@ -56,6 +61,8 @@ async function read(
     const shows = goal.info.masked || mask === "off";
     const photo = shows && goal.photo.length === width * height * 4 ? goal.photo : null;
     lastBytes = { name, bytes, target };
+    colored = goal.photo.length === width * height * 4 ? goal.photo : null;
+    corrections.value = {};
     masks.reset({ ink: goal.ink, ground: null, axis: null });
     info.value = goal.info;
     picture.value = { name: baseName(goal.info.name || name), width, height, photo, target };
@@ -107,8 +114,11 @@ export function goalPixels(): GoalPixels | null {
   const shown = picture.peek();
   if (!shown) return null;
   const { ink, ground, axis } = masks.peek();
-  return { name: shown.name, width: shown.width, height: shown.height, ink, ground, axis };
+  return { name: shown.name, width: shown.width, height: shown.height, ink, ground, axis, colors: null };
 }
+
+/** A copy of the picture in colour, as workers take it. */
+export const photoPixels = () => colored?.slice() ?? null;
 
 /** A changed mask: the library reads it at once. */
 export function setMask(part: Partial<Mask>, key = ""): void {
@@ -145,6 +155,7 @@ function checkGoal(): void {
 }
 
 export function restoreGoal(shown: GoalPicture, mask: Mask): void {
+  colored = null;
   picture.value = shown;
   masks.reset(mask);
   checkGoal();
