@@ -139,18 +139,20 @@ pub use pleach_fit::{
 };
 
 #[cfg(feature = "fit")]
-pub use pleach_reading::{Colors, Crown, Difference, Foot, Measure, Reader, Reading, ReadingError, annotate};
+pub use pleach_reading::{
+    Anchor, Colors, Crown, Difference, Foot, Measure, Reader, Reading, ReadingError, annotate,
+};
 
 #[cfg(feature = "fit")]
 mod picture;
 #[cfg(feature = "fit")]
 pub use picture::{
-    AppearanceFrom, Direction, Effort, FitDrawing, FitOptions, FitReport, FitSource, FitStart, FittedTree,
-    FurtherPicture, FurtherView, GoalPair, GoalReading, IdentifiabilityCounts, IndividualReport, KnownFrame,
-    Leaves, LooksLike, MaskFrom, MaskHints, ParameterReport, PictureError, PictureReading, PictureSource,
-    PrepareError, Prepared, Readings, ReportError, RulesReport, SearchReport, SettingError, SideTree,
-    SidesReport, Spent, StartFrom, TIME_KEYS, Tone, ViewReport, VolumeFrom, best_of_each_family, fit_picture,
-    optimizer_with, parse_duration, read_picture, settings_of,
+    AppearanceFrom, Corrections, Direction, Effort, FitDrawing, FitOptions, FitReport, FitSource, FitStart,
+    FittedTree, FurtherPicture, FurtherView, GoalPair, GoalReading, IdentifiabilityCounts, IndividualReport,
+    KnownFrame, Leaves, LooksLike, MaskFrom, MaskHints, ParameterReport, PictureError, PictureReading,
+    PictureSource, PrepareError, Prepared, Readings, ReportError, RulesReport, SearchReport, SettingError,
+    SideTree, SidesReport, Spent, StartFrom, TIME_KEYS, Tone, ViewReport, VolumeFrom, best_of_each_family,
+    fit_picture, optimizer_with, parse_duration, read_picture, settings_of,
 };
 
 #[cfg(feature = "fit")]

@@ -45,3 +45,18 @@ def test_a_box_shows_the_tree() -> None:
         pleach.mask(photo, include=[(500, 1)])
     with pytest.raises(pleach.FitError, match="hints"):
         pleach.read(photo, box=(50, 10, 0, 145))
+
+
+def test_a_reading_is_corrected() -> None:
+    ink = pleach.species("acer").grow(3).silhouette(256)
+    found = pleach.read(ink)
+    assert pleach.read(ink, reading=found).measures == found.measures
+    said = pleach.read(ink, reading={"trunks": 2, "lean_deg": -8})
+    assert len(said["feet"]) == 2 and (said["lean_deg"], said["lean_deg_confidence"]) == (-8, 1)
+    found.measures["bare_height"] = 0.3
+    fitted = pleach.fit(ink, reading=found, evaluations=4, size=64, individual=False)
+    goal = fitted.report["readings"]["goal"]
+    assert (goal["bare_height"], goal["bare_height_confidence"]) == (0.3, 1)
+    assert fitted.report["options"]["reading"]["bare_height"] == 0.3
+    with pytest.raises(pleach.FitError, match="not a measure"):
+        pleach.read(ink, reading={"leaning": 3})

@@ -3,6 +3,7 @@
 mod blend;
 mod collect;
 mod completions;
+mod corrections;
 mod describe;
 mod experiment;
 mod export;

@@ -1,5 +1,6 @@
 //! `pleach read`: what is in a picture of a tree.
 
+use super::corrections::CorrectionArgs;
 use super::fit::flags;
 use super::fit::values::TONES;
 use super::hints::HintArgs;
@@ -14,6 +15,7 @@ const EXAMPLES: &str = "Examples:
   pleach read oak.jpg --box 120,40,600,760 -o oak/  and look at oak/reading.png
   pleach read oak.jpg --mask-command 'rembg i {in} {out}' --json  for a script
   pleach read oak.png --wood limbs.png  with what of it is wood
+  pleach read oak.png --trunks 1 --lean -8  what a person sees better
 
 What is in a picture of a tree: its feet (where trunks meet the ground), how far the trunk leans, up to what height it \
 is bare, where it forks, the outline of the crown, gaps, twigs, and whether there are leaves; of a picture in colour \
@@ -23,7 +25,7 @@ about nine in ten were right on trees that pleach drew. Lengths are in heights o
 What looks like a photograph is masked first, as by `pleach mask`; --box, --include and --exclude show the tree in it.
 
 With --out, the folder gets reading.json, reading.png (the measures drawn over the tree) and, of a photograph, \
-mask.png. A fit reads its goal in the same way.";
+mask.png. A fit reads its goal in the same way, and takes the same corrections.";
 
 /// Say what is in a picture of a tree
 #[derive(Debug, clap::Args)]
@@ -47,6 +49,8 @@ pub(crate) struct Read {
     /// A picture of the same size that says what of the tree is wood, trunk and branches: black on white
     #[arg(long, value_name = "FILE")]
     wood: Option<String>,
+    #[command(flatten)]
+    corrections: CorrectionArgs,
     /// Which of the two tones is the tree
     #[arg(long, default_value = "auto", value_parser = one_of(TONES))]
     tree: Tone,
@@ -76,8 +80,9 @@ impl Read {
             None => (picture, self.mask.clone()),
         };
         let hints = self.hints.hints();
-        let options =
-            FitOptions { mask, hints, wood: self.wood.clone(), tree: self.tree, ..FitOptions::default() };
+        let reading = self.corrections.corrections()?;
+        let wood = self.wood.clone();
+        let options = FitOptions { mask, hints, wood, reading, tree: self.tree, ..FitOptions::default() };
         read_picture(picture, &options).map_err(flags::named)
     }
 

@@ -126,3 +126,64 @@ fn colours_and_season_of_a_cut_out_become_those_of_the_result() {
     let kept = fit("kept", &["--appearance", "species"]);
     assert!(!kept.contains("season = \"autumn\"") && kept.contains(its_own), "{kept}");
 }
+
+/// What a person sees better than the reading does.
+#[test]
+fn a_reading_is_corrected_by_flags_and_by_its_file() {
+    let dir = Dir::new();
+    let _ = dir.run(["silhouette", "acer", "--seed", "3", "--size", "256", "-o", "goal.png"]).ok();
+    let read_with = |more: &[&str]| dir.run([&["read", "goal.png", "--json"], more].concat());
+    let plain = read_with(&[]).json();
+    let _ = dir.run(["read", "goal.png", "-o", "out"]).ok();
+    assert_eq!(read_with(&["--reading", "out/reading.json"]).json(), plain, "as it was written");
+    let said =
+        read_with(&["--trunks", "2", "--lean", "-8", "--bare-height", "0.3", "--first-fork", "none"]).json();
+    assert_eq!((said["feet"].as_array().unwrap().len(), &said["feet_confidence"]), (2, &1.0.into()));
+    assert_eq!((&said["lean_deg"], &said["lean_deg_confidence"]), (&(-8.0).into(), &1.0.into()));
+    assert_eq!((&said["bare_height"], &said["first_fork"]), (&0.3.into(), &Value::Null));
+    // A flag before the file.
+    let text = String::from_utf8(read(&dir.path("out/reading.json"))).unwrap();
+    let mut edited: Value = serde_json::from_str(&text).unwrap();
+    edited["bare_height"] = 0.25.into();
+    edited["lean_deg"] = 5.into();
+    let _ = dir.file("edited.json", &edited.to_string());
+    let found = read_with(&["--reading", "edited.json", "--lean", "6"]).json();
+    assert_eq!((&found["bare_height"], &found["bare_height_confidence"]), (&0.25.into(), &1.0.into()));
+    assert_eq!((&found["lean_deg"], &found["feet"]), (&6.0.into(), &plain["feet"]));
+    for (more, expected) in [
+        (["--trunks", "0"], "expected a whole number from 1 to 64"),
+        (["--lean", "100"], "expected degrees from -90 to 90"),
+        (["--bare-height", "1.5"], "expected a number from 0 to 1"),
+        (["--first-fork", "low"], "expected a number from 0 to 1"),
+    ] {
+        read_with(&more).fails(2, &[expected]);
+    }
+    let _ = dir.file("wrong.json", "{ \"leaning\": 3 }");
+    read_with(&["--reading", "wrong.json"]).fails(1, &["wrong.json is not a reading", "`leaning`"]);
+    read_with(&["--reading", "none.json"]).fails(1, &["none.json"]);
+    read_with(&["--reading", "goal.png"]).fails(1, &["goal.png"]);
+}
+
+/// A tree that a person sees branches on down to the ground is no palm.
+#[test]
+fn a_first_guess_passes_over_what_contradicts_a_correction() {
+    let dir = Dir::new();
+    let _ = dir.run(["silhouette", "palm", "--seed", "3", "--size", "256", "-o", "goal.png"]).ok();
+    let likeliest = |out: &str, more: &[&str]| {
+        let args = [&["--evaluations", "4"], more].concat();
+        let _ = dir.run(small("goal.png", out, &args)).ok();
+        let summary: Value = serde_json::from_slice(&read(&dir.path(out).join("summary.json"))).unwrap();
+        let bare = summary["readings"]["goal"]["bare_height"].as_f64().unwrap();
+        (bare, summary["looks_like"][0]["species"].as_str().unwrap().to_owned())
+    };
+    let (bare, species) = likeliest("as-read", &["--from", "auto"]);
+    assert!(bare > 0.5 && species == "palm", "{bare} {species}");
+    let (bare, species) = likeliest("corrected", &["--from", "auto", "--bare-height", "0.05"]);
+    assert!(bare == 0.05 && species != "palm", "{bare} {species}");
+    // A list says it of one goal.
+    let _ = dir.file("goals.csv", "file,trunks,lean,bare_height\ngoal.png,1,-4,0.1\n");
+    let args = ["fit", "--list", "goals.csv", "--from", "palm", "--out", "listed", "--evaluations", "4"];
+    let _ = dir.run([&args[..], &["--individual", "off"]].concat()).ok();
+    let goal: Value = serde_json::from_slice(&read(&dir.path("listed/goal/reading.json"))).unwrap();
+    assert_eq!((&goal["bare_height"], &goal["lean_deg"]), (&0.1.into(), &(-4.0).into()));
+}

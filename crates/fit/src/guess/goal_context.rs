@@ -6,7 +6,7 @@ use super::settings::Contradictions;
 use crate::error::FitError;
 use crate::evaluator::{Evaluator, SilhouetteGoal};
 use crate::problem::Objective;
-use crate::problem::{Azimuth, FitProblem};
+use crate::problem::{Azimuth, FitProblem, GoalView};
 use crate::run::FitSettings;
 use pleach_reading::Reading;
 use pleach_silhouette::View;
@@ -46,7 +46,8 @@ impl<'a> GoalContext<'a> {
     pub(super) fn with_contradictions(mut self, contradictions: Contradictions) -> Self {
         let first = self.problem.goals.first().filter(|goal| is_level(&goal.view));
         if contradictions == Contradictions::Counted {
-            self.reading = first.map(|goal| Reading::from_silhouette(&goal.goal));
+            let read = |goal: &GoalView| Reading::from_silhouette(&goal.goal);
+            self.reading = first.map(|goal| goal.reading.clone().unwrap_or_else(|| read(goal)));
         }
         self
     }

@@ -11,6 +11,7 @@ pub use genome::{Genome, Score, Scored, Size};
 pub use nuisance::{Azimuth, MAX_OFFSET, MAX_SCALE, Nuisance, Placement, ROUGH_AZIMUTH, Unknown};
 pub use objective::{Objective, UnknownObjective};
 
+use pleach_reading::Reading;
 use pleach_silhouette::{Bitmap, Frame, View};
 use pleach_tree::param::SlotError;
 use pleach_tree::{Foliage, Species};
@@ -35,6 +36,9 @@ pub struct GoalView {
     /// What trees are compared by; `None`: the silhouette, [`Silhouette`](crate::Silhouette). A first guess,
     /// registration and individuals compare silhouettes in any case.
     pub evidence: Option<AnyEvidence>,
+    /// What is in the picture, where somebody knows it better; `None`: what [`Reading`] reads in it. A first guess
+    /// passes over trees that contradict it.
+    pub reading: Option<Reading>,
 }
 
 /// Accuracy of a frame.
@@ -60,6 +64,7 @@ impl GoalView {
             accuracy: Accuracy::Exact,
             registered: Placement::KNOWN,
             evidence: None,
+            reading: None,
         }
     }
 

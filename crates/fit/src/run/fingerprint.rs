@@ -104,7 +104,7 @@ fn goal_parts(goals: &[GoalView]) -> [(&'static str, Vec<u8>); 4] {
     let mut scales = String::new();
     let mut views = String::new();
     let mut evidences = String::new();
-    for GoalView { goal, view, frame, unknown, accuracy, registered, evidence } in goals {
+    for GoalView { goal, view, frame, unknown, accuracy, registered, evidence, reading } in goals {
         pictures.extend(format!("{} {}\n", goal.width(), goal.height()).bytes());
         pictures.extend(goal.words().iter().flat_map(|word| word.to_le_bytes()));
         // Users give the tree's height; the scale follows from it and the picture.
@@ -115,6 +115,9 @@ fn goal_parts(goals: &[GoalView]) -> [(&'static str, Vec<u8>); 4] {
         views += &format!("{view:?} {unknown:?} {axis_column:?} {ground_row:?}\n");
         views += &format!("{accuracy:?} {registered:?}\n");
         evidences += &format!("{evidence:?}\n");
+        if let Some(reading) = reading {
+            evidences += &format!("{reading:?}\n");
+        }
     }
     [
         ("the goal's picture", pictures),
@@ -132,6 +135,7 @@ mod tests {
     use crate::method::{Optimizer, RulesSettings, Start};
     use crate::problem::{Accuracy, AnyEvidence, Azimuth, Objective, Placement, Unknown};
     use crate::space::{Freedom, TreeSeed};
+    use pleach_reading::Reading;
     use pleach_silhouette::{Bitmap, View};
     use std::num::NonZeroU32;
 
@@ -204,9 +208,10 @@ mod tests {
             accuracy: Accuracy::Pixel,
             registered: Placement { scale: 1.1, ..Placement::KNOWN },
             evidence: Some(AnyEvidence::new(Silhouette)),
+            reading: Some(Reading::default()),
         };
         let changed = each_field!(GoalView {
-            goal, view, frame, unknown, accuracy, registered, evidence
+            goal, view, frame, unknown, accuracy, registered, evidence, reading
         } without {}: base.goals[0], other);
         for (field, goal) in changed {
             let problem = FitProblem { goals: vec![goal], ..base.clone() };

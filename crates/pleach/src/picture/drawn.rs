@@ -58,7 +58,7 @@ impl Prepared {
     /// where these were asked for.
     #[must_use]
     pub fn named(&self, species: Species) -> Species {
-        let appearance = match (&self.goal.colors, self.options.appearance) {
+        let appearance = match (&self.reading.colors, self.options.appearance) {
             (Some(colors), AppearanceFrom::Picture) => colors.appearance(&species.appearance),
             _ => species.appearance,
         };

@@ -10,6 +10,7 @@
 //! [`fit_picture`] is all of it in one call. The program `pleach fit`, the Python package and the page in the browser
 //! are made of these four steps, so that the same options give the same report in each.
 
+mod corrections;
 mod direction;
 mod drawn;
 mod effort;
@@ -30,6 +31,7 @@ mod start;
 mod volume;
 mod words;
 
+pub use corrections::Corrections;
 pub use direction::{Direction, FurtherView};
 pub use drawn::{FitDrawing, FittedTree};
 pub use effort::{Effort, parse_duration};

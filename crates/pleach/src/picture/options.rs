@@ -1,5 +1,6 @@
 //! Everything that a whole fit may be asked for.
 
+use super::corrections::Corrections;
 use super::direction::{Direction, FurtherView};
 use super::effort::{Effort, MAX_SECONDS};
 use super::hints::MaskHints;
@@ -40,6 +41,9 @@ pub struct FitOptions {
     /// A picture of the goal's size that says what of the tree is wood, trunk and branches: black on white. Its name in
     /// [`super::FitSource::pictures`], or a file.
     pub wood: Option<String>,
+    /// What is otherwise in the goal than it is read: the keys of `reading.json`, or some of them. A first guess passes
+    /// over trees that contradict it.
+    pub reading: Corrections,
     /// Which tone of the goal is the tree.
     pub tree: Tone,
     /// Row where the tree stands, in pixels of the goal from its top edge; detected by default.
@@ -121,6 +125,7 @@ impl Default for FitOptions {
             mask: None,
             hints: MaskHints::default(),
             wood: None,
+            reading: Corrections::default(),
             tree: Tone::Auto,
             ground_row: None,
             axis_column: None,
@@ -250,6 +255,7 @@ impl FitOptions {
             return error("size", format!("is {}, expected from 16 to 2048 pixels", self.size));
         }
         self.hints.check()?;
+        self.reading.check()?;
         if let (Some(MaskFrom::File(file)), false) = (&self.mask, self.hints.is_empty()) {
             return error(
                 "hints",
@@ -375,7 +381,7 @@ mod tests {
     pub(crate) const OTHERS: &str = r#"{
         "height": 12.0, "size": 64, "mask": "auto",
         "hints": { "box": [1, 2, 30, 40], "include": [[5, 6]], "exclude": [[7, 8]], "strokes": "marks.png" },
-        "wood": "wood.png", "tree": "dark", "ground_row": 200.0, "axis_column": 100.5,
+        "wood": "wood.png", "reading": { "trunks": 2 }, "tree": "dark", "ground_row": 200.0, "axis_column": 100.5,
         "frame": [0.05, 30.0, 60.0], "view": "30", "views": ["auto=other.png"], "free_frame": true,
         "holdout_views": ["45,2=corner.png"], "leaves": "on", "appearance": "species", "from": "acer", "generator": "fractal",
         "volume_from": "goal", "free": ["crown"], "fix": ["leaves"], "optimizer": { "cma": { "population": 20 } },

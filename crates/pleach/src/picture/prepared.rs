@@ -75,7 +75,10 @@ impl FitOptions {
         let FitStart { species, mut foliage, detects_leaves, mut settings, shares, .. } =
             self.start(source)?;
         let goal = self.goal(source)?;
-        if let (true, Some(leaves)) = (detects_leaves, goal.colors.as_ref().and_then(sure_of_leaves)) {
+        let (reading, corrected) = self.read(source, &goal)?;
+        let said = self.reading.says_leaves().then_some(reading.measures.leaves);
+        let sure = said.or_else(|| reading.colors.as_ref().and_then(sure_of_leaves));
+        if let (true, Some(leaves)) = (detects_leaves, sure) {
             foliage = if leaves { Foliage::All } else { Foliage::None };
             if let Guessing::Compare(guess) = &mut settings.guess {
                 guess.detect_leaves = false;
@@ -88,7 +91,7 @@ impl FitOptions {
         let view = self.view.unwrap_or_default().view();
         let accuracy = if self.frame.is_some() { Accuracy::Exact } else { Accuracy::Pixel };
         let own = GoalView::new(goal.working.bitmap.clone(), view, goal.working.frame(height));
-        let mut goals = vec![GoalView { accuracy, ..own }];
+        let mut goals = vec![GoalView { accuracy, reading: corrected, ..own }];
         let further = |one: &super::direction::FurtherView| -> Result<FurtherPicture, PrepareError> {
             let goal = GoalPair::read(&source.picture(&one.picture), GoalOptions::default(), self.size)?;
             Ok(FurtherPicture { name: one.picture.clone(), view: one.direction.view(), goal })
@@ -109,7 +112,6 @@ impl FitOptions {
             settings = GoalSettings { individual, ..outlined.plan(settings.search)? };
         }
         add(&mut settings, spent);
-        let reading = self.read(source, &goal)?;
         let prepared = Prepared {
             options: self.after(spent),
             name: safe_name(&self.name.clone().unwrap_or_else(|| source.species_name())),
@@ -134,7 +136,7 @@ impl FitOptions {
             return GoalPair::of_photograph(source, &self.hints, options, self.size);
         }
         let pair = GoalPair::read(&source.goal, options, self.size)?;
-        Ok(GoalPair { colors: source.goal.colors_of_cut_out(), ..pair })
+        Ok(GoalPair { colors: source.colors(), ..pair })
     }
 
     /// Whether the goal is said to be a photograph.

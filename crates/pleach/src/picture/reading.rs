@@ -1,9 +1,11 @@
 //! What is in a picture of a tree, before anything is fitted to it.
 
+use super::corrections::Changes;
 use super::error::PrepareError;
 use super::goal_pair::{GoalPair, masked};
 use super::options::FitOptions;
 use super::source::FitSource;
+use crate::option_error::OptionError;
 use pleach_reading::{Colors, Reader, Reading, annotate};
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::mask::Mask;
@@ -67,7 +69,7 @@ impl PictureReading {
 /// crown. What looks like a photograph is masked first, unless `options` say what is tree.
 ///
 /// Of `options` those about the goal's picture are used: [`FitOptions::mask`], [`FitOptions::hints`],
-/// [`FitOptions::tree`] and [`FitOptions::wood`].
+/// [`FitOptions::tree`], [`FitOptions::wood`] and [`FitOptions::reading`].
 ///
 /// ```
 /// use pleach::{FitOptions, View, read_picture};
@@ -101,20 +103,27 @@ pub fn read_picture(
     }
     let Goal { bitmap: silhouette, warnings, .. } = by_tone?;
     let measures = options.measure(&source, &silhouette)?;
-    let colors = source.goal.colors_of_cut_out();
-    Ok(PictureReading { found: GoalReading::new(measures, colors, None, warnings), silhouette, mask: None })
+    let colors = source.colors();
+    let found = options.corrected(GoalReading::new(measures, colors, None, warnings))?.0;
+    Ok(PictureReading { found, silhouette, mask: None })
 }
 
 fn of_photograph(source: &FitSource, options: &FitOptions) -> Result<PictureReading, PrepareError> {
     let (mask, colors) = masked(source, &options.hints)?;
     let measures = options.measure(source, &mask.bitmap)?;
     let found = GoalReading::new(measures, colors, Some(&mask), mask.warnings.clone());
+    let found = options.corrected(found)?.0;
     Ok(PictureReading { found, silhouette: mask.bitmap.clone(), mask: Some(mask) })
 }
 
 impl FitOptions {
-    /// What is in the goal of `source`, which was read as `pair`.
-    pub(super) fn read(&self, source: &FitSource, pair: &GoalPair) -> Result<GoalReading, PrepareError> {
+    /// What is in the goal of `source`, which was read as `pair`; and, where it was corrected, what a first guess takes
+    /// to be in the smaller picture that it compares.
+    pub(super) fn read(
+        &self,
+        source: &FitSource,
+        pair: &GoalPair,
+    ) -> Result<(GoalReading, Option<Reading>), PrepareError> {
         // A mask of wood is of the picture as it came.
         let whole;
         let silhouette = match (&pair.mask, &self.wood) {
@@ -126,7 +135,22 @@ impl FitOptions {
             (None, None) => &pair.full.bitmap,
         };
         let measures = self.measure(source, silhouette)?;
-        Ok(GoalReading::new(measures, pair.colors.clone(), pair.mask.as_ref(), pair.warnings.clone()))
+        let found =
+            GoalReading::new(measures, pair.colors.clone(), pair.mask.as_ref(), pair.warnings.clone());
+        let (found, changes) = self.corrected(found)?;
+        if self.reading.is_empty() {
+            return Ok((found, None));
+        }
+        let mut working = Reading::from_silhouette(&pair.working.bitmap);
+        changes.apply_to_measures(&mut working)?;
+        Ok((found, Some(working)))
+    }
+
+    /// `found` with [`FitOptions::reading`], and what that changed.
+    fn corrected(&self, mut found: GoalReading) -> Result<(GoalReading, Changes), OptionError> {
+        let changes = self.reading.changes(&found)?;
+        changes.apply(&mut found)?;
+        Ok((found, changes))
     }
 
     /// What is in the goal of `source`, whose tree is `silhouette`.

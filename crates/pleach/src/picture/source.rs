@@ -110,15 +110,22 @@ pub struct FitSource {
     /// What the species that is found is called, unless [`super::FitOptions::name`] says otherwise; by default as the
     /// goal's file without its ending.
     pub name: Option<String>,
+    /// Colours of the goal's tree where they are at hand and its picture does not show them, as ink does not.
+    pub colors: Option<Colors>,
 }
 
 impl<P: Into<PictureSource>> From<P> for FitSource {
     fn from(goal: P) -> Self {
-        Self { goal: goal.into(), pictures: BTreeMap::new(), start: None, name: None }
+        Self { goal: goal.into(), pictures: BTreeMap::new(), start: None, name: None, colors: None }
     }
 }
 
 impl FitSource {
+    /// The colours of the goal's tree, where they are at hand or its picture is a cut-out.
+    pub(super) fn colors(&self) -> Option<Colors> {
+        self.colors.clone().or_else(|| self.goal.colors_of_cut_out())
+    }
+
     /// The picture that an option names.
     pub(super) fn picture(&self, name: &str) -> Cow<'_, PictureSource> {
         match self.pictures.get(name) {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Optional, Union
 
@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._goal import Goal, given
+from ._reading import Reading, corrections
 from ._score import Card, Point, card_of, hints
 
 
@@ -202,6 +203,7 @@ def fit(
     exclude: Sequence[Point] = (),
     strokes: Optional[str] = None,
     wood: Optional[str] = None,
+    reading: Union[Reading, Mapping[str, Any], None] = None,
     tree: str = "auto",
     ground_row: Optional[float] = None,
     axis_column: Optional[float] = None,
@@ -237,7 +239,8 @@ def fit(
     an open file. ``height`` is the tree's, in metres; ``size`` the longer side that the search compares at, in
     pixels. ``mask`` is ``"auto"`` for a photograph, or a file that says what is tree; ``box``, ``include``, ``exclude``
     and ``strokes`` show the tree in a photograph, as in ``pleach.mask``; ``wood`` is a file that says what of the tree
-    is wood. ``tree`` is the tone that is the tree: ``"auto"``, ``"dark"`` or ``"light"``. ``ground_row`` and ``axis_column`` are where the tree stands, in pixels
+    is wood. ``reading`` is a ``pleach.Reading``, or a dict with some of its measures, of what is otherwise in the picture
+    than it is read, such as ``{"trunks": 1, "lean_deg": -8}``: see ``pleach.read``. ``tree`` is the tone that is the tree: ``"auto"``, ``"dark"`` or ``"light"``. ``ground_row`` and ``axis_column`` are where the tree stands, in pixels
     of the picture; ``frame``, where it is known, is metres per pixel, the column of the trunk's foot and the row of the
     ground: it is taken as exact, and the height follows from it. ``view`` is the azimuth, or azimuth and elevation, in
     degrees. ``views`` are further pictures of the same tree, each with where it was taken from:
@@ -285,6 +288,7 @@ def fit(
         "mask": mask,
         "hints": hints(box, include, exclude, strokes),
         "wood": wood,
+        "reading": corrections(reading),
         "tree": tree,
         "ground_row": ground_row,
         "axis_column": axis_column,

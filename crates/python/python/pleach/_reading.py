@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +31,11 @@ class Reading:
         return self.measures[name]
 
 
+def corrections(reading: Union[Reading, Mapping[str, Any], None]) -> dict[str, Any]:
+    """What is otherwise than it is read, as the library takes it."""
+    return dict(reading.measures if isinstance(reading, Reading) else reading or {})
+
+
 def read(
     picture: Goal,
     *,
@@ -40,6 +45,7 @@ def read(
     exclude: Sequence[Point] = (),
     strokes: Optional[str] = None,
     wood: Optional[Goal] = None,
+    reading: Union[Reading, Mapping[str, Any], None] = None,
     tree: str = "auto",
 ) -> Reading:
     """Reads what is in a picture of a tree: how many trunks, how far they lean, where they fork, the crown's outline.
@@ -49,18 +55,26 @@ def read(
     in ``pleach.mask``. ``wood`` is a picture of the same size that says what of the tree is trunk and branches. ``tree``
     is the tone that is the tree: ``"auto"``, ``"dark"`` or ``"light"``.
 
+    ``reading`` says what is otherwise in the picture than it is read: a dict with some of the measures, or a
+    ``Reading`` whose measures were changed. A value that differs from what was read has the confidence 1; one that is
+    repeated has the confidence that stands beside it, or 1. ``trunks`` is short for ``feet`` of which only the number is
+    known.
+
     Raises ``GoalError`` for a picture that has no tree and ``FitError`` for options that cannot be.
 
     >>> import pleach
     >>> found = pleach.read(pleach.species("acer").grow(7).silhouette(256))
     >>> len(found["feet"]), found["feet_confidence"] > 0.5
     (1, True)
+    >>> pleach.read(found.ink, reading={"lean_deg": -8})["lean_deg_confidence"]
+    1.0
     """
     pictures: dict[str, Any] = {} if wood is None else {"wood": given(wood)}
     options = {
         "mask": mask,
         "hints": hints(box, include, exclude, strokes),
         "wood": None if wood is None else "wood",
+        "reading": corrections(reading),
         "tree": tree,
     }
     measures, ink, annotated = _native.read(given(picture), json.dumps(options), pictures)

@@ -1,5 +1,6 @@
 //! The arguments of `pleach fit`, as they are typed.
 
+use super::super::corrections::CorrectionArgs;
 use super::super::hints::HintArgs;
 use super::help;
 use super::run_folder::Mode;
@@ -87,6 +88,8 @@ pub(super) struct GoalArgs {
     /// A picture of the goal's size that says what of the tree is wood, trunk and branches: black on white
     #[arg(long, value_name = "FILE")]
     pub(super) wood: Option<String>,
+    #[command(flatten)]
+    pub(super) corrections: CorrectionArgs,
     /// Which of the two tones is the tree
     #[arg(long, default_value = "auto", value_parser = one_of(values::TONES))]
     pub(super) tree: Tone,

@@ -49,6 +49,10 @@ pub(super) fn run(fit: &Fit, start: Option<&Species>) -> anyhow::Result<()> {
         "a --mask file belongs to one goal; --mask auto makes one for each"
     );
     ensure!(fit.goal_options.hints.is_empty(), "a --box, points and strokes belong to one goal");
+    ensure!(
+        fit.goal_options.corrections.is_empty(),
+        "corrections of a reading, such as --trunks, belong to one goal"
+    );
     let is_stdin = |goal: &PathBuf| input::is_standard(goal);
     ensure!(!fit.goals.iter().any(is_stdin), "standard input is one picture, and there are several goals");
     let out = fit.out.clone().unwrap_or_else(|| RUNS.into());

@@ -3,6 +3,7 @@
 pub(super) const EXAMPLES: &str = "Examples:
   pleach fit targets/quaking_aspen.png  a minute; results in runs/quaking_aspen
   pleach fit photo.jpg --mask auto -v  a photograph of a tree before a sky
+  pleach fit oak.jpg --trunks 1 --bare-height 0.2  what was read wrong in it
   pleach fit oak.jpg --height 18 --timeout 5m  a tree of 18 m, five minutes
   pleach fit goal.png --from random --optimizer hewitt --evaluations 20000
   pleach fit goal.png --robust 4  parameters of which every seed is like it
@@ -47,5 +48,5 @@ refused. Several processes may fit one batch at a time, each goal is then fitted
 `pleach collect` joins what they leave.
 
 A --list is a CSV file with a header: the column `file`, and any of `height`, `view`, `mask`, `tree`, \
-`ground_row`, `axis_column` and `leaves`; an empty cell means the option of the command line. Paths are \
+`ground_row`, `axis_column`, `leaves`, `trunks`, `lean` and `bare_height`; an empty cell means the option of the command line. Paths are \
 relative to the list.";

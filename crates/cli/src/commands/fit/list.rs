@@ -1,5 +1,6 @@
 //! Goals with options of their own, from a CSV file.
 
+use super::super::corrections;
 use super::args::GoalArgs;
 use super::values::{self, ViewArg};
 use crate::choice::word;
@@ -18,7 +19,7 @@ struct Column {
 /// The column that names the goal.
 const FILE: &str = "file";
 
-const COLUMNS: [Column; 7] = [
+const COLUMNS: [Column; 10] = [
     Column { name: "height", set: |args, cell, _| values::height(cell).map(|height| args.height = height) },
     Column {
         name: "view",
@@ -59,6 +60,18 @@ const COLUMNS: [Column; 7] = [
             args.no_leaves = false;
             Ok(())
         },
+    },
+    Column {
+        name: "trunks",
+        set: |args, cell, _| corrections::trunks(cell).map(|count| args.corrections.trunks = Some(count)),
+    },
+    Column {
+        name: "lean",
+        set: |args, cell, _| corrections::lean(cell).map(|lean| args.corrections.lean = Some(lean)),
+    },
+    Column {
+        name: "bare_height",
+        set: |args, cell, _| corrections::share(cell).map(|bare| args.corrections.bare_height = Some(bare)),
     },
 ];
 

@@ -30,6 +30,7 @@ impl Fit {
             mask: goal.mask.clone().or(goal.mask_command.as_ref().map(|_| MaskFrom::Auto)),
             hints: goal.hints.hints(),
             wood: goal.wood.clone(),
+            reading: goal.corrections.corrections()?,
             tree: goal.tree,
             ground_row: goal.ground_row,
             axis_column: goal.axis_column,
