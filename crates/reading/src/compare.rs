@@ -62,6 +62,8 @@ const SURE: f64 = 0.6;
 
 /// Trunks of one kind differ in number by this factor at most.
 const FEET: f64 = 1.6;
+/// Wrong readings of feet that are so many tolerances farther off are e times as rare.
+const WRONG: f64 = 0.7;
 /// … in thickness by this one.
 const WIDTH: f64 = 1.5;
 /// … and lean otherwise by so many degrees.
@@ -92,9 +94,16 @@ impl Reading {
     /// ```
     #[must_use]
     pub fn differences(&self, tree: &Self) -> Vec<Difference> {
+        self.differences_from(tree, None)
+    }
+
+    /// The same of a tree that was grown with a known number of `trunks`. Trunks that stand close together are read as
+    /// one, so that number goes before what was read; the thickness of such a bundle is not compared.
+    #[must_use]
+    pub fn differences_from(&self, tree: &Self, trunks: Option<u32>) -> Vec<Difference> {
         let found = [
-            self.feet_apart(tree),
-            self.widths_apart(tree),
+            self.feet_apart(tree, trunks),
+            self.widths_apart(tree, trunks),
             self.leans_apart(tree),
             self.forks_apart(tree),
             self.leaves_apart(tree),
@@ -133,22 +142,22 @@ impl Reading {
         found
     }
 
-    fn feet_apart(&self, tree: &Self) -> Option<Difference> {
-        let confidence = sure(self.feet_confidence, tree.feet_confidence)?;
-        let (goal, fit) = (self.feet.len(), tree.feet.len());
+    fn feet_apart(&self, tree: &Self, known: Option<u32>) -> Option<Difference> {
+        let (goal, read) = (self.feet.len(), tree.feet.len());
+        let (fit, sure_of_fit) = known.map_or((read, tree.feet_confidence), |known| (known as usize, 1.0));
         if goal == 0 || fit == 0 {
             return None;
         }
+        let size = factor(goal as f64, fit as f64, FEET);
+        let confidence = sure(far_off(self.feet_confidence, size), sure_of_fit)?;
         let words = format!("{} in the picture, {} in the fit", trunks(goal), number(fit));
-        Some(Difference {
-            measure: Measure::Feet,
-            size: factor(goal as f64, fit as f64, FEET),
-            confidence,
-            words,
-        })
+        Some(Difference { measure: Measure::Feet, size, confidence, words })
     }
 
-    fn widths_apart(&self, tree: &Self) -> Option<Difference> {
+    fn widths_apart(&self, tree: &Self, known: Option<u32>) -> Option<Difference> {
+        if known.is_some_and(|known| known as usize != tree.feet.len()) {
+            return None;
+        }
         let confidence = sure(self.width_confidence, tree.width_confidence)?;
         let (goal, fit) = (self.trunk_width()?, tree.trunk_width()?);
         let words = if fit > goal {
@@ -200,6 +209,12 @@ impl Reading {
 fn sure(goal: f64, tree: f64) -> Option<f64> {
     let least = goal.min(tree);
     (least >= SURE).then_some(least)
+}
+
+/// Confidence that a number of feet that was read with `confidence` is not one that lies `size` tolerances off: readings
+/// that are wrong are mostly a little wrong.
+fn far_off(confidence: f64, size: f64) -> f64 {
+    1.0 - (1.0 - confidence) * math::exp(-WRONG * (size - 1.0).max(0.0))
 }
 
 /// How far two numbers that are measured and confident are apart, in `tolerance`s.

@@ -35,6 +35,10 @@ impl Generator for Stylised {
         Numbers::space()
     }
 
+    fn trunks(&self, values: &[f64]) -> Option<u32> {
+        Some(Numbers::read(values).trunks).filter(|count| *count > 0)
+    }
+
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {
         Numbers::is_active(slot, &Numbers::read(values))
     }

@@ -97,6 +97,12 @@ pub trait Generator: Send + Sync + fmt::Debug {
         true
     }
 
+    /// The number of trunks of every tree of these `values`; `None` where seeds differ in it, or where it is not declared.
+    fn trunks(&self, values: &[f64]) -> Option<u32> {
+        let _ = values;
+        None
+    }
+
     /// The numbers that measures of the trunk follow from: none where there are no such.
     fn trunk(&self) -> TrunkSlots {
         TrunkSlots::default()

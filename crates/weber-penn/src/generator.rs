@@ -48,6 +48,12 @@ impl Generator for WeberPenn {
         is_active(Model::read(values), &self.surroundings, slot)
     }
 
+    fn trunks(&self, values: &[f64]) -> Option<u32> {
+        let model = Model::read(values);
+        // A number below 0 is drawn.
+        (model.floor_splits > 0 || model.levels[0].branches >= 0.0).then(|| model.trunks())
+    }
+
     fn trunk(&self) -> TrunkSlots {
         TrunkSlots { thickness: Some(Id::ratio.slot(0)), bare_height: Some(Id::base_size.slot(0)) }
     }

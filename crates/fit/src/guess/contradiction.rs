@@ -13,12 +13,17 @@ const WORTH: f64 = 0.03;
 /// A tree that contradicts the goal by so much more than another one is no start.
 pub(super) const NO_START: f64 = 0.05;
 
-/// How much of its likeness a tree with `picture` is to lose beside a goal that was read as `goal`: 0 where nothing
-/// contradicts it.
-pub(super) fn contradiction(goal: &Reading, picture: &Bitmap, reader: &mut Reader) -> f64 {
+/// How much of its likeness a tree with `picture`, and `trunks` where their number is known, is to lose beside a goal that
+/// was read as `goal`: 0 where nothing contradicts it.
+pub(super) fn contradiction(
+    goal: &Reading,
+    picture: &Bitmap,
+    trunks: Option<u32>,
+    reader: &mut Reader,
+) -> f64 {
     let mut tree = Reading::default();
     reader.read(picture, &mut tree);
-    let differences = goal.differences(&tree);
+    let differences = goal.differences_from(&tree, trunks);
     let of_species = differences.iter().filter(|one| one.measure.is_of_species());
     of_species.map(|one| WORTH * one.confidence * (one.size.min(UP_TO) - FROM).max(0.0)).sum()
 }
@@ -40,8 +45,11 @@ mod tests {
     fn a_clump_of_canes_contradicts_a_single_trunk() {
         let (mut reader, mut goal) = (Reader::new(), Reading::default());
         reader.read(&canes(1, 10), &mut goal);
-        assert!(contradiction(&goal, &canes(1, 11), &mut reader) < 1e-9);
-        let clump = contradiction(&goal, &canes(8, 6), &mut reader);
+        assert!(contradiction(&goal, &canes(1, 11), None, &mut reader) < 1e-9);
+        let clump = contradiction(&goal, &canes(8, 6), None, &mut reader);
         assert!(clump > NO_START, "{clump}");
+        // Canes that are read as one, of a tree that is known to have more.
+        let bundle = contradiction(&goal, &canes(1, 11), Some(9), &mut reader);
+        assert!(bundle > NO_START, "{bundle}");
     }
 }

@@ -315,12 +315,13 @@ pub(super) fn compare(
         };
         let (mut picture, mut buffers) = (Bitmap::default(), Buffers::default());
         let mut reader = Reader::new();
+        let trunks = context.candidates[candidate].species.generator.trunks(&values);
         for (number, fine) in silhouettes.views.iter().enumerate() {
             let view = number % frames.len();
             fine.through(&frames[view], factor, &mut picture);
             let agreement = context.silhouettes[view].compare(&picture, LIKENESS, &mut buffers);
             if let (0, Some(goal)) = (view, &context.reading) {
-                sum.contradiction += contradiction(goal, &picture, &mut reader);
+                sum.contradiction += contradiction(goal, &picture, trunks, &mut reader);
             }
             sum.likeness += agreement.value;
             sum.iou += agreement.iou;

@@ -34,11 +34,16 @@ pub(super) fn measured(
         if slots == TrunkSlots::default() {
             return None;
         }
+        let trunks = species.generator.trunks(&genome.values);
         let (mut reader, mut picture, mut tree) = (Reader::new(), Bitmap::default(), Reading::default());
         let mut own = genome.clone();
         for _ in 0..STEPS {
             draw(context, *candidate, &own, foliage, &mut picture)?;
             reader.read(&picture, &mut tree);
+            if trunks.is_some_and(|known| known as usize != tree.feet.len()) {
+                // What was measured is a bundle of trunks.
+                tree.width_confidence = 0.0;
+            }
             if !follow(context, *candidate, slots, (goal, &tree), &mut own) {
                 break;
             }

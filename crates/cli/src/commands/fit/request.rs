@@ -209,7 +209,7 @@ mod tests {
     }
 
     /// The options of `pleach fit`, and what each of them may be given that is not its default.
-    const GIVEN: [(&str, &str); 37] = [
+    const GIVEN: [(&str, &str); 42] = [
         ("height", "12"),
         ("size", "64"),
         ("mask", "auto"),
@@ -224,6 +224,11 @@ mod tests {
         ("axis_column", "100.5"),
         ("view", "30"),
         ("free_frame", ""),
+        ("reading", "tests/data/reading.json"),
+        ("trunks", "2"),
+        ("lean", "-4"),
+        ("bare_height", "0.2"),
+        ("first_fork", "none"),
         ("holdout_view", "45=corner.png"),
         ("appearance", "species"),
         ("leaves", "on"),

@@ -63,6 +63,10 @@ impl Generator for WithIndividual {
         self.kind.is_active(values, slot)
     }
 
+    fn trunks(&self, values: &[f64]) -> Option<u32> {
+        self.kind.trunks(values)
+    }
+
     fn trunk(&self) -> TrunkSlots {
         self.kind.trunk()
     }
