@@ -20,6 +20,8 @@ pub(super) struct GoalContext<'a> {
     pub(super) models: Models,
     /// What is in the first of them; `None` if contradictions are ignored, or if it is not seen from the side.
     pub(super) reading: Option<Reading>,
+    /// How much of its likeness a tree loses for a contradiction: more where a person has corrected the reading.
+    pub(super) weight: f64,
     /// Their silhouettes.
     pub(super) silhouettes: Vec<SilhouetteGoal>,
     pub(super) settings: &'a FitSettings,
@@ -39,7 +41,17 @@ impl<'a> GoalContext<'a> {
     ) -> Self {
         let silhouettes = problem.goals.iter().map(|goal| SilhouetteGoal::new(&goal.goal)).collect();
         let models = Models::new(candidates, evaluator);
-        Self { problem, candidates, models, reading: None, silhouettes, settings, stop, drawings }
+        Self {
+            problem,
+            candidates,
+            models,
+            reading: None,
+            weight: 1.0,
+            silhouettes,
+            settings,
+            stop,
+            drawings,
+        }
     }
 
     /// The same, with what is in the first goal where `contradictions` are counted.
@@ -47,6 +59,9 @@ impl<'a> GoalContext<'a> {
         let first = self.problem.goals.first().filter(|goal| is_level(&goal.view));
         if contradictions == Contradictions::Counted {
             let read = |goal: &GoalView| Reading::from_silhouette(&goal.goal);
+            if first.is_some_and(|goal| goal.reading.is_some()) {
+                self.weight = CORRECTED;
+            }
             self.reading = first.map(|goal| goal.reading.clone().unwrap_or_else(|| read(goal)));
         }
         self
@@ -63,6 +78,8 @@ impl<'a> GoalContext<'a> {
     }
 }
 
+/// What a person says counts as much as so many contradictions that were read.
+const CORRECTED: f64 = 2.0;
 /// From above or below, in radians: farther, feet and trunks are not what a reading takes them for.
 const LEVEL: f64 = 0.2;
 

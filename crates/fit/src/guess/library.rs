@@ -321,7 +321,7 @@ pub(super) fn compare(
             fine.through(&frames[view], factor, &mut picture);
             let agreement = context.silhouettes[view].compare(&picture, LIKENESS, &mut buffers);
             if let (0, Some(goal)) = (view, &context.reading) {
-                sum.contradiction += contradiction(goal, &picture, trunks, &mut reader);
+                sum.contradiction += context.weight * contradiction(goal, &picture, trunks, &mut reader);
             }
             sum.likeness += agreement.value;
             sum.iou += agreement.iou;
