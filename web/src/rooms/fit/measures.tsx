@@ -183,7 +183,10 @@ function Handle({ name, way, at, value, range, text, step, onMove, onValue }: Ha
       onPointerMove={(event) => {
         const frame = event.currentTarget.closest(".editor")?.getBoundingClientRect();
         if (!dragging.peek() || !frame) return;
-        const [x, y] = [(event.clientX - frame.left) / frame.width, (event.clientY - frame.top) / frame.height];
+        const [x, y] = [
+          (event.clientX - frame.left) / frame.width,
+          (event.clientY - frame.top) / frame.height,
+        ];
         onValue(onMove(x, y));
       }}
       onPointerUp={() => {
@@ -212,7 +215,8 @@ export function MeasuresPart(): JSX.Element | null {
   return (
     <div class="readpart">
       <p class="hint">
-        What was read in the picture. Drag what you see better: the fit then starts from species that agree with it.
+        What was read in the picture. Drag what you see better: the fit then starts from species that agree
+        with it.
       </p>
       <Field label="Trunks">
         {(id) => (
