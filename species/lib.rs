@@ -119,6 +119,11 @@ pub const LEAST_COST_PATH: &[(&str, &str)] = files!["least-cost-path":
     "leafy_willow",
 ];
 
+/// Trees that fill a volume.
+pub const SPACE_COLONIZATION: &[(&str, &str)] = files!["space-colonization":
+    "english_oak",
+];
+
 /// Stylised trees.
 pub const STYLISED: &[(&str, &str)] = files!["stylised":
     "stylised_oak",
@@ -147,6 +152,7 @@ mod tests {
             ("fractal", super::FRACTAL),
             ("least-cost-path", super::LEAST_COST_PATH),
             ("lsystem", super::LSYSTEM),
+            ("space-colonization", super::SPACE_COLONIZATION),
             ("stylised", super::STYLISED),
             ("weber-penn", super::WEBER_PENN),
         ];

@@ -1,0 +1,345 @@
+//! Space colonisation: shoots grow towards the points that are nearest to them, and reach them.
+//!
+//! Runions, Lane and Prusinkiewicz 2007, §3. A point pulls on the nearest node within the radius of influence; a node
+//! that is pulled grows a step in the mean direction of its points; a point within the radius of killing of a new node
+//! is taken away.
+//!
+//! Ours, after the bud fates of Pałubicki and others 2009, §4: the last node of an axis continues it; any other node
+//! begins a side shoot, not too near to the next one, and side shoots grow more slowly by their apical control. It
+//! stands for the allocation of vigour by Borchert and Honda: what a leader takes first is lost to its sides.
+//!
+//! A point remembers its nearest node, so that only new nodes are compared with the points around them: the work is the
+//! number of nodes times the points within the radius of influence, and the time grows as the number of points.
+
+use crate::budget::Budget;
+use crate::grid::Grid;
+use crate::nodes::{MAX_CHILDREN, NONE, Nodes};
+use crate::params::{Id, Numbers};
+use glam::DVec3;
+use pleach_tree::{GrowError, math};
+
+/// Slowest side shoot: part of a step each time.
+const MIN_VIGOR: f64 = 0.08;
+/// Part of a parent's vigour that full dominance takes from its side shoots.
+const TAKEN: f64 = 0.75;
+/// Rounds after which growing ends in any case.
+const MAX_ROUNDS: u32 = 1500;
+/// How often, and by which factor, influence is widened where a crown is out of reach of its trunk.
+const WIDENINGS: u32 = 8;
+const WIDENING: f64 = 1.7;
+/// New nodes for each point, at most.
+const NODES_A_POINT: usize = 12;
+/// A step that ends within this part of a step from a former one is not taken.
+const SAME: f64 = 0.35;
+
+/// Lengths and habits of growth; lengths over the tree's height.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rules {
+    pub(crate) step: f64,
+    influence: f64,
+    kill: f64,
+    inertia: f64,
+    tropism: f64,
+    dominance: f64,
+    bud_spacing: u32,
+}
+
+impl Rules {
+    /// The rules of a tree whose points lie `spacing` apart.
+    pub(crate) fn new(n: &Numbers, spacing: f64) -> Self {
+        let step = n.step * spacing;
+        Self {
+            step,
+            influence: (n.influence * spacing).max(1.2 * step),
+            // A point that is passed at less than half a step would pull back for ever.
+            kill: (n.kill * spacing).max(0.6 * step),
+            inertia: n.inertia,
+            tropism: n.tropism,
+            dominance: n.dominance,
+            bud_spacing: n.bud_spacing,
+        }
+    }
+
+    /// The mean spacing of `count` points in a volume of `size`.
+    pub(crate) fn spacing(size: f64, count: u32) -> f64 {
+        math::cbrt(size / f64::from(count)).max(1e-4)
+    }
+}
+
+/// Memory that is kept from tree to tree.
+#[derive(Debug, Default)]
+pub(crate) struct Colony {
+    grid: Grid,
+    /// Nearest node of each point, and the square of its distance; [`NONE`] out of influence.
+    nearest: Vec<(u32, f64)>,
+    /// Points that are left and pull, in order.
+    alive: Vec<u32>,
+    /// Sum of the directions to a node's points.
+    pulls: Vec<DVec3>,
+    pulled: Vec<u32>,
+    /// Nodes that have no way to go.
+    spent: Vec<bool>,
+}
+
+/// What marks a point that was reached.
+const TAKEN_AWAY: f64 = -1.0;
+
+impl Colony {
+    /// Grows `nodes` into `points`.
+    pub(crate) fn grow(
+        &mut self,
+        points: &[DVec3],
+        rules: &Rules,
+        nodes: &mut Nodes,
+        budget: &mut Budget,
+    ) -> Result<(), GrowError> {
+        let given = nodes.all.len();
+        let mut rules = *rules;
+        for _ in 0..WIDENINGS {
+            self.start(points, &rules, nodes, budget)?;
+            for _ in 0..MAX_ROUNDS {
+                let first_new = nodes.all.len();
+                let waits = self.round(points, &rules, nodes, budget)?;
+                for node in first_new..nodes.all.len() {
+                    self.notice(node as u32, &rules, nodes, budget)?;
+                }
+                let is_full = nodes.all.len() - given > NODES_A_POINT * points.len();
+                if (nodes.all.len() == first_new && !waits) || is_full {
+                    break;
+                }
+            }
+            if nodes.all.len() > given || self.alive.is_empty() {
+                break;
+            }
+            rules.influence *= WIDENING;
+        }
+        Ok(())
+    }
+
+    fn start(
+        &mut self,
+        points: &[DVec3],
+        rules: &Rules,
+        nodes: &Nodes,
+        budget: &mut Budget,
+    ) -> Result<(), GrowError> {
+        self.grid.fill(points, rules.influence);
+        self.nearest.clear();
+        self.nearest.resize(points.len(), (NONE, rules.influence * rules.influence));
+        self.alive.clear();
+        self.alive.extend(0..points.len() as u32);
+        self.pulls.clear();
+        self.spent.clear();
+        for node in 0..nodes.all.len() {
+            self.notice(node as u32, rules, nodes, budget)?;
+        }
+        Ok(())
+    }
+
+    /// Compares `node` with the points around it.
+    fn notice(
+        &mut self,
+        node: u32,
+        rules: &Rules,
+        nodes: &Nodes,
+        budget: &mut Budget,
+    ) -> Result<(), GrowError> {
+        self.pulls.push(DVec3::ZERO);
+        self.spent.push(false);
+        let (nearest, kill) = (&mut self.nearest, rules.kill * rules.kill);
+        let place = nodes.all[node as usize].place;
+        let looked = self.grid.around(place, rules.influence, |point, squared| {
+            let known = &mut nearest[point as usize];
+            if squared < kill {
+                known.1 = TAKEN_AWAY;
+                return false;
+            }
+            if squared < known.1 {
+                *known = (node, squared);
+            }
+            true
+        });
+        budget.work(looked, Id::points)
+    }
+
+    /// Every node that is pulled grows a step, if its axis may. Returns whether one waits for its turn.
+    fn round(
+        &mut self,
+        points: &[DVec3],
+        rules: &Rules,
+        nodes: &mut Nodes,
+        budget: &mut Budget,
+    ) -> Result<bool, GrowError> {
+        let Self { nearest, alive, pulls, pulled, spent, .. } = self;
+        pulled.clear();
+        alive.retain(|&point| {
+            let (node, squared) = nearest[point as usize];
+            let is_taken = squared == TAKEN_AWAY;
+            if is_taken || node == NONE {
+                return !is_taken;
+            }
+            if spent[node as usize] {
+                // It may be nearer to a later node.
+                return true;
+            }
+            let pull = &mut pulls[node as usize];
+            if *pull == DVec3::ZERO {
+                pulled.push(node);
+            }
+            let to = points[point as usize] - nodes.all[node as usize].place;
+            *pull += to / squared.sqrt();
+            true
+        });
+        budget.work(alive.len() as u64, Id::points)?;
+        pulled.sort_unstable();
+        // Two points on opposite sides may add up to nothing and list a node twice.
+        pulled.dedup();
+        let mut waits = false;
+        for &node in pulled.iter() {
+            let pull = std::mem::take(&mut pulls[node as usize]);
+            waits |= grow_from(node, pull, rules, nodes, spent);
+        }
+        for axis in &mut nodes.axes {
+            axis.credit = (axis.credit + axis.vigor).min(1.0);
+        }
+        Ok(waits)
+    }
+}
+
+/// One step from `node`, if it is its turn. Returns whether it may be later.
+fn grow_from(node: u32, pull: DVec3, rules: &Rules, nodes: &mut Nodes, spent: &mut [bool]) -> bool {
+    let from = nodes.all[node as usize];
+    let is_tip = nodes.is_tip(node);
+    if is_tip {
+        if nodes.axes[from.axis as usize].credit < 1.0 {
+            return true;
+        }
+    } else if usize::from(from.child_count) >= MAX_CHILDREN {
+        spent[node as usize] = true;
+        return false;
+    } else if rules.bud_spacing > 0 && nodes.has_side_shoot_near(node, rules.bud_spacing) {
+        return false;
+    }
+    // Side shoots leave at an angle: only tips go straight on.
+    let ahead = if is_tip { rules.inertia } else { 0.3 * rules.inertia };
+    let wish = pull.normalize_or_zero() + from.heading * ahead + DVec3::Z * rules.tropism;
+    let heading = wish.try_normalize().unwrap_or(from.heading);
+    let place = from.place + heading * rules.step;
+    let same = SAME * SAME * rules.step * rules.step;
+    let is_taken = |&&child: &&u32| {
+        nodes.all.get(child as usize).is_some_and(|child| child.place.distance_squared(place) < same)
+    };
+    let is_below = place.z < 0.3 * rules.step && from.heading.z < 0.5;
+    if from.children.iter().filter(is_taken).count() > 0 || is_below {
+        spent[node as usize] = true;
+        return false;
+    }
+    let axis = if is_tip {
+        nodes.axes[from.axis as usize].credit = 0.0;
+        from.axis
+    } else {
+        let vigor = nodes.axes[from.axis as usize].vigor * (1.0 - TAKEN * rules.dominance);
+        nodes.axis(vigor.max(MIN_VIGOR))
+    };
+    nodes.push(place, heading, node, axis);
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pleach_tree::{Key, Limits};
+
+    const RULES: Rules = Rules {
+        step: 0.03,
+        influence: 0.3,
+        kill: 0.06,
+        inertia: 0.0,
+        tropism: 0.0,
+        dominance: 0.0,
+        bud_spacing: 0,
+    };
+
+    fn stake() -> Nodes {
+        let mut nodes = Nodes::default();
+        let axis = nodes.axis(1.0);
+        nodes.axes[0].credit = 1.0;
+        let foot = nodes.push(DVec3::ZERO, DVec3::Z, NONE, axis);
+        nodes.push(DVec3::Z * 0.03, DVec3::Z, foot, axis);
+        nodes
+    }
+
+    fn colonised(points: &[DVec3], rules: &Rules) -> Nodes {
+        let mut nodes = stake();
+        let mut budget = Budget::new(Limits::DEFAULT);
+        Colony::default().grow(points, rules, &mut nodes, &mut budget).unwrap();
+        nodes
+    }
+
+    fn cloud(count: u32) -> Vec<DVec3> {
+        let key = Key::root(9);
+        let point = |i| DVec3::new(key.signed(0, i), key.signed(1, i), 0.3 + key.unit(2, i)) * 0.6;
+        (0..count).map(point).collect()
+    }
+
+    #[test]
+    fn every_point_within_reach_is_reached() {
+        let points = cloud(300);
+        let nodes = colonised(&points, &RULES);
+        let is_reached =
+            |point: &&DVec3| nodes.all.iter().any(|node| node.place.distance(**point) < RULES.kill);
+        let reached = points.iter().filter(is_reached).count();
+        assert!(reached > 290, "{reached} of 300");
+        assert!(nodes.all.iter().skip(1).enumerate().all(|(i, node)| node.parent <= i as u32));
+    }
+
+    #[test]
+    fn steps_have_their_length() {
+        let nodes = colonised(&cloud(200), &RULES);
+        for node in &nodes.all[2..] {
+            let step = node.place.distance(nodes.all[node.parent as usize].place);
+            assert!((step - RULES.step).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn one_point_is_reached_on_a_straight_line() {
+        let nodes = colonised(&[DVec3::new(0.2, 0.0, 0.03)], &RULES);
+        assert!(nodes.all[2..].iter().all(|node| (node.heading - DVec3::X).length() < 1e-12));
+        assert_eq!(nodes.all.len(), 2 + 5, "0.2 less the radius of killing, in steps of 0.03");
+    }
+
+    #[test]
+    fn a_crown_out_of_reach_is_reached_in_the_end() {
+        let nodes = colonised(&[DVec3::new(0.0, 0.3, 2.0)], &RULES);
+        assert!(nodes.all.last().unwrap().place.z > 1.9);
+    }
+
+    #[test]
+    fn dominance_makes_fewer_and_shorter_sides() {
+        let longest = |rules: &Rules| {
+            let nodes = colonised(&cloud(500), rules);
+            let mut steps = vec![0; nodes.axes.len()];
+            nodes.all.iter().for_each(|node| steps[node.axis as usize] += 1);
+            f64::from(*steps.iter().max().unwrap()) / nodes.all.len() as f64
+        };
+        assert!(longest(&Rules { dominance: 1.0, ..RULES }) > longest(&RULES));
+        let axes = |rules: &Rules| {
+            let nodes = colonised(&cloud(500), rules);
+            nodes.axes.len() as f64 / nodes.all.len() as f64
+        };
+        assert!(axes(&Rules { bud_spacing: 3, ..RULES }) < axes(&RULES));
+    }
+
+    #[test]
+    fn tropism_lifts_and_work_is_limited() {
+        let mean = |rules: &Rules| {
+            let nodes = colonised(&cloud(300), rules);
+            nodes.all.iter().map(|node| node.heading.z).sum::<f64>() / nodes.all.len() as f64
+        };
+        assert!(mean(&Rules { tropism: 0.5, ..RULES }) > mean(&RULES) + 0.05);
+        let mut budget = Budget::new(Limits { work: 1000, ..Limits::DEFAULT });
+        let error = Colony::default().grow(&cloud(300), &RULES, &mut stake(), &mut budget).unwrap_err();
+        assert!(matches!(error, GrowError::TooMuchWork { limit: 1000, .. }), "{error}");
+    }
+}

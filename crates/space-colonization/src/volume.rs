@@ -1,0 +1,235 @@
+//! The volume that a crown fills.
+//!
+//! Everything else asks a [`Volume`] for three things: the place of a point in it, where a place lies in it, and how
+//! large it is. Outlines from pictures can come in by the same three.
+//!
+//! Lengths are over the tree's height: the ground is z = 0 and the crown's top z = 1.
+
+use crate::params::{Numbers, STATIONS};
+use crate::purpose::RIPPLE;
+use glam::{DVec2, DVec3};
+use pleach_tree::trig::{atan2, sin_cos};
+use pleach_tree::{Key, math};
+use std::f64::consts::{PI, TAU};
+
+/// Narrowest half-width of a crown over its greatest, so that no part of it is empty.
+const MIN_PROFILE: f64 = 0.03;
+/// Pieces of the tables of the axis and of sections.
+const PIECES: usize = 32;
+/// Waves of the surface: about the axis, and along it.
+const RIPPLES: [(f64, f64); 5] = [(1.0, 0.4), (2.0, 0.8), (3.0, 0.6), (1.0, 1.3), (4.0, 1.1)];
+
+/// Where a place lies in a volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Inside {
+    /// Height above the crown's base over the crown's height.
+    pub(crate) rise: f64,
+    /// Distance from the crown's axis over the half-width there.
+    pub(crate) out: f64,
+}
+
+/// A crown of revolution whose section, width and axis vary.
+#[derive(Clone, Debug)]
+pub(crate) struct Volume {
+    base: f64,
+    half_width: f64,
+    profile: [f64; STATIONS],
+    depth: f64,
+    /// Cosine and sine of the azimuth of the widest section.
+    widest: DVec2,
+    shift: DVec2,
+    irregularity: f64,
+    phases: [f64; RIPPLES.len()],
+    axis: [DVec2; PIECES + 1],
+    /// Part of the volume below each of the heights.
+    below: [f64; PIECES + 1],
+    size: f64,
+}
+
+impl Volume {
+    /// The volume of a tree of these numbers; `key` draws its irregularity.
+    pub(crate) fn new(n: &Numbers, key: Key) -> Self {
+        let (sin, cos) = sin_cos(n.crown_azimuth);
+        let (side_sin, side_cos) = sin_cos(n.side_azimuth);
+        let half_width = n.crown_width / 2.0;
+        let mut volume = Self {
+            base: n.bare_height,
+            half_width,
+            profile: n.profile.map(|part| part.max(MIN_PROFILE)),
+            depth: n.crown_depth,
+            widest: DVec2::new(cos, sin),
+            shift: DVec2::new(side_cos, side_sin) * (n.side * half_width),
+            irregularity: n.irregularity,
+            phases: std::array::from_fn(|i| TAU * key.unit(RIPPLE, i as u32)),
+            axis: axis(n),
+            below: [0.0; PIECES + 1],
+            size: 0.0,
+        };
+        let section = |i: usize| {
+            let half = volume.half_width * volume.profile_at((i as f64 + 0.5) / PIECES as f64);
+            half * half
+        };
+        let mut sum = 0.0;
+        let mut below = [0.0; PIECES + 1];
+        for i in 0..PIECES {
+            sum += section(i);
+            below[i + 1] = sum;
+        }
+        volume.below = below.map(|part| part / sum);
+        volume.size = PI * sum / PIECES as f64 * volume.depth * (1.0 - volume.base);
+        volume
+    }
+
+    /// Content, over the cube of the tree's height.
+    pub(crate) fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// Half of the greatest width, over the tree's height.
+    pub(crate) fn half_width(&self) -> f64 {
+        self.half_width
+    }
+
+    /// Height of the crown's base.
+    pub(crate) fn base(&self) -> f64 {
+        self.base
+    }
+
+    /// The height, as [`Inside::rise`], below which the part `part` of the volume lies.
+    pub(crate) fn rise_of(&self, part: f64) -> f64 {
+        let above = self.below.partition_point(|&below| below <= part).clamp(1, PIECES);
+        let (low, high) = (self.below[above - 1], self.below[above]);
+        let within = if high > low { (part - low) / (high - low) } else { 0.5 };
+        (above as f64 - 1.0 + within.clamp(0.0, 1.0)) / PIECES as f64
+    }
+
+    /// The place at `inside`, towards `azimuth`.
+    pub(crate) fn place(&self, inside: Inside, azimuth: f64) -> DVec3 {
+        let (sin, cos) = sin_cos(azimuth);
+        let half = self.half_width_at(inside.rise, azimuth) * inside.out;
+        let flat = self.widest.rotate(DVec2::new(cos, sin * self.depth) * half);
+        let z = self.base + (1.0 - self.base) * inside.rise;
+        (self.center(z) + flat).extend(z)
+    }
+
+    /// Where `place` lies; above and below the crown the section of its ends counts.
+    pub(crate) fn inside(&self, place: DVec3) -> Inside {
+        let rise = (place.z - self.base) / (1.0 - self.base);
+        let flat = place.truncate() - self.center(place.z);
+        let flat = DVec2::new(self.widest.x, -self.widest.y).rotate(flat);
+        let round = DVec2::new(flat.x, flat.y / self.depth);
+        let azimuth = atan2(round.y, round.x);
+        Inside { rise, out: round.length() / self.half_width_at(rise.clamp(0.0, 1.0), azimuth) }
+    }
+
+    /// The middle of the crown's section at height `z`.
+    fn center(&self, z: f64) -> DVec2 {
+        // The crown stands off its trunk gradually, from its base to the middle of its height.
+        let rise = ((z - self.base) / (0.5 * (1.0 - self.base))).clamp(0.0, 1.0);
+        self.axis_at(z) + self.shift * rise
+    }
+
+    /// The trunk's nominal place at height `z`.
+    pub(crate) fn axis_at(&self, z: f64) -> DVec2 {
+        let at = z.clamp(0.0, 1.0) * PIECES as f64;
+        let piece = (at as usize).min(PIECES - 1);
+        self.axis[piece].lerp(self.axis[piece + 1], at - piece as f64)
+    }
+
+    fn half_width_at(&self, rise: f64, azimuth: f64) -> f64 {
+        let mut sum = 0.0;
+        if self.irregularity > 0.0 {
+            for ((about, along), phase) in RIPPLES.into_iter().zip(self.phases) {
+                sum += sin_cos(about * azimuth + along * TAU * rise + phase).0;
+            }
+        }
+        // Five waves add up to about 1.6 in the root mean square.
+        let factor = (1.0 + self.irregularity * sum / 2.5).max(0.15);
+        self.half_width * self.profile_at(rise) * factor
+    }
+
+    /// The profile as a Catmull–Rom spline through the stations.
+    fn profile_at(&self, rise: f64) -> f64 {
+        let last = STATIONS - 1;
+        let at = rise.clamp(0.0, 1.0) * last as f64;
+        let i = (at as usize).min(last - 1);
+        let t = at - i as f64;
+        let p = |j: usize| self.profile[j.min(last)];
+        let (before, from, to, after) = (p(i.saturating_sub(1)), p(i), p(i + 1), p(i + 2));
+        let (out, into) = ((to - before) / 2.0, (after - from) / 2.0);
+        let value = from
+            + t * (out + t * (3.0 * (to - from) - 2.0 * out - into + t * (2.0 * (from - to) + out + into)));
+        value.clamp(MIN_PROFILE, 1.1)
+    }
+}
+
+/// Steepest lean of the axis, radians.
+const MAX_LEAN: f64 = 1.3;
+
+/// Angle of the trunk to the vertical at height `z`.
+pub(crate) fn lean_at(n: &Numbers, z: f64) -> f64 {
+    (n.lean + n.bow * (z - 0.5)).clamp(-MAX_LEAN, MAX_LEAN)
+}
+
+/// The trunk's nominal course.
+fn axis(n: &Numbers) -> [DVec2; PIECES + 1] {
+    let (sin, cos) = sin_cos(n.lean_azimuth);
+    let mut axis = [DVec2::ZERO; PIECES + 1];
+    let mut off = 0.0;
+    for i in 0..PIECES {
+        off += math::tan(lean_at(n, (i as f64 + 0.5) / PIECES as f64)) / PIECES as f64;
+        axis[i + 1] = DVec2::new(cos, sin) * off;
+    }
+    axis
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::Id;
+    use pleach_tree::param::table::Parameters;
+
+    fn volume(set: &[(Id, f64)]) -> Volume {
+        let mut values = Numbers::space().defaults();
+        set.iter().for_each(|&(id, value)| values[id.slot(0).index()] = value);
+        Volume::new(&Numbers::read(&values), Key::root(1))
+    }
+
+    const ODD: [(Id, f64); 6] = [
+        (Id::crown_depth, 0.5),
+        (Id::crown_azimuth, 40.0),
+        (Id::side, 0.4),
+        (Id::irregularity, 0.3),
+        (Id::lean, 15.0),
+        (Id::bow, 20.0),
+    ];
+
+    #[test]
+    fn a_place_is_where_it_was_put() {
+        let volume = volume(&ODD);
+        for i in 0..200 {
+            let key = Key::root(i);
+            let put = Inside { rise: key.unit(0, 0), out: 0.1 + key.unit(0, 1) };
+            let found = volume.inside(volume.place(put, TAU * key.unit(0, 2)));
+            assert!((found.rise - put.rise).abs() < 1e-9 && (found.out - put.out).abs() < 1e-9, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn even_parts_of_the_volume_lie_below_heights() {
+        let volume = volume(&[]);
+        assert_eq!((volume.rise_of(0.0), volume.rise_of(1.0)), (0.0, 1.0));
+        let heights: Vec<f64> = (0..=20).map(|i| volume.rise_of(f64::from(i) / 20.0)).collect();
+        assert!(heights.windows(2).all(|pair| pair[0] < pair[1]), "{heights:?}");
+        // Half of the crown is wide: the default is widest below its middle.
+        assert!((0.35..0.5).contains(&volume.rise_of(0.5)));
+    }
+
+    #[test]
+    fn a_cylinder_has_its_content() {
+        let mut values = Numbers::space().defaults();
+        (0..STATIONS).for_each(|i| values[Id::profile.slot(i).index()] = 1.0);
+        let volume = Volume::new(&Numbers::read(&values), Key::root(1));
+        assert!((volume.size() - PI * 0.4 * 0.4 * 0.75).abs() < 1e-9, "{}", volume.size());
+    }
+}

@@ -1,0 +1,5 @@
+//! Tests of the whole crate, in one program so that it is linked once.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod conformance;
