@@ -122,6 +122,18 @@ pub const LEAST_COST_PATH: &[(&str, &str)] = files!["least-cost-path":
 /// Trees that fill a volume.
 pub const SPACE_COLONIZATION: &[(&str, &str)] = files!["space-colonization":
     "english_oak",
+    "field_elm",
+    "common_ash",
+    "field_maple",
+    "old_olive",
+    "velvet_mesquite",
+    "umbrella_acacia",
+    "scots_pine",
+    "lebanon_cedar",
+    "weeping_beech",
+    "common_hawthorn",
+    "multi_stem_birch",
+    "caucasian_fir",
 ];
 
 /// Stylised trees.

@@ -11,6 +11,7 @@ pub fn families() -> &'static [&'static dyn Family] {
         &pleach_fractal::FractalFamily,
         &pleach_least_cost_path::LeastCostPathFamily,
         &pleach_stylised::StylisedFamily,
+        &pleach_space_colonization::SpaceColonizationFamily,
     ]
 }
 

@@ -13,9 +13,11 @@
 
 use crate::budget::Budget;
 use crate::grid::Grid;
-use crate::nodes::{MAX_CHILDREN, NONE, Nodes};
+use crate::nodes::{MAX_CHILDREN, NONE, Node, Nodes};
 use crate::params::{Id, Numbers};
+use crate::volume::Volume;
 use glam::DVec3;
+use pleach_tree::trig::sin_cos;
 use pleach_tree::{GrowError, math};
 
 /// Slowest side shoot: part of a step each time.
@@ -27,8 +29,17 @@ const MAX_ROUNDS: u32 = 1500;
 /// How often, and by which factor, influence is widened where a crown is out of reach of its trunk.
 const WIDENINGS: u32 = 8;
 const WIDENING: f64 = 1.7;
-/// New nodes for each point, at most.
+/// Largest bend of a shoot without inertia in one step, radians; and the cosine of the angle to its first direction at
+/// which a shoot ends, so that none curls up.
+const MAX_TURN: f64 = 0.5;
+const TURNED: f64 = 0.5;
+/// New nodes for each point, and in any case, at most.
 const NODES_A_POINT: usize = 12;
+const NODES: usize = 500;
+/// Cosines of the angles to its heading within which a node perceives points, and within which a tip follows them.
+/// Pałubicki and others 2009, §4.1: buds perceive a cone, so that shoots do not turn back into their own crown.
+const PERCEIVED: f64 = -0.2;
+const FOLLOWED: f64 = 0.64;
 /// A step that ends within this part of a step from a former one is not taken.
 const SAME: f64 = 0.35;
 
@@ -40,6 +51,7 @@ pub(crate) struct Rules {
     kill: f64,
     inertia: f64,
     tropism: f64,
+    outward: f64,
     dominance: f64,
     bud_spacing: u32,
 }
@@ -55,9 +67,21 @@ impl Rules {
             kill: (n.kill * spacing).max(0.6 * step),
             inertia: n.inertia,
             tropism: n.tropism,
+            outward: n.outward,
             dominance: n.dominance,
             bud_spacing: n.bud_spacing,
         }
+    }
+
+    /// `wish`, or as much of the way to it from `heading` as a shoot can bend in one step.
+    fn bent(&self, heading: DVec3, wish: DVec3) -> DVec3 {
+        let (sin, cos) = sin_cos(MAX_TURN / (1.0 + self.inertia));
+        let along = heading.dot(wish);
+        if along >= cos {
+            return wish;
+        }
+        let aside = (wish - heading * along).normalize_or_zero();
+        (heading * cos + aside * sin).normalize_or(heading)
     }
 
     /// The mean spacing of `count` points in a volume of `size`.
@@ -77,6 +101,8 @@ pub(crate) struct Colony {
     /// Sum of the directions to a node's points.
     pulls: Vec<DVec3>,
     pulled: Vec<u32>,
+    /// Tips that are pulled aside.
+    aside: Vec<u32>,
     /// Nodes that have no way to go.
     spent: Vec<bool>,
 }
@@ -88,7 +114,7 @@ impl Colony {
     /// Grows `nodes` into `points`.
     pub(crate) fn grow(
         &mut self,
-        points: &[DVec3],
+        (points, volume): (&[DVec3], &Volume),
         rules: &Rules,
         nodes: &mut Nodes,
         budget: &mut Budget,
@@ -99,11 +125,11 @@ impl Colony {
             self.start(points, &rules, nodes, budget)?;
             for _ in 0..MAX_ROUNDS {
                 let first_new = nodes.all.len();
-                let waits = self.round(points, &rules, nodes, budget)?;
+                let waits = self.round((points, volume), &rules, nodes, budget)?;
                 for node in first_new..nodes.all.len() {
                     self.notice(node as u32, &rules, nodes, budget)?;
                 }
-                let is_full = nodes.all.len() - given > NODES_A_POINT * points.len();
+                let is_full = nodes.all.len() - given > NODES_A_POINT * points.len() + NODES;
                 if (nodes.all.len() == first_new && !waits) || is_full {
                     break;
                 }
@@ -120,7 +146,7 @@ impl Colony {
         &mut self,
         points: &[DVec3],
         rules: &Rules,
-        nodes: &Nodes,
+        nodes: &mut Nodes,
         budget: &mut Budget,
     ) -> Result<(), GrowError> {
         self.grid.fill(points, rules.influence);
@@ -131,6 +157,10 @@ impl Colony {
         self.pulls.clear();
         self.spent.clear();
         for node in 0..nodes.all.len() {
+            let Node { axis, next, heading, .. } = nodes.all[node];
+            if next == NONE {
+                nodes.axes[axis as usize].start = heading;
+            }
             self.notice(node as u32, rules, nodes, budget)?;
         }
         Ok(())
@@ -147,14 +177,17 @@ impl Colony {
         self.pulls.push(DVec3::ZERO);
         self.spent.push(false);
         let (nearest, kill) = (&mut self.nearest, rules.kill * rules.kill);
-        let place = nodes.all[node as usize].place;
-        let looked = self.grid.around(place, rules.influence, |point, squared| {
+        let Node { place, heading, .. } = nodes.all[node as usize];
+        let looked = self.grid.around(place, rules.influence, |point, to| {
+            let squared = to.length_squared();
             let known = &mut nearest[point as usize];
             if squared < kill {
                 known.1 = TAKEN_AWAY;
                 return false;
             }
-            if squared < known.1 {
+            let ahead = to.dot(heading);
+            let is_perceived = ahead >= 0.0 || ahead * ahead < PERCEIVED * PERCEIVED * squared;
+            if squared < known.1 && is_perceived {
                 *known = (node, squared);
             }
             true
@@ -165,13 +198,14 @@ impl Colony {
     /// Every node that is pulled grows a step, if its axis may. Returns whether one waits for its turn.
     fn round(
         &mut self,
-        points: &[DVec3],
+        (points, volume): (&[DVec3], &Volume),
         rules: &Rules,
         nodes: &mut Nodes,
         budget: &mut Budget,
     ) -> Result<bool, GrowError> {
-        let Self { nearest, alive, pulls, pulled, spent, .. } = self;
+        let Self { nearest, alive, pulls, pulled, aside, spent, .. } = self;
         pulled.clear();
+        aside.clear();
         alive.retain(|&point| {
             let (node, squared) = nearest[point as usize];
             let is_taken = squared == TAKEN_AWAY;
@@ -182,22 +216,36 @@ impl Colony {
                 // It may be nearer to a later node.
                 return true;
             }
+            let own = &nodes.all[node as usize];
+            let to = (points[point as usize] - own.place) / squared.sqrt();
+            // What a tip does not follow is left to a side shoot, when it has gone on.
+            if nodes.is_tip(own) && to.dot(own.heading) < FOLLOWED {
+                aside.push(node);
+                return true;
+            }
             let pull = &mut pulls[node as usize];
             if *pull == DVec3::ZERO {
                 pulled.push(node);
             }
-            let to = points[point as usize] - nodes.all[node as usize].place;
-            *pull += to / squared.sqrt();
+            *pull += to;
             true
         });
         budget.work(alive.len() as u64, Id::points)?;
+        // A tip with nothing ahead has come to its end, and bears side shoots from the next time on.
+        let mut waits = false;
+        for &node in aside.iter() {
+            if pulls[node as usize] == DVec3::ZERO {
+                let axis = nodes.all[node as usize].axis;
+                nodes.axes[axis as usize].has_ended = true;
+                waits = true;
+            }
+        }
         pulled.sort_unstable();
         // Two points on opposite sides may add up to nothing and list a node twice.
         pulled.dedup();
-        let mut waits = false;
         for &node in pulled.iter() {
             let pull = std::mem::take(&mut pulls[node as usize]);
-            waits |= grow_from(node, pull, rules, nodes, spent);
+            waits |= grow_from(node, (pull, volume), rules, nodes, spent);
         }
         for axis in &mut nodes.axes {
             axis.credit = (axis.credit + axis.vigor).min(1.0);
@@ -207,9 +255,15 @@ impl Colony {
 }
 
 /// One step from `node`, if it is its turn. Returns whether it may be later.
-fn grow_from(node: u32, pull: DVec3, rules: &Rules, nodes: &mut Nodes, spent: &mut [bool]) -> bool {
+fn grow_from(
+    node: u32,
+    (pull, volume): (DVec3, &Volume),
+    rules: &Rules,
+    nodes: &mut Nodes,
+    spent: &mut [bool],
+) -> bool {
     let from = nodes.all[node as usize];
-    let is_tip = nodes.is_tip(node);
+    let is_tip = nodes.is_tip(&from);
     if is_tip {
         if nodes.axes[from.axis as usize].credit < 1.0 {
             return true;
@@ -222,8 +276,25 @@ fn grow_from(node: u32, pull: DVec3, rules: &Rules, nodes: &mut Nodes, spent: &m
     }
     // Side shoots leave at an angle: only tips go straight on.
     let ahead = if is_tip { rules.inertia } else { 0.3 * rules.inertia };
-    let wish = pull.normalize_or_zero() + from.heading * ahead + DVec3::Z * rules.tropism;
-    let heading = wish.try_normalize().unwrap_or(from.heading);
+    let mut wish = pull.normalize_or_zero() + from.heading * ahead + DVec3::Z * rules.tropism;
+    if rules.outward > 0.0 {
+        wish += volume.outward(from.place) * rules.outward;
+    }
+    let mut heading = wish.try_normalize().unwrap_or(from.heading);
+    if is_tip {
+        heading = rules.bent(from.heading, heading);
+        let axis = &mut nodes.axes[from.axis as usize];
+        if heading.dot(axis.start) < TURNED {
+            axis.has_ended = true;
+            return true;
+        }
+    }
+    // A shoot at the end of another one goes on with its bend.
+    let start = if from.next == NONE { nodes.axes[from.axis as usize].start } else { heading };
+    if heading.dot(start) < TURNED {
+        spent[node as usize] = true;
+        return false;
+    }
     let place = from.place + heading * rules.step;
     let same = SAME * SAME * rules.step * rules.step;
     let is_taken = |&&child: &&u32| {
@@ -239,7 +310,7 @@ fn grow_from(node: u32, pull: DVec3, rules: &Rules, nodes: &mut Nodes, spent: &m
         from.axis
     } else {
         let vigor = nodes.axes[from.axis as usize].vigor * (1.0 - TAKEN * rules.dominance);
-        nodes.axis(vigor.max(MIN_VIGOR))
+        nodes.axis(vigor.max(MIN_VIGOR), start)
     };
     nodes.push(place, heading, node, axis);
     true
@@ -248,6 +319,7 @@ fn grow_from(node: u32, pull: DVec3, rules: &Rules, nodes: &mut Nodes, spent: &m
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pleach_tree::param::table::Parameters;
     use pleach_tree::{Key, Limits};
 
     const RULES: Rules = Rules {
@@ -256,13 +328,18 @@ mod tests {
         kill: 0.06,
         inertia: 0.0,
         tropism: 0.0,
+        outward: 0.0,
         dominance: 0.0,
         bud_spacing: 0,
     };
 
+    fn volume() -> Volume {
+        Volume::new(&Numbers::read(&Numbers::space().defaults()), Key::root(1))
+    }
+
     fn stake() -> Nodes {
         let mut nodes = Nodes::default();
-        let axis = nodes.axis(1.0);
+        let axis = nodes.axis(1.0, DVec3::Z);
         nodes.axes[0].credit = 1.0;
         let foot = nodes.push(DVec3::ZERO, DVec3::Z, NONE, axis);
         nodes.push(DVec3::Z * 0.03, DVec3::Z, foot, axis);
@@ -272,7 +349,7 @@ mod tests {
     fn colonised(points: &[DVec3], rules: &Rules) -> Nodes {
         let mut nodes = stake();
         let mut budget = Budget::new(Limits::DEFAULT);
-        Colony::default().grow(points, rules, &mut nodes, &mut budget).unwrap();
+        Colony::default().grow((points, &volume()), rules, &mut nodes, &mut budget).unwrap();
         nodes
     }
 
@@ -289,7 +366,7 @@ mod tests {
         let is_reached =
             |point: &&DVec3| nodes.all.iter().any(|node| node.place.distance(**point) < RULES.kill);
         let reached = points.iter().filter(is_reached).count();
-        assert!(reached > 290, "{reached} of 300");
+        assert!(reached > 270, "{reached} of 300");
         assert!(nodes.all.iter().skip(1).enumerate().all(|(i, node)| node.parent <= i as u32));
     }
 
@@ -333,13 +410,10 @@ mod tests {
 
     #[test]
     fn tropism_lifts_and_work_is_limited() {
-        let mean = |rules: &Rules| {
-            let nodes = colonised(&cloud(300), rules);
-            nodes.all.iter().map(|node| node.heading.z).sum::<f64>() / nodes.all.len() as f64
-        };
-        assert!(mean(&Rules { tropism: 0.5, ..RULES }) > mean(&RULES) + 0.05);
+        let rise = |rules: &Rules| colonised(&[DVec3::new(0.2, 0.0, 0.03)], rules).all[2].heading.z;
+        assert!(rise(&Rules { tropism: 0.5, ..RULES }) > 0.4 && rise(&RULES) == 0.0);
         let mut budget = Budget::new(Limits { work: 1000, ..Limits::DEFAULT });
-        let error = Colony::default().grow(&cloud(300), &RULES, &mut stake(), &mut budget).unwrap_err();
+        let error = Colony::default().grow((&cloud(300), &volume()), &RULES, &mut stake(), &mut budget).unwrap_err();
         assert!(matches!(error, GrowError::TooMuchWork { limit: 1000, .. }), "{error}");
     }
 }

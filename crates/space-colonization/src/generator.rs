@@ -62,7 +62,7 @@ fn scaffold(n: &Numbers, seed: u64, scratch: &mut Scratch, budget: &mut Budget) 
     let rules = Rules::new(n, Rules::spacing(volume.size(), n.points));
     nodes.clear();
     trunks::stand(n, &volume, &rules, key, nodes);
-    colony.grow(points, &rules, nodes, budget)?;
+    colony.grow((points, &volume), &rules, nodes, budget)?;
     pipes.measure(n, nodes);
     Ok(())
 }

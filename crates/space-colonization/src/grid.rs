@@ -63,12 +63,12 @@ impl Grid {
     }
 
     /// Looks at the points that are left in the cells within `radius` of `place`: `visit` is told the number of a point
-    /// and the square of its distance, and says whether the point stays. Returns how many were looked at.
+    /// and the way to it, and says whether the point stays. Returns how many were looked at.
     pub(crate) fn around(
         &mut self,
         place: DVec3,
         radius: f64,
-        mut visit: impl FnMut(u32, f64) -> bool,
+        mut visit: impl FnMut(u32, DVec3) -> bool,
     ) -> u64 {
         let from = ((place - self.low - radius) / self.cell).to_array();
         let to = ((place - self.low + radius) / self.cell).to_array();
@@ -87,7 +87,7 @@ impl Grid {
                     while i < self.left[cell] as usize {
                         looked += 1;
                         let (point, number) = self.points[first + i];
-                        if visit(number, point.distance_squared(place)) {
+                        if visit(number, point - place) {
                             i += 1;
                         } else {
                             self.left[cell] -= 1;
@@ -116,8 +116,8 @@ mod tests {
         grid.fill(&points, 0.2);
         for place in [points[7], DVec3::splat(-0.1), DVec3::new(0.5, 1.9, 0.4), DVec3::splat(9.0)] {
             let mut found = Vec::new();
-            grid.around(place, 0.2, |number, squared| {
-                if squared < 0.04 {
+            grid.around(place, 0.2, |number, to| {
+                if to.length_squared() < 0.04 {
                     found.push(number);
                 }
                 true
@@ -129,13 +129,13 @@ mod tests {
         }
         // What is taken is not seen again.
         let mut taken = 0;
-        grid.around(points[7], 0.2, |_, squared| {
-            taken += u32::from(squared < 0.01);
-            squared >= 0.01
+        grid.around(points[7], 0.2, |_, to| {
+            taken += u32::from(to.length_squared() < 0.01);
+            to.length_squared() >= 0.01
         });
         assert!(taken > 0);
-        grid.around(points[7], 0.2, |_, squared| {
-            assert!(squared >= 0.01);
+        grid.around(points[7], 0.2, |_, to| {
+            assert!(to.length_squared() >= 0.01);
             true
         });
     }

@@ -32,6 +32,10 @@ pub(crate) struct Axis {
     pub(crate) vigor: f64,
     /// Part of a step that it has saved.
     pub(crate) credit: f64,
+    /// Direction of its first step, or of a limb's last one.
+    pub(crate) start: DVec3,
+    /// Whether it has come to its end: then its last node bears side shoots.
+    pub(crate) has_ended: bool,
 }
 
 /// All nodes and axes.
@@ -47,9 +51,9 @@ impl Nodes {
         self.axes.clear();
     }
 
-    /// Begins an axis.
-    pub(crate) fn axis(&mut self, vigor: f64) -> u32 {
-        self.axes.push(Axis { vigor, credit: 0.0 });
+    /// Begins an axis towards `start`.
+    pub(crate) fn axis(&mut self, vigor: f64, start: DVec3) -> u32 {
+        self.axes.push(Axis { vigor, credit: 0.0, start, has_ended: false });
         self.axes.len() as u32 - 1
     }
 
@@ -70,9 +74,9 @@ impl Nodes {
         index
     }
 
-    /// Whether `index` ends its axis.
-    pub(crate) fn is_tip(&self, index: u32) -> bool {
-        self.all[index as usize].next == NONE
+    /// Whether `node` is the last of an axis that still grows.
+    pub(crate) fn is_tip(&self, node: &Node) -> bool {
+        node.next == NONE && !self.axes[node.axis as usize].has_ended
     }
 
     /// Whether a node on the same axis within `steps` steps of `index` bears a side shoot.

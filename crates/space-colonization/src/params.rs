@@ -78,7 +78,7 @@ pleach_tree::parameters! {
                 .doc("by which part the crown's half-width deviates, by height and azimuth");
 
         points: u32, when always =>
-            count((20, MAX_POINTS), (150.0, 2500.0), 700.0).group("points").source(COLONIES)
+            count((20, MAX_POINTS), (150.0, 2500.0), 1200.0).group("points").source(COLONIES)
                 .doc("attraction points in the crown: the scaffold gets finer with them");
         shade: f64, when always =>
             real((0.0, 1.0), (0.0, 0.9), 0.3).neutral(0.0).effect([Effect::Layout]).group("points")
@@ -135,7 +135,7 @@ pleach_tree::parameters! {
                 .doc("part of the crown that leader or limbs reach through: 1 for firs, less where crowns dissolve");
 
         influence: f64, when always =>
-            real((1.0, 10.0), (2.5, 7.0), 4.5).group("growth").source(COLONIES)
+            real((1.0, 10.0), (2.0, 6.0), 3.2).group("growth").source(COLONIES)
                 .doc("distance at which a point attracts a bud, in mean spacings of points");
         kill: f64, when always =>
             real((0.3, 4.0), (0.7, 2.0), 1.1).group("growth").source(COLONIES)
@@ -149,6 +149,9 @@ pleach_tree::parameters! {
         tropism: f64, when always =>
             real((-1.0, 1.0), (-0.4, 0.6), 0.0).neutral(0.0).group("growth").source(FATES)
                 .doc("pull on shoots, upwards or (negative) downwards");
+        outward: f64, when always =>
+            real((0.0, 2.0), (0.0, 1.0), 0.5).neutral(0.0).group("growth").source(FATES)
+                .doc("pull on shoots out of the crown's middle");
         dominance: f64, when always =>
             real((0.0, 1.0), (0.0, 0.9), 0.4).effect([Effect::Layout]).group("growth").source(FATES)
                 .doc("apical control: how much slower than its parent a side shoot grows");
@@ -160,14 +163,14 @@ pleach_tree::parameters! {
             real((0.001, 0.25), (0.006, 0.06), 0.02).scale([Scale::Log]).group("wood")
                 .doc("radius of the thickest trunk at its foot over the height, without flare");
         pipe: f64, when always =>
-            real((1.0, 5.0), (1.6, 3.2), 2.3).group("wood").source("Runions and others 2007, §3; Murray 1927")
+            real((1.0, 5.0), (1.4, 3.0), 1.9).group("wood").source("Runions and others 2007, §3; Murray 1927")
                 .doc("exponent of the pipe model: small makes twigs fine, large makes them thick");
         flare: f64, when always =>
             real((0.0, 4.0), (0.0, 1.2), 0.4).neutral(0.0).group("wood").source("Weber and Penn 1995, §4.4")
                 .doc("by how much of its radius a trunk widens at the ground");
 
         twigs: f64, when always =>
-            real((0.0, 10.0), (0.2, 4.0), 1.2).effect([Effect::Layout]).neutral(0.0).group("twigs").source(TWIGS)
+            real((0.0, 10.0), (0.2, 4.0), 1.5).effect([Effect::Layout]).neutral(0.0).group("twigs").source(TWIGS)
                 .doc("twigs for each step of the outer branches, in the mean");
         twig_zone: f64, when Numbers::has_twigs =>
             real((0.0, 1.0), (0.02, 0.4), 0.15).effect([Effect::Layout]).group("twigs")

@@ -1,4 +1,4 @@
-//! Thickness by the pipe model: the power `pipe` of a radius is the sum of those of what a node bears.
+//! Thickness by the pipe model: each node has pipes for its own twigs, and the power `pipe` of a radius is the sum of those of what a node bears.
 //!
 //! Runions, Lane and Prusinkiewicz 2007, §3, after Murray 1927.
 
@@ -6,13 +6,13 @@ use crate::nodes::{NONE, Nodes};
 use crate::params::Numbers;
 use pleach_tree::math;
 
-/// What a node bears by itself, in tips: the twigs along it.
-const OWN: f64 = 0.2;
+/// What the last node of a stem bears, in nodes: so that stems get thin.
+const TIP: f64 = 0.05;
 
 /// Thickness of each node, and which way its stem goes on.
 #[derive(Debug, Default)]
 pub(crate) struct Pipes {
-    /// Number of tips that each node bears, its own twigs included.
+    /// Number of nodes that each node bears, itself included.
     pub(crate) borne: Vec<f64>,
     /// The thickest that each node bears, or [`NONE`] at tips.
     pub(crate) main: Vec<u32>,
@@ -33,7 +33,7 @@ impl Pipes {
         self.largest = 1.0;
         for (index, node) in nodes.all.iter().enumerate().rev() {
             let borne = &mut self.borne;
-            borne[index] += if self.main[index] == NONE { 1.0 } else { OWN };
+            borne[index] += if self.main[index] == NONE { TIP } else { 1.0 };
             let own = borne[index];
             if node.parent == NONE {
                 self.largest = self.largest.max(own);
@@ -79,18 +79,18 @@ mod tests {
         values[Id::flare.slot(0).index()] = 0.0;
         let n = Numbers::read(&values);
         let mut nodes = Nodes::default();
-        let axis = nodes.axis(1.0);
+        let axis = nodes.axis(1.0, DVec3::Z);
         let foot = nodes.push(DVec3::ZERO, DVec3::Z, NONE, axis);
-        let side = nodes.axis(1.0);
+        let side = nodes.axis(1.0, DVec3::Z);
         nodes.push(DVec3::X, DVec3::X, foot, side);
         let top = nodes.push(DVec3::Z, DVec3::Z, foot, axis);
         nodes.push(DVec3::Z * 2.0, DVec3::Z, top, axis);
         let mut pipes = Pipes::default();
         pipes.measure(&n, &nodes);
-        assert_eq!(pipes.borne, [2.4, 1.0, 1.2, 1.0]);
+        assert_eq!(pipes.borne, [2.1, TIP, 1.05, TIP]);
         assert_eq!(pipes.main, [top, NONE, 3, NONE], "the thickest goes on");
         let squared = |node: usize| pipes.radius(node, 1.0, true) * pipes.radius(node, 1.0, true);
-        assert!((squared(0) / squared(1) - 2.4).abs() < 1e-12);
+        assert!((squared(0) / squared(2) - 2.1 / 1.05).abs() < 1e-12);
         assert!((pipes.radius(0, 0.0, true) - n.thickness).abs() < 1e-12);
     }
 }

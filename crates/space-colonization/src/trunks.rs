@@ -57,7 +57,7 @@ impl<'a> Trunk<'a> {
 
     fn grow(&self, nodes: &mut Nodes) {
         let n = self.n;
-        let axis = nodes.axis(1.0);
+        let axis = nodes.axis(1.0, DVec3::Z);
         // Several trunks stand around a stool as wide as they are thick.
         let foot = (self.away * (1.3 * n.thickness * f64::from(n.trunks).sqrt())).extend(0.0);
         let mut node = nodes.push(foot, self.direction(0.0), NONE, axis);
@@ -145,7 +145,7 @@ impl<'a> Limbs<'a> {
         let crook = Crook::new(n.crook, own);
         let (sin, cos) = sin_cos(azimuth);
         let aside = DVec3::new(cos, sin, 0.0);
-        let axis = nodes.axis(1.0);
+        let axis = nodes.axis(1.0, DVec3::Z);
         let mut node = node;
         let parent = nodes.all[node as usize].heading;
         for number in 0..MAX_STEPS {

@@ -14,6 +14,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Narrowest half-width of a crown over its greatest, so that no part of it is empty.
 const MIN_PROFILE: f64 = 0.03;
+/// Height of the crown's heart over the crown's height.
+const HEART: f64 = 0.25;
 /// Pieces of the tables of the axis and of sections.
 const PIECES: usize = 32;
 /// Waves of the surface: about the axis, and along it.
@@ -134,6 +136,12 @@ impl Volume {
         let at = z.clamp(0.0, 1.0) * PIECES as f64;
         let piece = (at as usize).min(PIECES - 1);
         self.axis[piece].lerp(self.axis[piece + 1], at - piece as f64)
+    }
+
+    /// The direction away from the heart of the crown; level, or upwards above the heart.
+    pub(crate) fn outward(&self, place: DVec3) -> DVec3 {
+        let height = place.z.min(self.base + HEART * (1.0 - self.base));
+        (place - self.center(height).extend(height)).normalize_or_zero()
     }
 
     fn half_width_at(&self, rise: f64, azimuth: f64) -> f64 {

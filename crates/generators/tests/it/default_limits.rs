@@ -72,4 +72,5 @@ families! {
     fractal: "fractal",
     least_cost_path: "least-cost-path",
     stylised: "stylised",
+    space_colonization: "space-colonization",
 }
