@@ -9,8 +9,8 @@ fn grow(c: &mut Criterion) {
     let space = SpaceColonization.space();
     for points in [500.0, 1000.0, 2000.0, 4000.0] {
         let mut values = space.defaults();
-        let (slot, _) = space.find("points").expect("a parameter");
-        values[slot] = points;
+        let slot = space.slots().find(|slot| space.slot_name(*slot) == "points").expect("a parameter");
+        values[slot.index()] = points;
         let params = space.check(values).expect("allowed values");
         let mut workspace = Workspace::default();
         let count = |workspace: &mut Workspace, seed| {

@@ -14,6 +14,8 @@ const SMOOTHINGS: u32 = 2;
 const SMOOTHING: f64 = 0.5;
 /// How much of a side stem's first direction is its parent's.
 const CROTCH: f64 = 0.5;
+/// How much of a trunk's first direction is upright.
+const UPRIGHT: f64 = 4.0;
 /// Fewest pieces of a stem without side stems in which no node is left out.
 const SHORT: usize = 3;
 
@@ -195,9 +197,13 @@ impl Stems {
             let up = nodes.all[waiting.first as usize].heading * (0.01 * n.height);
             tree.knots[tip].point += up;
         }
-        let toward = (waiting.from != NONE).then(|| nodes.all[waiting.from as usize].heading);
-        let turned = toward.map(|toward| pose.place(toward) - pose.place(DVec3::ZERO));
-        smooth_handles(&mut tree.knots[first_knot..], turned);
+        // A trunk comes out of level ground.
+        let (toward, weight) = match nodes.all.get(waiting.from as usize) {
+            Some(from) => (from.heading, CROTCH),
+            None => (DVec3::Z, UPRIGHT),
+        };
+        let toward = pose.place(toward) - pose.place(DVec3::ZERO);
+        smooth_handles(&mut tree.knots[first_knot..], toward.normalize_or_zero() * weight);
         let kind = if is_trunk { StemKind::Trunk } else { StemKind::Branch };
         tree.stems.push(Stem {
             parent: waiting.parent,
@@ -266,8 +272,8 @@ impl Stems {
     }
 }
 
-/// Handles by which the pieces between `knots` join smoothly; `toward` is the direction of the parent at the foot.
-fn smooth_handles(knots: &mut [Knot], toward: Option<DVec3>) {
+/// Handles by which the pieces between `knots` join smoothly; `toward` is added to the direction at the foot.
+fn smooth_handles(knots: &mut [Knot], toward: DVec3) {
     let last = knots.len() - 1;
     let chord = |knots: &[Knot], i: usize| knots[i + 1].point - knots[i].point;
     for i in 0..=last {
@@ -277,12 +283,7 @@ fn smooth_handles(knots: &mut [Knot], toward: Option<DVec3>) {
         );
         let sum = into.normalize_or_zero() + out.normalize_or_zero();
         let own = sum.try_normalize().unwrap_or_else(|| out.normalize_or(DVec3::Z));
-        let tangent = match toward {
-            Some(toward) if i == 0 => {
-                (own + toward.normalize_or_zero() * CROTCH).try_normalize().unwrap_or(own)
-            }
-            _ => own,
-        };
+        let tangent = if i == 0 { (own + toward).try_normalize().unwrap_or(own) } else { own };
         knots[i].handle_in = knots[i].point - tangent * (into.length() / 3.0);
         knots[i].handle_out = knots[i].point + tangent * (out.length() / 3.0);
     }

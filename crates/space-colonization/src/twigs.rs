@@ -11,12 +11,14 @@ use crate::stems::{Limb, Source};
 use glam::DVec3;
 use pleach_tree::turtle::Turtle;
 use pleach_tree::{Address, GrowError, Growth, Key, Knot, Stem, StemKind, Tree, piece};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The golden angle, radians.
 const GOLDEN: f64 = 0.381_966_011_250_105 * TAU;
 /// Deviation of that turn, radians.
 const TURN_V: f64 = 0.6;
+/// Part of `twig_angle` that a twig at the end of a branch has.
+const END_ANGLE: f64 = 0.25;
 /// Radius of a twig at its foot over its length, and at most over its branch's radius there.
 const SLENDER: f64 = 0.009;
 const THINNER: f64 = 0.7;
@@ -36,6 +38,8 @@ pub(crate) struct Twigs<'a> {
     leaves: Option<Leaves<'a>>,
     /// Pieces of a twig's curve.
     pieces: usize,
+    /// Part of `twig_angle` that a twig at the end of a branch has: it continues the branch, unless it hangs.
+    end_angle: f64,
 }
 
 /// Where a twig leaves and what it is.
@@ -60,7 +64,9 @@ impl<'a> Twigs<'a> {
     pub(crate) fn new(n: &'a Numbers, growth: &'a Growth<'a>) -> Self {
         let turn = n.twig_lift.abs() + n.twig_bend;
         let pieces = ((turn / TURN_A_PIECE).ceil() as usize).clamp(1, MAX_PIECES);
-        Self { n, growth, leaves: Leaves::new(n, growth.foliage), pieces }
+        let hangs = (-n.twig_lift / FRAC_PI_2).clamp(0.0, 1.0);
+        let end_angle = END_ANGLE + (1.0 - END_ANGLE) * hangs;
+        Self { n, growth, leaves: Leaves::new(n, growth.foliage), pieces, end_angle }
     }
 
     /// Grows the twigs of `limb`.
@@ -119,7 +125,7 @@ impl<'a> Twigs<'a> {
                 let turn = start + GOLDEN * f64::from(number) + TURN_V * own.signed(TURN, 0) + draw.azimuth;
                 turtle.roll_right(turn);
                 let is_end = node == last && twig + 1 == count;
-                let angle = n.twig_angle * if is_end { 0.25 } else { 1.0 };
+                let angle = n.twig_angle * if is_end { self.end_angle } else { 1.0 };
                 turtle.pitch_down(angle + n.twig_angle_v * own.signed(ANGLE, 0) + draw.pitch);
                 let drawn = 1.0 + n.twig_length_v * own.signed(LENGTH, 0);
                 let length = n.twig_length * n.height * drawn * draw.length;

@@ -109,7 +109,7 @@ impl Volume {
     pub(crate) fn place(&self, inside: Inside, azimuth: f64) -> DVec3 {
         let (sin, cos) = sin_cos(azimuth);
         let half = self.half_width_at(inside.rise, azimuth) * inside.out;
-        let flat = self.widest.rotate(DVec2::new(cos, sin * self.depth) * half);
+        let flat = self.squeezed(DVec2::new(cos, sin) * half, self.depth);
         let z = self.base + (1.0 - self.base) * inside.rise;
         (self.center(z) + flat).extend(z)
     }
@@ -118,10 +118,19 @@ impl Volume {
     pub(crate) fn inside(&self, place: DVec3) -> Inside {
         let rise = (place.z - self.base) / (1.0 - self.base);
         let flat = place.truncate() - self.center(place.z);
-        let flat = DVec2::new(self.widest.x, -self.widest.y).rotate(flat);
-        let round = DVec2::new(flat.x, flat.y / self.depth);
+        let round = self.squeezed(flat, 1.0 / self.depth);
         let azimuth = atan2(round.y, round.x);
         Inside { rise, out: round.length() / self.half_width_at(rise.clamp(0.0, 1.0), azimuth) }
+    }
+
+    /// `flat` with what lies across the widest section multiplied by `by`.
+    fn squeezed(&self, flat: DVec2, by: f64) -> DVec2 {
+        // The same bits whatever the azimuth of a round crown.
+        if by == 1.0 {
+            return flat;
+        }
+        let turned = DVec2::new(self.widest.x, -self.widest.y).rotate(flat);
+        self.widest.rotate(DVec2::new(turned.x, turned.y * by))
     }
 
     /// The middle of the crown's section at height `z`.
@@ -138,10 +147,15 @@ impl Volume {
         self.axis[piece].lerp(self.axis[piece + 1], at - piece as f64)
     }
 
-    /// The direction away from the heart of the crown; level, or upwards above the heart.
+    /// The pull away from the heart of the crown: level, or upwards above the heart; 1 in the inner half of the crown,
+    /// nothing at its surface.
     pub(crate) fn outward(&self, place: DVec3) -> DVec3 {
-        let height = place.z.min(self.base + HEART * (1.0 - self.base));
-        (place - self.center(height).extend(height)).normalize_or_zero()
+        let rise = (place.z - self.base) / (1.0 - self.base);
+        let heart = self.base + rise.min(HEART) * (1.0 - self.base);
+        let away = place - self.center(heart).extend(heart);
+        let out = away.truncate().length() / (self.half_width * self.profile_at(rise));
+        let fade = (2.0 * (1.0 - out).min(1.0 - rise)).clamp(0.0, 1.0);
+        away.normalize_or_zero() * fade
     }
 
     fn half_width_at(&self, rise: f64, azimuth: f64) -> f64 {
