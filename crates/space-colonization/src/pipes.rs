@@ -9,6 +9,9 @@ use pleach_tree::math;
 /// What the last node of a stem bears, in nodes: so that stems get thin.
 const TIP: f64 = 0.05;
 
+/// Least part of dominance that is missing.
+const MAX_LEAD: f64 = 0.05;
+
 /// Thickness of each node, and which way its stem goes on.
 #[derive(Debug, Default)]
 pub(crate) struct Pipes {
@@ -31,6 +34,8 @@ impl Pipes {
         self.main.clear();
         self.main.resize(count, NONE);
         self.largest = 1.0;
+        // By which factor more a side has to bear than its leader to be taken for the leader.
+        let leads = 1.0 / math::powi((1.0 - n.dominance).max(MAX_LEAD), 2);
         for (index, node) in nodes.all.iter().enumerate().rev() {
             let borne = &mut self.borne;
             borne[index] += if self.main[index] == NONE { TIP } else { 1.0 };
@@ -43,7 +48,9 @@ impl Pipes {
             borne[parent] += own;
             // Ties go to the older node, which comes last here.
             let main = self.main[parent];
-            if main == NONE || own >= borne[main as usize] {
+            let axis = nodes.all[parent].axis;
+            let weight = |child: usize| if nodes.all[child].axis == axis { leads } else { 1.0 };
+            if main == NONE || own * weight(index) >= borne[main as usize] * weight(main as usize) {
                 self.main[parent] = index as u32;
             }
         }
