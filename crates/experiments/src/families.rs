@@ -72,6 +72,13 @@ impl FamiliesSpec {
         leafy.chain(self.bare.iter().map(|name| (name.get_ref().as_str(), true))).collect()
     }
 
+    /// The families that goals are of: one is named among them, so that a new family changes nothing here.
+    fn families(&self) -> Vec<&'static str> {
+        let goals = self.goals();
+        let species = goals.iter().filter_map(|(name, _)| pleach_generators::preset(name));
+        species.map(|species| species.generator.family()).collect()
+    }
+
     fn seed(&self, number: usize) -> u64 {
         *self.first_seed + number as u64
     }
@@ -90,8 +97,10 @@ impl Kind for FamiliesSpec {
     fn rows(&self, _: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
         let goals = self.goals();
         let goals = &goals[..slice.take_of(goals.len())];
+        let families = self.families();
         let candidates: Vec<Candidate> = pleach_generators::families()
             .iter()
+            .filter(|family| families.contains(&family.name()))
             .flat_map(|family| pleach_generators::presets(*family))
             .map(Candidate::from)
             .collect();
@@ -124,7 +133,8 @@ impl Kind for FamiliesSpec {
 
 /// How many goals of each family were taken for each.
 fn confusion(rows: &[Named]) -> String {
-    let names: Vec<&str> = pleach_generators::families().iter().map(|family| family.name()).collect();
+    let names = pleach_generators::families().iter().map(|family| family.name());
+    let names: Vec<&str> = names.filter(|name| rows.iter().any(|row| row.family == *name)).collect();
     let head = ["goals of", "goals", "right"].into_iter().chain(names.iter().copied());
     let mut lines = vec![head.map(str::to_owned).collect::<Vec<_>>()];
     let line = |of: &str, rows: &[&Named]| {
