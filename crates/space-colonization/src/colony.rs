@@ -24,6 +24,8 @@ use pleach_tree::{GrowError, math};
 const MIN_VIGOR: f64 = 0.08;
 /// Part of a parent's vigour that full dominance takes from its side shoots.
 const TAKEN: f64 = 0.75;
+/// Credit for a step, but for rounding.
+const READY: f64 = 1.0 - 1e-9;
 /// Rounds after which growing ends in any case.
 const MAX_ROUNDS: u32 = 1500;
 /// How often, and by which factor, influence is widened where a crown is out of reach of its trunk.
@@ -98,8 +100,9 @@ pub(crate) struct Colony {
     grid: Grid,
     /// Nearest node of each point, and the square of its distance; [`NONE`] out of influence.
     nearest: Vec<(u32, f64)>,
-    /// Points that are left and pull, in order.
+    /// Points that pull on a node which can grow, and whether a point is among them.
     alive: Vec<u32>,
+    is_listed: Vec<bool>,
     /// Sum of the directions to a node's points.
     pulls: Vec<DVec3>,
     pulled: Vec<u32>,
@@ -127,16 +130,23 @@ impl Colony {
             self.start(points, &rules, nodes, budget)?;
             for _ in 0..MAX_ROUNDS {
                 let first_new = nodes.all.len();
-                let waits = self.round((points, volume), &rules, nodes, budget)?;
+                let next = self.round((points, volume), &rules, nodes, budget)?;
                 for node in first_new..nodes.all.len() {
                     self.notice(node as u32, &rules, nodes, budget)?;
                 }
                 let is_full = nodes.all.len() - given > NODES_A_POINT * points.len() + NODES;
-                if (nodes.all.len() == first_new && !waits) || is_full {
+                let has_grown = nodes.all.len() > first_new;
+                if (!has_grown && next.is_infinite()) || is_full {
                     break;
                 }
+                // Nothing happens until the first of those that wait has its turn.
+                let times = if has_grown { 1.0 } else { next.ceil().max(1.0) };
+                for axis in &mut nodes.axes {
+                    axis.credit = (axis.credit + axis.vigor * times).min(1.0);
+                }
             }
-            if nodes.all.len() > given || self.alive.is_empty() {
+            let is_left = |known: &(u32, f64)| known.1 != TAKEN_AWAY;
+            if nodes.all.len() > given || !self.nearest.iter().any(is_left) {
                 break;
             }
             rules.influence *= WIDENING;
@@ -155,7 +165,8 @@ impl Colony {
         self.nearest.clear();
         self.nearest.resize(points.len(), (NONE, rules.influence * rules.influence));
         self.alive.clear();
-        self.alive.extend(0..points.len() as u32);
+        self.is_listed.clear();
+        self.is_listed.resize(points.len(), false);
         self.pulls.clear();
         self.spent.clear();
         for node in 0..nodes.all.len() {
@@ -178,50 +189,62 @@ impl Colony {
     ) -> Result<(), GrowError> {
         self.pulls.push(DVec3::ZERO);
         self.spent.push(false);
-        let (nearest, kill) = (&mut self.nearest, rules.kill * rules.kill);
+        let Self { nearest, alive, is_listed, .. } = self;
+        let kill = rules.kill * rules.kill;
         let Node { place, heading, .. } = nodes.all[node as usize];
-        let looked = self.grid.around(place, rules.influence, |point, to| {
-            let squared = to.length_squared();
-            let known = &mut nearest[point as usize];
+        let looked = self.grid.around(place, rules.influence, |entry, to, squared| {
+            if squared >= entry.least {
+                return true;
+            }
+            let point = entry.number as usize;
             if squared < kill {
-                known.1 = TAKEN_AWAY;
+                nearest[point].1 = TAKEN_AWAY;
                 return false;
             }
             let ahead = to.dot(heading);
-            let is_perceived = ahead >= 0.0 || ahead * ahead < PERCEIVED * PERCEIVED * squared;
-            if squared < known.1 && is_perceived {
-                *known = (node, squared);
+            if ahead >= 0.0 || ahead * ahead < PERCEIVED * PERCEIVED * squared {
+                entry.least = squared;
+                nearest[point] = (node, squared);
+                if !is_listed[point] {
+                    is_listed[point] = true;
+                    alive.push(entry.number);
+                }
             }
             true
         });
         budget.work(looked, Id::points)
     }
 
-    /// Every node that is pulled grows a step, if its axis may. Returns whether one waits for its turn.
+    /// Every node that is pulled grows a step, if its axis may. Returns after how many
+    /// rounds the next one can that waits for its turn; infinitely many if none waits.
     fn round(
         &mut self,
         (points, volume): (&[DVec3], &Volume),
         rules: &Rules,
         nodes: &mut Nodes,
         budget: &mut Budget,
-    ) -> Result<bool, GrowError> {
-        let Self { nearest, alive, pulls, pulled, aside, spent, .. } = self;
+    ) -> Result<f64, GrowError> {
+        let mut next = f64::INFINITY;
+        let Self { nearest, alive, pulls, pulled, aside, spent, is_listed, .. } = self;
         pulled.clear();
         aside.clear();
         alive.retain(|&point| {
             let (node, squared) = nearest[point as usize];
-            let is_taken = squared == TAKEN_AWAY;
-            if is_taken || node == NONE {
-                return !is_taken;
-            }
-            if spent[node as usize] {
-                // It may be nearer to a later node.
-                return true;
+            // A point that is left is listed again when a later node is nearer to it.
+            if squared == TAKEN_AWAY || spent[node as usize] {
+                is_listed[point as usize] = false;
+                return false;
             }
             let own = &nodes.all[node as usize];
+            let is_tip = nodes.is_tip(own);
+            let axis = &nodes.axes[own.axis as usize];
+            if is_tip && axis.credit < READY {
+                next = next.min((1.0 - axis.credit) / axis.vigor);
+                return true;
+            }
             let to = (points[point as usize] - own.place) / squared.sqrt();
             // What a tip does not follow is left to a side shoot, when it has gone on.
-            if nodes.is_tip(own) && to.dot(own.heading) < FOLLOWED {
+            if is_tip && to.dot(own.heading) < FOLLOWED {
                 aside.push(node);
                 return true;
             }
@@ -234,12 +257,11 @@ impl Colony {
         });
         budget.work(alive.len() as u64, Id::points)?;
         // A tip with nothing ahead has come to its end, and bears side shoots from the next time on.
-        let mut waits = false;
         for &node in aside.iter() {
             if pulls[node as usize] == DVec3::ZERO {
                 let axis = nodes.all[node as usize].axis;
                 nodes.axes[axis as usize].has_ended = true;
-                waits = true;
+                next = 0.0;
             }
         }
         pulled.sort_unstable();
@@ -247,16 +269,15 @@ impl Colony {
         pulled.dedup();
         for &node in pulled.iter() {
             let pull = std::mem::take(&mut pulls[node as usize]);
-            waits |= grow_from(node, (pull, volume), rules, nodes, spent);
+            if grow_from(node, (pull, volume), rules, nodes, spent) {
+                next = 0.0;
+            }
         }
-        for axis in &mut nodes.axes {
-            axis.credit = (axis.credit + axis.vigor).min(1.0);
-        }
-        Ok(waits)
+        Ok(next)
     }
 }
 
-/// One step from `node`, if it is its turn. Returns whether it may be later.
+/// One step from `node`, if it can. Returns whether it may be able to in the next round.
 fn grow_from(
     node: u32,
     (pull, volume): (DVec3, &Volume),
@@ -266,14 +287,13 @@ fn grow_from(
 ) -> bool {
     let from = nodes.all[node as usize];
     let is_tip = nodes.is_tip(&from);
-    if is_tip {
-        if nodes.axes[from.axis as usize].credit < 1.0 {
-            return true;
-        }
-    } else if usize::from(from.child_count) >= MAX_CHILDREN {
+    if !is_tip && usize::from(from.child_count) >= MAX_CHILDREN {
         spent[node as usize] = true;
         return false;
-    } else if rules.bud_spacing > 0 && nodes.has_side_shoot_near(node, rules.bud_spacing) {
+    }
+    if !is_tip && rules.bud_spacing > 0 && nodes.has_side_shoot_near(node, rules.bud_spacing) {
+        // Side shoots stay where they are.
+        spent[node as usize] = true;
         return false;
     }
     // Side shoots leave at an angle: only tips go straight on.

@@ -5,6 +5,15 @@ use glam::DVec3;
 /// Most cells along an axis.
 const MAX_CELLS: usize = 48;
 
+/// A point and what is known of it, side by side in memory.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Entry {
+    place: DVec3,
+    pub(crate) number: u32,
+    /// Square of the distance of the nearest that was found, or of the radius.
+    pub(crate) least: f64,
+}
+
 /// Points sorted by cell. Points that were taken are moved behind the others of their cell.
 #[derive(Debug, Default)]
 pub(crate) struct Grid {
@@ -15,8 +24,8 @@ pub(crate) struct Grid {
     first: Vec<u32>,
     /// Number of points left in each cell.
     left: Vec<u32>,
-    /// Place and number of each point, cell after cell.
-    points: Vec<(DVec3, u32)>,
+    /// The points, cell after cell.
+    points: Vec<Entry>,
 }
 
 impl Grid {
@@ -46,12 +55,13 @@ impl Grid {
             self.first.push(sum);
         }
         self.points.clear();
-        self.points.resize(points.len(), (DVec3::ZERO, 0));
+        let blank = Entry { place: DVec3::ZERO, number: 0, least: radius * radius };
+        self.points.resize(points.len(), blank);
         self.left.fill(0);
         for (number, point) in points.iter().enumerate() {
             let cell = self.cell_of(*point);
             let slot = self.first[cell] + self.left[cell];
-            self.points[slot as usize] = (*point, number as u32);
+            self.points[slot as usize] = Entry { place: *point, number: number as u32, ..blank };
             self.left[cell] += 1;
         }
     }
@@ -62,13 +72,13 @@ impl Grid {
         (clamp(2) * self.cells[1] + clamp(1)) * self.cells[0] + clamp(0)
     }
 
-    /// Looks at the points that are left in the cells within `radius` of `place`: `visit` is told the number of a point
-    /// and the way to it, and says whether the point stays. Returns how many were looked at.
+    /// Looks at the points that are left in the cells within `radius` of `place`: `visit` is told a point, the way
+    /// to it and the square of its length, and says whether the point stays. Returns how many were looked at.
     pub(crate) fn around(
         &mut self,
         place: DVec3,
         radius: f64,
-        mut visit: impl FnMut(u32, DVec3) -> bool,
+        mut visit: impl FnMut(&mut Entry, DVec3, f64) -> bool,
     ) -> u64 {
         let from = ((place - self.low - radius) / self.cell).to_array();
         let to = ((place - self.low + radius) / self.cell).to_array();
@@ -78,16 +88,29 @@ impl Grid {
         }
         let range =
             |axis: usize| from[axis].max(0.0) as usize..=(to[axis] as usize).min(self.cells[axis] - 1);
+        // How far a cell lies from `place` along an axis, at least.
+        let off = |axis: usize, cell: usize| {
+            let low = self.low[axis] + cell as f64 * self.cell - place[axis];
+            low.max(-low - self.cell).max(0.0)
+        };
+        let squared = |length: f64| length * length;
+        let reach = radius * radius;
         for z in range(2) {
+            let left = reach - squared(off(2, z));
             for y in range(1) {
+                let left = left - squared(off(1, y));
                 for x in range(0) {
+                    if squared(off(0, x)) > left {
+                        continue;
+                    }
                     let cell = (z * self.cells[1] + y) * self.cells[0] + x;
                     let first = self.first[cell] as usize;
                     let mut i = 0;
                     while i < self.left[cell] as usize {
                         looked += 1;
-                        let (point, number) = self.points[first + i];
-                        if visit(number, point - place) {
+                        let entry = &mut self.points[first + i];
+                        let to = entry.place - place;
+                        if visit(entry, to, to.length_squared()) {
                             i += 1;
                         } else {
                             self.left[cell] -= 1;
@@ -116,9 +139,9 @@ mod tests {
         grid.fill(&points, 0.2);
         for place in [points[7], DVec3::splat(-0.1), DVec3::new(0.5, 1.9, 0.4), DVec3::splat(9.0)] {
             let mut found = Vec::new();
-            grid.around(place, 0.2, |number, to| {
-                if to.length_squared() < 0.04 {
-                    found.push(number);
+            grid.around(place, 0.2, |entry, _, squared| {
+                if squared < 0.04 {
+                    found.push(entry.number);
                 }
                 true
             });
@@ -129,13 +152,13 @@ mod tests {
         }
         // What is taken is not seen again.
         let mut taken = 0;
-        grid.around(points[7], 0.2, |_, to| {
-            taken += u32::from(to.length_squared() < 0.01);
-            to.length_squared() >= 0.01
+        grid.around(points[7], 0.2, |_, _, squared| {
+            taken += u32::from(squared < 0.01);
+            squared >= 0.01
         });
         assert!(taken > 0);
-        grid.around(points[7], 0.2, |_, to| {
-            assert!(to.length_squared() >= 0.01);
+        grid.around(points[7], 0.2, |_, _, squared| {
+            assert!(squared >= 0.01);
             true
         });
     }

@@ -69,14 +69,14 @@ impl<'a> Leaves<'a> {
             let angle = if leaf + 1 == count { 0.3 * n.leaf_angle } else { n.leaf_angle };
             let (out, on) = sin_cos(angle * (1.0 + LEAF_V.0 * draw(0)));
             let direction = along * on + outward * out;
-            let own = direction.cross(outward).try_normalize().unwrap_or(right);
+            // At right angles to the twig and to `outward`, and so to the leaf.
+            let own = down * x - right * y;
             let level = direction.cross(DVec3::Z).try_normalize().unwrap_or(own);
             // The shorter way to the level blade.
             let level = if level.dot(own) < 0.0 { -level } else { level };
             let normal = own.cross(direction);
             let rolled = own + normal * (LEAF_V.2 * draw(21));
-            let across = rolled.lerp(level, n.leaf_level);
-            let across = (across - direction * across.dot(direction)).try_normalize().unwrap_or(own);
+            let across = rolled.lerp(level, n.leaf_level).try_normalize().unwrap_or(own);
             let size = n.leaf_length * (1.0 + LEAF_V.1 * draw(42));
             tree.leaves.push(Leaf {
                 position: curve.at(t).as_vec3(),
