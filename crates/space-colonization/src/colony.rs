@@ -42,7 +42,8 @@ const NODES_A_POINT: usize = 12;
 const NODES: usize = 500;
 /// Cosines of the angles to its heading within which a node perceives points, and within which a tip follows them.
 /// Pałubicki and others 2009, §4.1: buds perceive a cone, so that shoots do not turn back into their own crown.
-const PERCEIVED: f64 = -0.2;
+const PERCEIVED: f32 = -0.2;
+const PERCEIVED_SQUARED: f32 = PERCEIVED * PERCEIVED;
 const FOLLOWED: f64 = 0.64;
 /// A step that ends within this part of a step from a former one is not taken.
 const SAME: f64 = 0.35;
@@ -190,27 +191,29 @@ impl Colony {
         self.pulls.push(DVec3::ZERO);
         self.spent.push(false);
         let Self { nearest, alive, is_listed, .. } = self;
-        let kill = rules.kill * rules.kill;
+        let kill = (rules.kill * rules.kill) as f32;
         let Node { place, heading, .. } = nodes.all[node as usize];
+        let heading = heading.as_vec3();
         let looked = self.grid.around(place, rules.influence, |entry, to, squared| {
             if squared >= entry.least {
-                return true;
+                return;
             }
             let point = entry.number as usize;
             if squared < kill {
                 nearest[point].1 = TAKEN_AWAY;
-                return false;
+                // Nothing is nearer.
+                entry.least = 0.0;
+                return;
             }
             let ahead = to.dot(heading);
-            if ahead >= 0.0 || ahead * ahead < PERCEIVED * PERCEIVED * squared {
+            if ahead >= 0.0 || ahead * ahead < PERCEIVED_SQUARED * squared {
                 entry.least = squared;
-                nearest[point] = (node, squared);
+                nearest[point] = (node, squared.into());
                 if !is_listed[point] {
                     is_listed[point] = true;
                     alive.push(entry.number);
                 }
             }
-            true
         });
         budget.work(looked, Id::points)
     }
