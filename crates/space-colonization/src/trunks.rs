@@ -15,6 +15,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Most nodes of a trunk or a limb.
 const MAX_STEPS: u32 = 1000;
+/// Longest step of a trunk or a limb over the tree's height.
+const MAX_STEP: f64 = 0.1;
 /// How many limbs on is the next one counted around the trunk, for each number of limbs: neighbours in height are
 /// not neighbours around the trunk.
 const AROUND: [f64; 10] = [1.0, 1.0, 1.0, 1.0, 1.0, 2.0, 1.0, 3.0, 3.0, 4.0];
@@ -50,8 +52,8 @@ impl<'a> Trunk<'a> {
         } else {
             DVec2::ZERO
         };
-        // A trunk of more than a thousand steps is one of longer steps.
-        let step = rules.step.max(1.2 / f64::from(MAX_STEPS));
+        // A trunk of more than a thousand steps is one of longer steps, and one of few points still has its form.
+        let step = rules.step.clamp(1.2 / f64::from(MAX_STEPS), MAX_STEP);
         Self { n, volume, step, key: own, crook: Crook::new(n.crook, own), away }
     }
 

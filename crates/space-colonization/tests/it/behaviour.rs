@@ -113,3 +113,10 @@ fn other_seeds_fill_the_same_sort_of_crown() {
     assert!(*least as f64 > 0.75 * *most as f64, "{stems:?}");
     assert!(trees.windows(2).all(|pair| pair[0].digest() != pair[1].digest()));
 }
+
+#[test]
+fn few_points_in_a_wide_crown_are_a_tree_too() {
+    let tree = scaffold(&[("crown_width", 5.0), ("points", 20.0), ("step", 1.5), ("limbs", 5.0)]);
+    assert_eq!(tree.well_formed(), Ok(()));
+    assert!(range(&tree, |knot| knot.point.z).1 > 2.0);
+}
