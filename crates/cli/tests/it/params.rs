@@ -37,7 +37,8 @@ fn scripts_find_the_keys_that_they_know() {
     assert_eq!((&last["min"], &last["max"], &last["default"][0]), (&0.0.into(), &100.0.into(), &0.5.into()));
     let species = dir.run(["species", "--json"]).json();
     for entry in species.as_array().unwrap() {
-        let generators = ["weber-penn", "lsystem", "fractal", "least-cost-path", "stylised", "space-colonization"];
+        let generators =
+            ["weber-penn", "lsystem", "fractal", "least-cost-path", "stylised", "space-colonization"];
         let known = entry["generator"].as_str().is_some_and(|name| generators.contains(&name));
         assert!(entry["species"].is_string() && known, "{entry}");
         assert!(entry["description"].is_string(), "{entry}");
