@@ -1,5 +1,6 @@
 //! The growth model: from numbers to a tree.
 
+use crate::adapt::adapt;
 use crate::budget::Budget;
 use crate::colony::{Colony, Rules};
 use crate::nodes::Nodes;
@@ -14,7 +15,7 @@ use crate::volume::Volume;
 use glam::DVec3;
 use pleach_tree::param::table::Parameters;
 use pleach_tree::{
-    CheckedParams, Generator, GrowError, Growth, Key, ParamSpace, Slot, Spread, Tree, Workspace,
+    CheckedParams, Generator, GrowError, Growth, Key, ParamSpace, Slot, Spread, Stature, Tree, Workspace,
 };
 use std::sync::Arc;
 
@@ -98,6 +99,14 @@ impl Generator for SpaceColonization {
         stems.build((&n, growth), (nodes, pipes), tree, &mut budget, &mut |limb, source, tree, budget| {
             twigs.grow(limb, source, tree, budget)
         })
+    }
+
+    fn trunks(&self, values: &[f64]) -> Option<u32> {
+        Some(Numbers::read(values).trunks)
+    }
+
+    fn adapt(&self, values: &mut [f64], wanted: &Stature, grown: &Stature) {
+        adapt(values, wanted, grown);
     }
 
     /// A limb is turned with all that it carries, as if it had grown so; its points are not colonised again. What it

@@ -28,6 +28,7 @@
 //! | `budget` | limits |
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
+mod adapt;
 mod budget;
 mod colony;
 mod family;

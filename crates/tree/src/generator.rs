@@ -14,13 +14,21 @@ use pleach_plant::{Individual, Spread};
 use std::fmt;
 use std::sync::Arc;
 
-/// Numbers of a generator that measures of a trunk follow from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TrunkSlots {
-    /// The trunk's thickness is in proportion to this one.
-    pub thickness: Option<Slot>,
-    /// The part of the height up to which the trunk bears nothing rises with this one, by about as much.
-    pub bare_height: Option<Slot>,
+/// What is known of how a tree stands, as seen from the front. Lengths are over its height, from the ground to the top.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stature {
+    /// Trunks from the ground.
+    pub trunks: Option<u32>,
+    /// Width of the thickest trunk above its flare.
+    pub thickness: Option<f64>,
+    /// Lean of the trunk in degrees, positive towards +x.
+    pub lean: Option<f64>,
+    /// Height up to which the trunk bears nothing.
+    pub bare_height: Option<f64>,
+    /// Height of the first fork.
+    pub first_fork: Option<f64>,
+    /// How far the crown reaches towards -x and +x from the trunk's foot, at even heights from the ground to the top.
+    pub crown: Option<[Vec<f64>; 2]>,
 }
 
 /// A growth model with everything settled but its numbers.
@@ -103,9 +111,11 @@ pub trait Generator: Send + Sync + fmt::Debug {
         None
     }
 
-    /// The numbers that measures of the trunk follow from: none where there are no such.
-    fn trunk(&self) -> TrunkSlots {
-        TrunkSlots::default()
+    /// Changes `values`, whose tree stands as `grown` says, so that their tree stands more as `wanted` does, where
+    /// measures of a tree follow from single numbers. What is not known is left as it is. The new values may lie outside
+    /// of their ranges.
+    fn adapt(&self, values: &mut [f64], wanted: &Stature, grown: &Stature) {
+        let _ = (values, wanted, grown);
     }
 
     /// Checks what no declaration of a single parameter can say: rules between the numbers.

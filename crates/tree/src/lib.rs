@@ -27,7 +27,7 @@ mod model;
 pub mod param;
 pub mod species;
 
-pub use generator::{Generator, TrunkSlots, Variation};
+pub use generator::{Generator, Stature, Variation};
 pub use grow_error::{Blame, Conflict, GrowError};
 pub use growth::{Growth, Limits, Workspace};
 pub use leafless::Leafless;

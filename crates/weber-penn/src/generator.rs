@@ -11,8 +11,8 @@ use crate::solid::{Solid, Surroundings};
 use crate::spread::spreads;
 use pleach_tree::param::table::Parameters;
 use pleach_tree::{
-    CheckedParams, Conflict, Generator, GrowError, Growth, Leafless, ParamSpace, Slot, Spread, Tree,
-    TrunkSlots, Workspace,
+    CheckedParams, Conflict, Generator, GrowError, Growth, Leafless, ParamSpace, Slot, Spread, Stature, Tree,
+    Workspace,
 };
 use std::sync::Arc;
 
@@ -54,8 +54,13 @@ impl Generator for WeberPenn {
         (model.floor_splits > 0 || model.levels[0].branches >= 0.0).then(|| model.trunks())
     }
 
-    fn trunk(&self) -> TrunkSlots {
-        TrunkSlots { thickness: Some(Id::ratio.slot(0)), bare_height: Some(Id::base_size.slot(0)) }
+    fn adapt(&self, values: &mut [f64], wanted: &Stature, grown: &Stature) {
+        if let Some((wanted, grown)) = wanted.thickness.zip(grown.thickness) {
+            values[Id::ratio.slot(0).index()] *= wanted / grown;
+        }
+        if let Some((wanted, grown)) = wanted.bare_height.zip(grown.bare_height) {
+            values[Id::base_size.slot(0).index()] += wanted - grown;
+        }
     }
 
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {

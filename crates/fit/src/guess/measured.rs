@@ -1,4 +1,4 @@
-//! Numbers that follow from a measure of the goal: a search starts from them.
+//! Trees that stand as the goal does: a search starts from them.
 
 use super::goal_context::GoalContext;
 use super::ranking::Alike;
@@ -7,7 +7,7 @@ use crate::error::FitError;
 use crate::problem::Genome;
 use pleach_reading::{Reader, Reading};
 use pleach_silhouette::Bitmap;
-use pleach_tree::{Foliage, Slot, TrunkSlots};
+use pleach_tree::{Foliage, Stature};
 
 /// Readings of less confidence set no number.
 const SURE: f64 = 0.6;
@@ -17,38 +17,40 @@ const THICKNESS: f64 = 1.1;
 const BARE: f64 = 0.03;
 /// How far one number is followed: what is farther off has other causes.
 const FARTHEST: f64 = 3.0;
-/// Other parts of a tree change with its trunk, so numbers are corrected once more.
+/// Other parts of a tree change with what is set, so numbers are corrected once more.
 const STEPS: usize = 2;
 
-/// Those of `alike` whose trunks are of another thickness, or bare to another height, than the goal's, once more with the
-/// numbers of a tree whose are the goal's. None where the goal was not read.
+/// Those of `alike` that stand otherwise than the goal, once more with numbers that follow from the goal's measures, where
+/// their generators have such. None where the goal was not read.
 pub(super) fn measured(
     context: &GoalContext<'_>,
     alike: &[Alike],
     foliage: Foliage,
 ) -> Result<Vec<Alike>, FitError> {
     let Some(goal) = &context.reading else { return Ok(Vec::new()) };
+    let goal = stature(goal, None);
     let found = interrupt::map(alike, context.stop, |(cost, candidate, genome)| {
-        let species = &context.candidates[*candidate].species;
-        let slots = species.generator.trunk();
-        if slots == TrunkSlots::default() {
-            return None;
-        }
-        let trunks = species.generator.trunks(&genome.values);
+        let generator = &context.candidates[*candidate].species.generator;
         let (mut reader, mut picture, mut tree) = (Reader::new(), Bitmap::default(), Reading::default());
         let mut own = genome.clone();
         for _ in 0..STEPS {
             draw(context, *candidate, &own, foliage, &mut picture)?;
             reader.read(&picture, &mut tree);
-            if trunks.is_some_and(|known| known as usize != tree.feet.len()) {
-                // What was measured is a bundle of trunks.
-                tree.width_confidence = 0.0;
+            let grown = stature(&tree, generator.trunks(&own.values));
+            let mut values = own.values.clone();
+            generator.adapt(&mut values, &wanted(&goal, &grown), &grown);
+            let space = generator.space();
+            for (slot, (value, before)) in space.slots().zip(values.iter_mut().zip(&own.values)) {
+                let (low, high) = space.search_range(slot);
+                // A species that is outside of what is searched stays there.
+                *value = if (low..=high).contains(before) { value.clamp(low, high) } else { *before };
             }
-            if !follow(context, *candidate, slots, (goal, &tree), &mut own) {
+            if values == own.values || generator.check(&values).is_err() {
                 break;
             }
+            own.values = values;
         }
-        (own != *genome).then(|| (*cost, *candidate, own))
+        (own != *genome).then_some((*cost, *candidate, own))
     })?;
     Ok(found.into_iter().flatten().collect())
 }
@@ -69,46 +71,35 @@ fn draw(
     })
 }
 
-/// Moves the numbers of `genome`, whose picture was read as `tree`, towards those of a tree like `goal`. Tells whether
-/// there was anything to move.
-fn follow(
-    context: &GoalContext<'_>,
-    candidate: usize,
-    slots: TrunkSlots,
-    (goal, tree): (&Reading, &Reading),
-    genome: &mut Genome,
-) -> bool {
-    let generator = &context.candidates[candidate].species.generator;
-    let mut values = genome.values.clone();
-    let mut set = |slot: Slot, value: f64| {
-        let (low, high) = generator.space().search_range(slot);
-        // A species that is outside of what is searched stays there.
-        let at = &mut values[slot.index()];
-        if (low..=high).contains(at) {
-            *at = value.clamp(low, high);
-        }
-    };
-    let sure = |a: f64, b: f64| a.min(b) >= SURE;
-    if let Some((slot, (goal_width, width))) = slots.thickness.zip(goal.trunk_width().zip(tree.trunk_width()))
-        && sure(goal.width_confidence, tree.width_confidence)
-        && sure(goal.feet_confidence, tree.feet_confidence)
-    {
-        let factor = (goal_width / width).clamp(1.0 / FARTHEST, FARTHEST);
-        if !(1.0 / THICKNESS..=THICKNESS).contains(&factor) {
-            set(slot, genome.values[slot.index()] * factor);
-        }
+/// What of a reading is sure; `trunks` where their number is known.
+fn stature(reading: &Reading, trunks: Option<u32>) -> Stature {
+    let sure = |value: Option<f64>, confidence: f64| value.filter(|_| confidence >= SURE);
+    let counted =
+        (reading.feet_confidence >= SURE).then_some(reading.feet.len() as u32).filter(|count| *count > 0);
+    // What is read of trunks that stand together is of the bundle.
+    let is_bundle = trunks.is_some_and(|known| known as usize != reading.feet.len());
+    let crown = &reading.crown;
+    Stature {
+        trunks: trunks.or(counted),
+        thickness: sure(reading.trunk_width(), reading.width_confidence)
+            .filter(|_| counted.is_some() && !is_bundle),
+        lean: sure(reading.lean_deg, reading.lean_deg_confidence),
+        bare_height: sure(reading.bare_height, reading.bare_height_confidence),
+        first_fork: sure(reading.first_fork, reading.first_fork_confidence),
+        crown: (reading.crown_confidence >= SURE).then(|| [crown.left.clone(), crown.right.clone()]),
     }
-    if let Some((slot, (goal_bare, bare))) = slots.bare_height.zip(goal.bare_height.zip(tree.bare_height))
-        && sure(goal.bare_height_confidence, tree.bare_height_confidence)
-        && (goal_bare - bare).abs() > BARE
-    {
-        set(slot, genome.values[slot.index()] + goal_bare - bare);
-    }
-    if values == genome.values || generator.check(&values).is_err() {
-        return false;
-    }
-    genome.values = values;
-    true
+}
+
+/// `goal` without what `grown` is near enough to, and no farther off than numbers are followed.
+fn wanted(goal: &Stature, grown: &Stature) -> Stature {
+    let thickness = goal.thickness.zip(grown.thickness).and_then(|(goal, grown)| {
+        let factor = (goal / grown).clamp(1.0 / FARTHEST, FARTHEST);
+        (!(1.0 / THICKNESS..=THICKNESS).contains(&factor)).then_some(factor * grown)
+    });
+    let is_near = |grown: f64| goal.bare_height.is_some_and(|goal| (goal - grown).abs() <= BARE);
+    let bare_height =
+        goal.bare_height.map(|bare| grown.bare_height.filter(|grown| is_near(*grown)).unwrap_or(bare));
+    Stature { thickness, bare_height, ..goal.clone() }
 }
 
 #[cfg(test)]
@@ -123,7 +114,9 @@ mod tests {
     #[test]
     fn a_search_starts_from_the_trunk_that_was_measured() {
         let acer = pleach_generators::preset("black_tupelo").unwrap();
-        let slot = acer.generator.trunk().thickness.unwrap().index();
+        let slot =
+            acer.generator.space().slots().find(|slot| acer.generator.space().slot_name(*slot) == "ratio");
+        let slot = slot.unwrap().index();
         let mut values = acer.params.values().to_vec();
         values[slot] *= 2.0;
         let thick = with_values(&acer, values).unwrap();

@@ -1,6 +1,6 @@
 //! What each parameter of Appendix C does to a tree, seen from outside.
 
-use pleach_tree::{Slot, Species, SpeciesDoc, SpeciesError, StemKind, Tree};
+use pleach_tree::{Species, SpeciesDoc, SpeciesError, Stature, StemKind, Tree};
 use pleach_weber_penn::WeberPennFamily;
 
 fn read(text: &str) -> Result<Species, SpeciesError> {
@@ -47,12 +47,11 @@ fn with(lines: &str) -> String {
 }
 
 #[test]
-fn a_trunk_follows_the_numbers_that_are_named_for_it() {
+fn a_trunk_is_adapted_to_measures() {
     let species = read(PLAIN).unwrap();
-    let slots = species.generator.trunk();
-    let grown = |slot: Option<Slot>, change: fn(f64) -> f64| {
-        let (slot, mut values) = (slot.unwrap(), species.params.values().to_vec());
-        values[slot.index()] = change(values[slot.index()]);
+    let adapted = |wanted: Stature, grown: Stature| {
+        let mut values = species.params.values().to_vec();
+        species.generator.adapt(&mut values, &wanted, &grown);
         let params = species.generator.space().check(values).unwrap();
         Species { params, ..species.clone() }.grow(1).unwrap()
     };
@@ -62,11 +61,13 @@ fn a_trunk_follows_the_numbers_that_are_named_for_it() {
             tree.stems.iter().filter(|stem| stem.level == 1).map(|stem| tree.knots_of(stem)[0].point.z);
         feet.fold(f64::INFINITY, f64::min)
     };
-    let same = grown(slots.thickness, |value| value);
-    let thick = grown(slots.thickness, |value| 1.5 * value);
-    assert!((radius(&thick) / radius(&same) - 1.5).abs() < 1e-6);
-    let bare = grown(slots.bare_height, |value| value + 0.3);
+    let same = adapted(Stature::default(), Stature::default());
+    let of = |thickness| Stature { thickness: Some(thickness), ..Stature::default() };
+    assert!((radius(&adapted(of(0.06), of(0.04))) / radius(&same) - 1.5).abs() < 1e-6);
+    let of = |bare| Stature { bare_height: Some(bare), ..Stature::default() };
+    let bare = adapted(of(0.5), of(0.2));
     assert!(((lowest(&bare) - lowest(&same)) / 10.0 - 0.3).abs() < 0.05, "of ten metres");
+    assert_eq!(adapted(of(0.5), Stature::default()), same, "what is not known of the tree stays");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A generator one of whose trees is an individual.
 
 use super::table::to_toml;
-use crate::generator::{Generator, TrunkSlots, Variation};
+use crate::generator::{Generator, Stature, Variation};
 use crate::grow_error::{Conflict, GrowError};
 use crate::growth::{Growth, Workspace};
 use crate::leafless::Leafless;
@@ -67,8 +67,8 @@ impl Generator for WithIndividual {
         self.kind.trunks(values)
     }
 
-    fn trunk(&self) -> TrunkSlots {
-        self.kind.trunk()
+    fn adapt(&self, values: &mut [f64], wanted: &Stature, grown: &Stature) {
+        self.kind.adapt(values, wanted, grown);
     }
 
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
