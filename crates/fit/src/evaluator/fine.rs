@@ -58,18 +58,17 @@ impl TryFrom<Packed> for FineSilhouette {
     }
 }
 
-/// Minimum of its pixels per pixel of the goal, as a fraction. Less than 2, so that goals of 256 pixels with the margins
-/// that a wide crown gets are compared with drawings of 512 too: those are built in.
-const FINENESS: (u32, u32) = (15, 8);
+/// Minimum of its pixels per pixel of the goal.
+const FINENESS: u32 = 2;
 /// Smallest and largest side, in pixels.
 const SIDES: (u32, u32) = (128, 2048);
 /// One of this many parts of the side is added below the ground.
 const BELOW: u32 = 8;
 
-/// The side of fine silhouettes for goals of `width` × `height` pixels: goals of about the same size share theirs.
+/// The side of fine silhouettes for goals whose tree has `width` × `height` pixels: goals of about the same size share
+/// theirs.
 pub(crate) fn side_for(width: u32, height: u32) -> u32 {
-    let (pixels, of) = FINENESS;
-    (pixels.saturating_mul(width.max(height)) / of).clamp(SIDES.0, SIDES.1).next_power_of_two()
+    FINENESS.saturating_mul(width.max(height)).clamp(SIDES.0, SIDES.1).next_power_of_two()
 }
 
 impl FineSilhouette {
@@ -194,8 +193,6 @@ mod tests {
     fn goals_of_about_one_size_share_plates() {
         assert_eq!((side_for(256, 200), side_for(180, 256), side_for(64, 64)), (512, 512, 128));
         assert_eq!((side_for(16, 16), side_for(2048, 9)), (128, 2048));
-        // A wide crown and its margins at the usual size.
-        assert_eq!((side_for(260, 196), side_for(140, 140), side_for(300, 20)), (512, 512, 1024));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::silhouettes::{BothSilhouettes, Silhouettes, index_of};
 use crate::control::interrupt;
 use crate::error::FitError;
 use crate::evaluator::{Buffers, Evaluator, FineSilhouette, height_of, side_for};
-use crate::problem::{FitProblem, Genome, Objective, Terms};
+use crate::problem::{FitProblem, Genome, GoalView, Objective, Terms};
 use crate::run::FitSettings;
 use crate::space::TreeSeed;
 use pleach_reading::Reader;
@@ -217,10 +217,13 @@ impl Key {
     }
 }
 
-/// The side of fine silhouettes for the goals of `problem`, in pixels.
+/// The side of fine silhouettes for the goals of `problem`, in pixels: of their trees, whatever margins they have.
 fn side_of(problem: &FitProblem) -> u32 {
-    let goals = problem.goals.iter();
-    goals.map(|goal| side_for(goal.frame.width, goal.frame.height)).max().unwrap_or_default()
+    let side = |goal: &GoalView| {
+        let (left, top, right, bottom) = goal.goal.ink_box().unwrap_or_default();
+        side_for(right + 1 - left, bottom + 1 - top)
+    };
+    problem.goals.iter().map(side).max().unwrap_or_default()
 }
 
 /// The directions of view of the library's trees.
@@ -358,7 +361,6 @@ pub(super) fn compare_once(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::GoalView;
     use pleach_silhouette::Rasterizer;
     use pleach_tree::Parts;
 

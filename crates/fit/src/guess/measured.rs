@@ -19,6 +19,8 @@ const BARE: f64 = 0.03;
 const FARTHEST: f64 = 3.0;
 /// Other parts of a tree change with what is set, so numbers are corrected once more.
 const STEPS: usize = 2;
+/// So many of each family, the ones most like the goal: each is grown twice.
+const OF_FAMILY: usize = 6;
 
 /// Those of `alike` that stand otherwise than the goal, once more with numbers that follow from the goal's measures, where
 /// their generators have such. None where the goal was not read.
@@ -29,7 +31,14 @@ pub(super) fn measured(
 ) -> Result<Vec<Alike>, FitError> {
     let Some(goal) = &context.reading else { return Ok(Vec::new()) };
     let goal = stature(goal, None);
-    let found = interrupt::map(alike, context.stop, |(cost, candidate, genome)| {
+    let mut families: Vec<&str> = Vec::new();
+    let first = alike.iter().filter(|one| {
+        let family = context.family(one.1);
+        families.push(family);
+        families.iter().filter(|known| **known == family).count() <= OF_FAMILY
+    });
+    let first: Vec<&Alike> = first.collect();
+    let found = interrupt::map(&first, context.stop, |(cost, candidate, genome)| {
         let generator = &context.candidates[*candidate].species.generator;
         let (mut reader, mut picture, mut tree) = (Reader::new(), Bitmap::default(), Reading::default());
         let mut own = genome.clone();

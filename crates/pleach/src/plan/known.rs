@@ -10,7 +10,7 @@ use std::sync::atomic::AtomicBool;
 static DRAWINGS: &[u8] = include_bytes!("known.bin");
 
 /// A library of first guesses that knows how the species of the usual generator look: it grows them only for goals
-/// that were taken from elsewhere than the front or are not compared at 137 to 272 pixels, and where seeds are not
+/// that were taken from elsewhere than the front or are not compared at 129 to 256 pixels, and where seeds are not
 /// the usual ones.
 ///
 /// # Panics
