@@ -72,7 +72,7 @@ pub use evaluator::{EvalWorkspace, Evaluate, Evaluator, Silhouette, SilhouetteGo
 pub use goal::{Asked, Deadline, Fitted, GoalSettings, Guessing, Stepwise, fit_goal, fit_goal_with};
 pub use guess::{
     Candidate, Contradictions, Drawings, DrawingsError, FirstGuess, Guess, GuessLibrary, GuessSettings,
-    RaceSettings, Reference, References, Runner, first_guess,
+    RaceCriterion, RaceSettings, Reference, References, Runner, first_guess,
 };
 pub use individual::{FoundIndividual, IndividualProgress, IndividualSettings, individuals};
 pub use method::{

@@ -4,14 +4,19 @@ use crate::{UnknownFamily, default_family, families, family, presets};
 use pleach_tree::Species;
 use std::str::FromStr;
 
-/// Which families of generators take part in a fit or a sheet: `auto`, `all`, or the name of one.
+/// Which families of generators take part in a fit or a sheet: `auto`, `all`, `trees`, or the name of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GeneratorChoice {
     /// All of them.
     Auto,
+    /// Those whose trees stand as real ones do: Weber and Penn's, and space colonisation.
+    Trees,
     /// The one of this name.
     Family(&'static str),
 }
+
+/// The families of [`GeneratorChoice::Trees`].
+const TREES: [&str; 2] = ["weber-penn", "space-colonization"];
 
 impl Default for GeneratorChoice {
     /// The default family.
@@ -20,9 +25,9 @@ impl Default for GeneratorChoice {
     }
 }
 
-/// A word that is neither `auto`, `all` nor the name of a family.
+/// A word that is neither `auto`, `all`, `trees` nor the name of a family.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0}, and auto for all")]
+#[error("{0}, auto for all, and trees for weber-penn and space-colonization")]
 pub struct UnknownGenerator(UnknownFamily);
 
 impl FromStr for GeneratorChoice {
@@ -31,6 +36,9 @@ impl FromStr for GeneratorChoice {
     fn from_str(given: &str) -> Result<Self, Self::Err> {
         if ["auto", "all"].contains(&given) {
             return Ok(Self::Auto);
+        }
+        if given == "trees" {
+            return Ok(Self::Trees);
         }
         family(given).map(|family| Self::Family(family.name())).map_err(UnknownGenerator)
     }
@@ -43,11 +51,12 @@ impl std::fmt::Display for GeneratorChoice {
 }
 
 impl GeneratorChoice {
-    /// Its name: `auto`, or the family's.
+    /// Its name: `auto`, `trees`, or the family's.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
+            Self::Trees => "trees",
             Self::Family(name) => name,
         }
     }
@@ -57,6 +66,7 @@ impl GeneratorChoice {
     pub fn takes(self, species: &Species) -> bool {
         match self {
             Self::Auto => true,
+            Self::Trees => TREES.contains(&species.generator.family()),
             Self::Family(name) => species.generator.family() == name,
         }
     }
@@ -75,9 +85,12 @@ mod tests {
     #[test]
     fn generators_are_named_and_others_are_told_which_there_are() {
         assert_eq!("all".parse(), Ok(GeneratorChoice::Auto));
-        for name in std::iter::once("auto").chain(crate::family_names()) {
+        for name in ["auto", "trees"].into_iter().chain(crate::family_names()) {
             assert_eq!(name.parse::<GeneratorChoice>().unwrap().to_string(), name);
         }
+        assert!(TREES.iter().all(|name| crate::family(name).is_ok()));
+        let of_trees = GeneratorChoice::Trees.known();
+        assert_eq!(of_trees.filter(|species| species.generator.family() == TREES[1]).count(), 13);
         let error = "lsystems".parse::<GeneratorChoice>().unwrap_err().to_string();
         assert!(error.starts_with("unknown generator `lsystems`, known are weber-penn, lsystem"), "{error}");
     }

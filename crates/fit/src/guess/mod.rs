@@ -39,4 +39,4 @@ pub use drawings::{Drawings, DrawingsError};
 pub use first_guess::first_guess;
 pub use found::{FirstGuess, Guess, Reference, References, Runner};
 pub use library::GuessLibrary;
-pub use settings::{Contradictions, GuessSettings, RaceSettings};
+pub use settings::{Contradictions, GuessSettings, RaceCriterion, RaceSettings};

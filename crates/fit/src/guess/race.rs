@@ -6,7 +6,7 @@
 
 use super::found::{Guess, Runner};
 use super::goal_context::GoalContext;
-use super::settings::RaceSettings;
+use super::settings::{RaceCriterion, RaceSettings};
 use crate::control::interrupt;
 use crate::control::{Budget, Control, StopReason};
 use crate::error::FitError;
@@ -45,8 +45,11 @@ impl Contender {
     }
 
     /// The criterion between generators; the least wins.
-    fn standing(&self) -> f64 {
-        self.cost() + BY_LIKENESS * (1.0 - self.likeness)
+    fn standing(&self, criterion: RaceCriterion) -> f64 {
+        match criterion {
+            RaceCriterion::Origin => self.cost() + BY_LIKENESS * (1.0 - self.likeness),
+            RaceCriterion::Cost => self.cost(),
+        }
     }
 
     /// Its result.
@@ -115,9 +118,10 @@ pub(super) fn race(
             one.found = search(problem, context, evaluations, one)?;
             progress(number + 1, running);
         }
-        all.sort_by(|a, b| a.standing().total_cmp(&b.standing()));
-        let most = all[0].standing() + HOPELESS;
-        running = all.iter().take_while(|one| one.standing() <= most).count();
+        let standing = |one: &Contender| one.standing(race.criterion);
+        all.sort_by(|a, b| standing(a).total_cmp(&standing(b)));
+        let most = standing(&all[0]) + HOPELESS;
+        running = all.iter().take_while(|one| standing(one) <= most).count();
         if running < 2 {
             break;
         }

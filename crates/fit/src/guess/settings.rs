@@ -37,11 +37,23 @@ pub struct RaceSettings {
     pub runners: usize,
     /// Evaluations of each; at most those of the whole search.
     pub evaluations: u64,
+    /// What the winner is best in.
+    pub criterion: RaceCriterion,
+}
+
+/// What the winner of a race is best in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RaceCriterion {
+    /// How much its known species look like the goal, above all: that tells which generator a tree was grown by.
+    #[default]
+    Origin,
+    /// The cost that it reaches: of a real tree, which no generator has grown.
+    Cost,
 }
 
 impl Default for RaceSettings {
     fn default() -> Self {
-        Self { runners: 5, evaluations: 100 }
+        Self { runners: 5, evaluations: 100, criterion: RaceCriterion::Origin }
     }
 }
 

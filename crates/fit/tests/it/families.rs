@@ -28,7 +28,7 @@ fn goal_of_pole(species: &Species) -> FitProblem {
 }
 
 fn guess(problem: &FitProblem) -> FirstGuess {
-    let race = Some(RaceSettings { runners: 6, evaluations: 60 });
+    let race = Some(RaceSettings { runners: 6, evaluations: 60, ..RaceSettings::default() });
     let few = GuessSettings { variants: 3, race, ..GuessSettings::default() };
     let go = AtomicBool::new(false);
     first_guess(problem, &FitSettings::default(), &candidates(), &few, &go, |_, _| ()).unwrap()

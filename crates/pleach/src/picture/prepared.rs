@@ -7,16 +7,18 @@ use super::reading::GoalReading;
 use super::source::FitSource;
 use super::start::FitStart;
 use super::volume::Outlined;
-use super::words::{MaskFrom, Tone};
+use super::words::{MaskFrom, StartFrom, Tone};
 use crate::plan::{DRAWING, Shares};
 use pleach_fit::{
     Accuracy, Control, CostModel, FitError, FitProblem, Fitted, GoalSettings, GoalView, GuessLibrary,
     Guessing, Unknown, fit_goal_with,
 };
+use pleach_generators::GeneratorChoice;
 use pleach_reading::Colors;
 use pleach_silhouette::{GoalOptions, Polarity, View};
 use pleach_tree::Foliage;
 use pleach_tree::species::safe_name;
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 /// A further picture of the goal's tree.
@@ -72,10 +74,11 @@ impl FitOptions {
     /// # Errors
     /// As [`FitOptions::prepare`].
     pub fn prepare_after(&self, source: &FitSource, spent: &Spent) -> Result<Prepared, PrepareError> {
-        let FitStart { species, mut foliage, detects_leaves, mut settings, shares, .. } =
-            self.start(source)?;
+        self.check()?;
         let goal = self.goal(source)?;
         let (reading, corrected) = self.read(source, &goal)?;
+        let FitStart { species, mut foliage, detects_leaves, mut settings, shares, .. } =
+            self.for_picture(&reading).start(source)?;
         let said = self.reading.says_leaves().then_some(reading.measures.leaves);
         let sure = said.or_else(|| reading.colors.as_ref().and_then(sure_of_leaves));
         if let (true, Some(leaves)) = (detects_leaves, sure) {
@@ -127,6 +130,18 @@ impl FitOptions {
             shares,
         };
         Ok(prepared.with_result_cost(DRAWING, DRAWING))
+    }
+
+    /// The same with the usual generators of a goal that was read so: a picture in colour is mostly of a real tree.
+    fn for_picture(&self, reading: &GoalReading) -> Cow<'_, Self> {
+        let is_open = self.generator.is_none()
+            && self.from == StartFrom::Auto
+            && self.volume_from.is_none()
+            && !self.evolve_rules;
+        if is_open && reading.colors.as_ref().is_some_and(|colors| colors.leaves.is_some()) {
+            return Cow::Owned(Self { generator: Some(GeneratorChoice::Trees), ..self.clone() });
+        }
+        Cow::Borrowed(self)
     }
 
     /// The goal's picture.

@@ -182,7 +182,9 @@ fn varied_species(given: Option<Species>, generator: GeneratorChoice) -> Result<
     let family = match (&given, generator) {
         (Some(species), _) => species.generator.family(),
         (None, GeneratorChoice::Family(name)) => name,
-        (None, GeneratorChoice::Auto) => return Err(no_rules("auto").into()),
+        (None, several @ (GeneratorChoice::Auto | GeneratorChoice::Trees)) => {
+            return Err(no_rules(several.name()).into());
+        }
     };
     let families = pleach_generators::families();
     let blank =

@@ -1,8 +1,8 @@
 //! Where a fit begins.
 
 use pleach_fit::{
-    Candidate, Contradictions, FitSettings, GoalSettings, GuessSettings, Guessing, SpaceError, Start,
-    check_freedom,
+    Candidate, Contradictions, FitSettings, GoalSettings, GuessSettings, Guessing, RaceCriterion,
+    RaceSettings, SpaceError, Start, check_freedom,
 };
 use pleach_generators::GeneratorChoice;
 use pleach_tree::Appearance;
@@ -43,7 +43,13 @@ pub fn plan(
             check(start)?;
         }
         let contradictions = Contradictions::Counted;
-        Guessing::Compare(GuessSettings { detect_leaves, contradictions, ..GuessSettings::default() })
+        // A real tree was grown by none of them.
+        let criterion = match generator {
+            GeneratorChoice::Trees => RaceCriterion::Cost,
+            _ => RaceCriterion::Origin,
+        };
+        let race = Some(RaceSettings { criterion, ..RaceSettings::default() });
+        Guessing::Compare(GuessSettings { detect_leaves, contradictions, race, ..GuessSettings::default() })
     } else {
         check(start)?;
         let lists = || Start::Lists(vec![start.params.values().to_vec()]);

@@ -136,9 +136,10 @@ pub(super) struct SearchArgs {
     /// lists, or from one species (name or file)
     #[arg(long, value_name = "auto|random|SPECIES", default_value = "auto")]
     pub(super) from: StartFrom,
-    /// The generator whose species take part in a first guess, and that `--from random` draws for; `auto`
-    /// for all of them. By default weber-penn, or that of the species in --from
-    #[arg(long, value_name = "auto|NAME")]
+    /// The generator whose species take part in a first guess, and that `--from random` draws for: `auto`
+    /// for all of them, `trees` for weber-penn and space-colonization. By default weber-penn, of a picture in colour trees,
+    /// or that of the species in --from
+    #[arg(long, value_name = "auto|trees|NAME")]
     pub(super) generator: Option<GeneratorChoice>,
     /// Start from a tree of least-cost paths in the outline of a picture: of the `goal`, with its further
     /// views from known directions, or of a file
