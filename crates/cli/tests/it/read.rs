@@ -146,7 +146,7 @@ fn a_reading_is_corrected_by_flags_and_by_its_file() {
     let mut edited: Value = serde_json::from_str(&text).unwrap();
     edited["bare_height"] = 0.25.into();
     edited["lean_deg"] = 5.into();
-    let _ = dir.file("edited.json", &edited.to_string());
+    let _ = dir.file("edited.json", edited.to_string());
     let found = read_with(&["--reading", "edited.json", "--lean", "6"]).json();
     assert_eq!((&found["bare_height"], &found["bare_height_confidence"]), (&0.25.into(), &1.0.into()));
     assert_eq!((&found["lean_deg"], &found["feet"]), (&6.0.into(), &plain["feet"]));

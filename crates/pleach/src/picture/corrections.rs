@@ -1,6 +1,6 @@
 //! What a person says is otherwise in a picture than it was read.
 
-use super::reading::GoalReading;
+use super::goal_reading::GoalReading;
 use crate::option_error::OptionError;
 use pleach_reading::{Colors, Foot, Reading};
 use serde::de::DeserializeOwned;
@@ -39,8 +39,8 @@ const TRUNKS: &str = "trunks";
 const COLORS: &str = "colors";
 const SUFFIX: &str = "_confidence";
 /// The most trunks, and the most points of a trunk or an outline.
-const MOST_TRUNKS: u64 = 64;
-const MOST_POINTS: usize = 4096;
+const MAX_TRUNKS: u64 = 64;
+const MAX_POINTS: usize = 4096;
 /// Numbers read back from text are the same within this.
 const SAME: f64 = 1e-9;
 
@@ -104,12 +104,10 @@ impl Corrections {
         let mut given = self.0.clone();
         given.retain(|key, _| !NOT_OF_THE_TREE.contains(&key.as_str()));
         if let Some(count) = given.remove(TRUNKS) {
-            let count =
-                count.as_u64().filter(|count| (1..=MOST_TRUNKS).contains(count)).ok_or_else(|| {
-                    let problem =
-                        format!("has {count} trunks, expected a whole number from 1 to {MOST_TRUNKS}");
-                    OptionError::new(OPTION, problem)
-                })?;
+            let count = count.as_u64().filter(|count| (1..=MAX_TRUNKS).contains(count)).ok_or_else(|| {
+                let problem = format!("has {count} trunks, expected a whole number from 1 to {MAX_TRUNKS}");
+                OptionError::new(OPTION, problem)
+            })?;
             let _ = given.insert("feet".to_owned(), json!(feet(&found.measures.feet, count as usize)));
             let _ = given.entry("feet_confidence").or_insert_with(|| json!(1.0));
         }
@@ -232,7 +230,7 @@ fn check_numbers(key: &str, value: &Value) -> Result<(), OptionError> {
             Err(OptionError::new(OPTION, problem))
         }
         Value::Array(all) => {
-            let most = if key == "feet" { MOST_TRUNKS as usize } else { MOST_POINTS };
+            let most = if key == "feet" { MAX_TRUNKS as usize } else { MAX_POINTS };
             if all.len() > most {
                 let problem = format!("has {} values for `{key}`, expected up to {most}", all.len());
                 return Err(OptionError::new(OPTION, problem));

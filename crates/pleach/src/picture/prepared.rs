@@ -2,8 +2,8 @@
 
 use super::error::PrepareError;
 use super::goal_pair::GoalPair;
+use super::goal_reading::GoalReading;
 use super::options::{FitOptions, Spent};
-use super::reading::GoalReading;
 use super::source::FitSource;
 use super::start::FitStart;
 use super::volume::Outlined;

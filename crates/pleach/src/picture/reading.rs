@@ -3,48 +3,15 @@
 use super::corrections::Changes;
 use super::error::PrepareError;
 use super::goal_pair::{GoalPair, masked};
+use super::goal_reading::GoalReading;
 use super::options::FitOptions;
 use super::source::FitSource;
 use crate::option_error::OptionError;
-use pleach_reading::{Colors, Reader, Reading, annotate};
+use pleach_reading::{Reader, Reading, annotate};
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::mask::Mask;
 use pleach_silhouette::picture::Picture;
 use pleach_silhouette::{Bitmap, Goal, GoalOptions};
-use serde::Serialize;
-
-/// What is in a picture of a tree, as data: the program's `reading.json`.
-#[derive(Clone, Debug, Serialize)]
-pub struct GoalReading {
-    /// The measures.
-    #[serde(flatten)]
-    pub measures: Reading,
-    /// The colours of the tree, and the season; `None` of a picture without colours.
-    pub colors: Option<Colors>,
-    /// How likely the mask of a photograph is a good one, in 0..=1; `None` if the picture needed none.
-    pub mask_confidence: Option<f64>,
-    /// What about the picture, or its mask, is not as a fit expects.
-    pub warnings: Vec<GoalWarning>,
-}
-
-impl GoalReading {
-    /// Of a picture with these measures. Whether there are leaves is taken from the colours where they say it more
-    /// surely than the silhouette.
-    pub(super) fn new(
-        mut measures: Reading,
-        colors: Option<Colors>,
-        mask: Option<&Mask>,
-        warnings: Vec<GoalWarning>,
-    ) -> Self {
-        if let Some(colors) = &colors
-            && let Some(leaves) = colors.leaves
-            && colors.leaves_confidence > measures.leaves_confidence
-        {
-            (measures.leaves, measures.leaves_confidence) = (leaves, colors.leaves_confidence);
-        }
-        Self { measures, colors, mask_confidence: mask.map(|mask| mask.confidence), warnings }
-    }
-}
 
 /// A picture of a tree, and what is in it: see [`read_picture`].
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! What is in a goal and in the trees of its fit, side by side.
 
 use super::drawn::FittedTree;
-use super::reading::GoalReading;
+use super::goal_reading::GoalReading;
 use pleach_fit::{KindVerdict, Verdict};
 use pleach_reading::{Difference, Measure, Reading};
 use serde::Serialize;
