@@ -1,7 +1,7 @@
 //! What the numbers do to a tree.
 
 use pleach_space_colonization::SpaceColonization;
-use pleach_tree::{Generator, GrowError, Growth, StemKind, Tree, Workspace};
+use pleach_tree::{Generator, GrowError, Growth, Stature, StemKind, Tree, Workspace};
 
 fn grown_from(seed: u64, set: &[(&str, f64)]) -> Result<Tree, GrowError> {
     let space = SpaceColonization.space();
@@ -119,4 +119,36 @@ fn few_points_in_a_wide_crown_are_a_tree_too() {
     let tree = scaffold(&[("crown_width", 5.0), ("points", 20.0), ("step", 1.5), ("limbs", 5.0)]);
     assert_eq!(tree.well_formed(), Ok(()));
     assert!(range(&tree, |knot| knot.point.z).1 > 2.0);
+}
+
+/// A low, wide crown that reaches twice as far to the right as to the left.
+#[test]
+fn a_tree_is_adapted_to_measures() {
+    let rows = |reach: f64| (0..33).map(|i| if i < 8 { 0.0 } else { reach }).collect::<Vec<f64>>();
+    let wanted = Stature {
+        trunks: Some(1),
+        bare_height: Some(0.25),
+        crown: Some([rows(0.3), rows(0.6)]),
+        ..Stature::default()
+    };
+    let space = SpaceColonization.space();
+    let adapted = |wanted: &Stature| {
+        let mut values = space.defaults();
+        for (name, value) in SCAFFOLD {
+            let slot = space.slots().find(|slot| space.slot_name(*slot) == name).unwrap();
+            values[slot.index()] = value;
+        }
+        SpaceColonization.adapt(&mut values, wanted, &Stature::default());
+        let (params, mut tree) = (space.check(values).unwrap(), Tree::default());
+        SpaceColonization.grow(&params, &Growth::seed(1), &mut Workspace::default(), &mut tree).unwrap();
+        range(&tree, |knot| knot.point.x)
+    };
+    let (left, right) = adapted(&wanted);
+    assert!((6.5..10.0).contains(&(right - left)), "from {left} to {right}, of ten metres");
+    assert!((1.5..2.6).contains(&(right / -left)), "from {left} to {right}");
+    let top = |lean: f64| {
+        let (left, right) = adapted(&Stature { lean: Some(lean), ..Stature::default() });
+        (left + right) / 2.0
+    };
+    assert!(top(20.0) > 0.8 && top(-20.0) < -0.8, "{} {}", top(20.0), top(-20.0));
 }
