@@ -122,18 +122,21 @@ mod tests {
 
     #[test]
     fn a_search_starts_from_the_trunk_that_was_measured() {
-        let acer = pleach_generators::preset("black_tupelo").unwrap();
-        let slot =
-            acer.generator.space().slots().find(|slot| acer.generator.space().slot_name(*slot) == "ratio");
+        let tupelo = pleach_generators::preset("black_tupelo").unwrap();
+        let slot = tupelo
+            .generator
+            .space()
+            .slots()
+            .find(|slot| tupelo.generator.space().slot_name(*slot) == "ratio");
         let slot = slot.unwrap().index();
-        let mut values = acer.params.values().to_vec();
+        let mut values = tupelo.params.values().to_vec();
         values[slot] *= 2.0;
-        let thick = with_values(&acer, values).unwrap();
+        let thick = with_values(&tupelo, values).unwrap();
         let tree = thick.grow(3).unwrap();
         let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 256, 256);
         let mut goal = Bitmap::default();
         Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
-        let problem = FitProblem::new(acer.clone(), GoalView::new(goal, View::FRONT, frame));
+        let problem = FitProblem::new(tupelo.clone(), GoalView::new(goal, View::FRONT, frame));
         let nearest = |contradictions| {
             let guess = GuessSettings {
                 variants: 0,
@@ -142,7 +145,7 @@ mod tests {
                 race: None,
                 ..GuessSettings::default()
             };
-            let (candidates, stop) = ([Candidate::from(acer.clone())], AtomicBool::new(false));
+            let (candidates, stop) = ([Candidate::from(tupelo.clone())], AtomicBool::new(false));
             let found = GuessLibrary::new()
                 .first_guess(&problem, &FitSettings::default(), &candidates, &guess, &stop, |_, _| ())
                 .unwrap();

@@ -105,7 +105,7 @@ impl FitOptions {
         let found =
             GoalReading::new(measures, pair.colors.clone(), pair.mask.as_ref(), pair.warnings.clone());
         let (found, changes) = self.corrected(found)?;
-        if self.reading.is_empty() {
+        if changes.keep_measures() {
             return Ok((found, None));
         }
         let mut working = Reading::from_silhouette(&pair.working.bitmap);
