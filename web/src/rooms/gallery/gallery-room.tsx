@@ -16,7 +16,10 @@ const TITLES: Record<string, [string, string]> = {
   lsystem: ["Grammars", "L-systems after Hewitt, Steen and The Algorithmic Beauty of Plants."],
   fractal: ["Fractal trees", "Recursive trees after Coffey."],
   stylised: ["Stylised trees", "Low-poly trees of blobs, cones and fronds."],
-  "space-colonization": ["Space colonisation", "Trees that fill a volume, after Runions, Lane and Prusinkiewicz."],
+  "space-colonization": [
+    "Space colonisation",
+    "Trees that fill a volume, after Runions, Lane and Prusinkiewicz.",
+  ],
   "least-cost-path": ["Least-cost paths", "Trees whose branches share paths, after Xu and Mould."],
 };
 
