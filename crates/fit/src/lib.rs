@@ -68,7 +68,10 @@ pub use control::{
     PreparedSearch, Progress, Reserve, Row, StopReason, Until,
 };
 pub use error::{FitError, ObserverError};
-pub use evaluator::{EvalWorkspace, Evaluate, Evaluator, Silhouette, SilhouetteGoal, SilhouetteMemory};
+pub use evaluator::{
+    EvalWorkspace, Evaluate, Evaluator, MeasuredGoal, MeasuredMemory, MeasuredSilhouette, Silhouette,
+    SilhouetteGoal, SilhouetteMemory,
+};
 pub use goal::{Asked, Deadline, Fitted, GoalSettings, Guessing, Stepwise, fit_goal, fit_goal_with};
 pub use guess::{
     Candidate, Contradictions, Drawings, DrawingsError, FirstGuess, Guess, GuessLibrary, GuessSettings,

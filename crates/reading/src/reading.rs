@@ -134,6 +134,13 @@ pub struct Reading {
     pub stroke_upright: Option<f64>,
     /// Part of the free ends that point down: near 0.5 for most crowns, more where twigs hang.
     pub hanging_ends: Option<f64>,
+    /// Which way the texture of the crown above the bare height runs, seen at 1/128 of the height: from -1, level, to 1,
+    /// upright. Curtains of hanging twigs are above 0.2, layers of branches below -0.1.
+    pub grain_upright: Option<f64>,
+    /// The same at 45°: from -1, down and away from the axis, to 1, up and away from it.
+    pub grain_rising: Option<f64>,
+    /// Confidence in these two.
+    pub grain_confidence: f64,
     /// Whether there are leaves.
     pub leaves: bool,
     /// Confidence that this is right.

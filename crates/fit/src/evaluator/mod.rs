@@ -4,6 +4,7 @@ mod evaluate;
 mod fine;
 mod grow;
 mod height;
+mod measured;
 mod silhouette;
 mod viewpoint;
 
@@ -11,6 +12,7 @@ pub use evaluate::Evaluate;
 pub(crate) use fine::{FineSilhouette, side_for};
 pub use grow::EvalWorkspace;
 pub(crate) use height::height_of;
+pub use measured::{MeasuredGoal, MeasuredMemory, MeasuredSilhouette};
 pub(crate) use silhouette::{Buffers, blend};
 pub use silhouette::{Silhouette, SilhouetteGoal, SilhouetteMemory};
 

@@ -43,6 +43,18 @@ impl Default for SilhouetteMemory {
     }
 }
 
+impl SilhouetteMemory {
+    /// The picture of the tree that was drawn last.
+    pub(super) const fn picture(&self) -> &Bitmap {
+        &self.picture
+    }
+
+    #[cfg(test)]
+    pub(super) fn set_picture(&mut self, picture: &Bitmap) {
+        self.picture.clone_from(picture);
+    }
+}
+
 impl Evidence for Silhouette {
     type Goal = SilhouetteGoal;
     type Memory = SilhouetteMemory;

@@ -5,7 +5,7 @@ use super::ranking::Alike;
 use crate::control::interrupt;
 use crate::error::FitError;
 use crate::problem::Genome;
-use pleach_reading::{Reader, Reading};
+use pleach_reading::{Crown, Reader, Reading};
 use pleach_silhouette::Bitmap;
 use pleach_tree::{Foliage, Stature};
 
@@ -95,8 +95,19 @@ fn stature(reading: &Reading, trunks: Option<u32>) -> Stature {
         lean: sure(reading.lean_deg, reading.lean_deg_confidence),
         bare_height: sure(reading.bare_height, reading.bare_height_confidence),
         first_fork: sure(reading.first_fork, reading.first_fork_confidence),
-        crown: (reading.crown_confidence >= SURE).then(|| [crown.left.clone(), crown.right.clone()]),
+        crown: (reading.crown_confidence >= SURE).then(|| {
+            // Where the feet are not sure, neither is on which side of them the crown lies.
+            let is_placed = reading.feet_confidence >= SURE;
+            if is_placed { [crown.left.clone(), crown.right.clone()] } else { even(crown) }
+        }),
     }
+}
+
+/// An outline that is as wide on both sides.
+fn even(crown: &Crown) -> [Vec<f64>; 2] {
+    let half: Vec<f64> =
+        crown.left.iter().zip(&crown.right).map(|(left, right)| f64::midpoint(*left, *right)).collect();
+    [half.clone(), half]
 }
 
 /// `goal` without what `grown` is near enough to, and no farther off than numbers are followed.

@@ -28,7 +28,7 @@ pub(super) fn ranked(
 ) -> (Vec<f64>, Vec<Alike>) {
     let mut costs = vec![f64::INFINITY; context.candidates.len()];
     let mut alike = Vec::new();
-    let (mut least, mut contradictions) = (f64::INFINITY, Vec::new());
+    let (mut least, mut contradictions) = (Least::default(), Vec::new());
     for (Entry { sample, .. }, found) in entries.iter().zip(found) {
         let Some(Resemblance { likeness, contradiction, factor, .. }) = found else { continue };
         let cost = 1.0 - likeness + contradiction;
@@ -37,13 +37,15 @@ pub(super) fn ranked(
             let mut genome = sample.genome.clone();
             context.resize(sample.candidate, &mut genome.values, *factor);
             alike.push((cost, sample.candidate, genome));
-            least = least.min(*contradiction);
+            least.add(context.family(sample.candidate), *contradiction);
             contradictions.push(*contradiction);
         }
     }
-    // Where some tree does not contradict the goal, no search starts from one that does.
+    // Where some tree of a family does not contradict the goal, no search of the family starts from one that does.
     let mut contradictions = contradictions.into_iter();
-    alike.retain(|_| contradictions.next().is_some_and(|one| one <= least + NO_START));
+    alike.retain(|(_, candidate, _)| {
+        contradictions.next().is_some_and(|one| one <= least.of(context.family(*candidate)) + NO_START)
+    });
     alike.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut kept = Vec::<Alike>::new();
     let of_family =
@@ -54,6 +56,23 @@ pub(super) fn ranked(
         }
     }
     (costs, kept)
+}
+
+/// The least contradiction of each family.
+#[derive(Default)]
+struct Least(Vec<(&'static str, f64)>);
+
+impl Least {
+    fn add(&mut self, family: &'static str, contradiction: f64) {
+        match self.0.iter_mut().find(|(known, _)| *known == family) {
+            Some((_, least)) => *least = least.min(contradiction),
+            None => self.0.push((family, contradiction)),
+        }
+    }
+
+    fn of(&self, family: &str) -> f64 {
+        self.0.iter().find(|(known, _)| *known == family).map_or(f64::INFINITY, |(_, least)| *least)
+    }
 }
 
 /// Individuals with their candidates, scored by the cost of the search, best first; without those that do not grow.

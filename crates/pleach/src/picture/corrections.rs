@@ -48,7 +48,7 @@ const SAME: f64 = 1e-9;
 fn range(key: &str) -> (f64, f64) {
     match key {
         "lean_deg" | "stroke_deg" | "fork_arms_deg" => (-90.0, 90.0),
-        "asymmetry" => (-1.0, 1.0),
+        "asymmetry" | "grain_upright" | "grain_rising" => (-1.0, 1.0),
         "bare_height" | "first_fork" | "crown_widest" | "gap_share" | "gap_by_height" | "gap_sizes"
         | "stroke_upright" | "hanging_ends" => (0.0, 1.0),
         "crown_width" | "twig_fineness" | "leaf_spread" => (0.0, 20.0),

@@ -4,10 +4,11 @@ use super::prepared::Prepared;
 use super::report_parts::ViewReport;
 use super::words::AppearanceFrom;
 use pleach_fit::{FitProblem, Genome, Placement};
+use pleach_reading::Reading;
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::param::SlotError;
-use pleach_tree::{GrowError, Growth, Limits, Species, Tree};
+use pleach_tree::{Foliage, GrowError, Growth, Limits, Species, Tree};
 
 /// A tree that a fit has found.
 #[derive(Clone, Debug)]
@@ -16,6 +17,8 @@ pub struct FittedTree {
     pub species: Species,
     /// Its scores against the goal.
     pub scores: ScoreCard,
+    /// What is read in its silhouette; whether there are leaves is known of it.
+    pub measures: Reading,
     /// Its silhouette, of the size and in the frame of [`super::GoalPair::full`].
     pub silhouette: Bitmap,
     /// Its silhouette of the size and in the frame of the goal's file, where that is another.
@@ -100,6 +103,13 @@ impl FitDrawing<'_> {
         let original =
             (!full.is_whole()).then(|| self.draw(tree, &self.prepared.view, &full.original_frame(&frame)));
         (silhouette, original)
+    }
+
+    /// What is in `silhouette`, a picture of `tree`.
+    pub(super) fn measures(&self, tree: &Tree, silhouette: &Bitmap) -> Reading {
+        let has_leaves = !(tree.leaves.is_empty() && tree.blossoms.is_empty() && tree.blobs.is_empty());
+        let leaves = self.problem.foliage != Foliage::None && has_leaves;
+        Reading { leaves, leaves_confidence: 1.0, ..Reading::from_silhouette(silhouette) }
     }
 
     /// `tree` from `view` in `frame`.

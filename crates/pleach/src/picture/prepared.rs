@@ -10,8 +10,8 @@ use super::volume::Outlined;
 use super::words::{MaskFrom, StartFrom, Tone};
 use crate::plan::{DRAWING, Shares};
 use pleach_fit::{
-    Accuracy, Control, CostModel, FitError, FitProblem, Fitted, GoalSettings, GoalView, GuessLibrary,
-    Guessing, Unknown, fit_goal_with,
+    Accuracy, AnyEvidence, Control, CostModel, FitError, FitProblem, Fitted, GoalSettings, GoalView,
+    GuessLibrary, Guessing, MeasuredSilhouette, Unknown, fit_goal_with,
 };
 use pleach_generators::GeneratorChoice;
 use pleach_reading::Colors;
@@ -77,6 +77,7 @@ impl FitOptions {
         self.check()?;
         let goal = self.goal(source)?;
         let (reading, corrected) = self.read(source, &goal)?;
+        let is_measured = reading.colors.as_ref().is_some_and(|colors| colors.leaves.is_some());
         let FitStart { species, mut foliage, detects_leaves, mut settings, shares, .. } =
             self.for_picture(&reading).start(source)?;
         let said = self.reading.says_leaves().then_some(reading.measures.leaves);
@@ -94,7 +95,9 @@ impl FitOptions {
         let view = self.view.unwrap_or_default().view();
         let accuracy = if self.frame.is_some() { Accuracy::Exact } else { Accuracy::Pixel };
         let own = GoalView::new(goal.working.bitmap.clone(), view, goal.working.frame(height));
-        let mut goals = vec![GoalView { accuracy, reading: corrected, ..own }];
+        let evidence =
+            is_measured.then(|| AnyEvidence::new(MeasuredSilhouette { reading: corrected.clone() }));
+        let mut goals = vec![GoalView { accuracy, evidence, reading: corrected, ..own }];
         let further = |one: &super::direction::FurtherView| -> Result<FurtherPicture, PrepareError> {
             let goal = GoalPair::read(&source.picture(&one.picture), GoalOptions::default(), self.size)?;
             Ok(FurtherPicture { name: one.picture.clone(), view: one.direction.view(), goal })

@@ -27,8 +27,8 @@ impl Readings {
     pub(super) fn new(goal: &GoalReading, kind: &FittedTree, individual: Option<&FittedTree>) -> Self {
         let goal = goal.clone();
         let trunks = kind.species.generator.trunks(kind.species.params.values());
-        let kind = Reading::from_silhouette(&kind.silhouette);
-        let individual = individual.map(|tree| Reading::from_silhouette(&tree.silhouette));
+        let kind = kind.measures.clone();
+        let individual = individual.map(|tree| tree.measures.clone());
         let differences = goal.measures.differences_from(&kind, trunks);
         Self { goal, kind, individual, differences }
     }

@@ -319,7 +319,8 @@ impl Prepared {
                 self.view_report(drawing, tree, picture, placement, azimuth_found)
             })
             .collect::<Result<_, _>>()?;
-        Ok(FittedTree { species, scores, silhouette, original, views })
+        let measures = drawing.measures(tree, &silhouette);
+        Ok(FittedTree { species, scores, measures, silhouette, original, views })
     }
 
     fn view_report(

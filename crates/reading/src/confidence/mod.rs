@@ -10,6 +10,8 @@ use crate::reading::Reading;
 const SMALLEST: f64 = 16.0;
 /// Rows from which on an outline is read as finely as it is stored.
 const LARGE: f64 = 64.0;
+/// Rows from which on a grain is read as finely as it is meant.
+const FINE: f64 = 128.0;
 /// Every side of the picture that the ink touches takes this part of the confidence in the outline.
 const CUT: f64 = 0.15;
 /// A trunk that is bare over less than this part of the height, or seen over fewer of its widths, shows its lean
@@ -161,6 +163,9 @@ impl Evidence {
         reading.asymmetry_confidence = has_crown * reading.feet_confidence;
         reading.gap_share_confidence = 0.95 * has_crown;
         reading.clumps_confidence = 0.6 * has_crown;
+        let fine = (self.height / FINE).min(1.0);
+        reading.grain_confidence =
+            if reading.grain_upright.is_some() { 0.95 * has_crown * fine } else { 0.0 };
         let lines = (self.strokes.ink * self.strokes.fine / FINE_INK).min(1.0);
         reading.twig_fineness_confidence = 0.8 * has_crown * lines;
         if !reading.leaves {

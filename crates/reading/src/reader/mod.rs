@@ -3,6 +3,7 @@
 mod crown;
 mod feet;
 mod fork;
+mod grain;
 mod grid;
 mod strokes;
 mod trace;
@@ -56,6 +57,7 @@ pub struct Reader {
     arms: Vec<Sample>,
     feet: Vec<feet::Foot>,
     pieces: crown::Pieces,
+    cells: grain::Cells,
     evidence: Evidence,
 }
 
@@ -152,6 +154,9 @@ impl Reader {
         );
         let bare = self.read_trunk(rows, scale, base, reading);
         self.read_crown(rows, scale, bare, reading);
+        if let Some(grain) = grain::grain(&self.ink, &mut self.cells, rows, bare, (width, origin)) {
+            (reading.grain_upright, reading.grain_rising) = (Some(grain.upright), Some(grain.rising));
+        }
         let touches = (left == 0) as u8 + (right + 1 == silhouette.width()) as u8 + (top == 0) as u8;
         self.evidence.cut_sides = f64::from(touches);
         self.evidence.height = count as f64;
