@@ -141,6 +141,11 @@ pub struct Reading {
     pub grain_rising: Option<f64>,
     /// Confidence in these two.
     pub grain_confidence: f64,
+    /// Part of the tree's ink that is foliage, in 0..=1, where colours tell it, or where the tree was grown: there it is
+    /// what its stems alone do not cover. `None` of a silhouette.
+    pub foliage_share: Option<f64>,
+    /// Confidence in it.
+    pub foliage_share_confidence: f64,
     /// Whether there are leaves.
     pub leaves: bool,
     /// Confidence that this is right.

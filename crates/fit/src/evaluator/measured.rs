@@ -6,7 +6,8 @@ use pleach_reading::{Reader, Reading};
 use pleach_silhouette::Bitmap;
 use pleach_tree::StemKind;
 
-/// The silhouette of a goal and what is read in it: trunks, lean, bare height, outline, gaps, and which way twigs run.
+/// The silhouette of a goal and what is read in it: trunks, lean, bare height, outline, gaps, which
+/// way twigs run, and how much is foliage.
 ///
 /// Every tree is read from its own picture by the code that read the goal, and [`Reading::distance`] takes its part of
 /// the value of [`Objective::Balance`]. The other objectives are those of [`Silhouette`].
@@ -32,6 +33,7 @@ pub struct MeasuredMemory {
     silhouette: SilhouetteMemory,
     reader: Reader,
     reading: Reading,
+    stems: Bitmap,
     trunks: u32,
 }
 
@@ -45,7 +47,7 @@ impl Evidence for MeasuredSilhouette {
     }
 
     fn draw(&self, placed: &PlacedTree<'_>, memory: &mut MeasuredMemory) {
-        Silhouette.draw(placed, &mut memory.silhouette);
+        memory.silhouette.draw_with_stems(placed, &mut memory.stems);
         let trunks = placed.tree.stems.iter().filter(|stem| stem.kind == StemKind::Trunk);
         memory.trunks = trunks.count() as u32;
     }
@@ -56,6 +58,8 @@ impl Evidence for MeasuredSilhouette {
             return agreement;
         }
         memory.reader.read(memory.silhouette.picture(), &mut memory.reading);
+        let (stems, all) = (memory.stems.ink() as f64, memory.silhouette.picture().ink() as f64);
+        memory.reading.foliage_share = (all > 0.0).then(|| 1.0 - stems / all);
         // One trunk may divide below the ground; several stand beside each other.
         let trunks = (memory.trunks > 1).then_some(memory.trunks);
         let distance = goal.reading.distance(&memory.reading, trunks);

@@ -44,6 +44,12 @@ impl Default for SilhouetteMemory {
 }
 
 impl SilhouetteMemory {
+    /// Draws `placed`, and its stems alone into `stems`.
+    pub(super) fn draw_with_stems(&mut self, placed: &PlacedTree<'_>, stems: &mut Bitmap) {
+        let PlacedTree { tree, view, frame, parts } = placed;
+        self.rasterizer.draw_with_stems(tree, view, frame, *parts, [stems, &mut self.picture]);
+    }
+
     /// The picture of the tree that was drawn last.
     pub(super) const fn picture(&self) -> &Bitmap {
         &self.picture

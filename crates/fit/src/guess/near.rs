@@ -7,7 +7,8 @@ use super::samples::Sample;
 const FEW: usize = 24;
 /// With more, this many of the nearest.
 const NEAREST: usize = 16;
-/// At least this many of each family: a race is between families.
+/// At least this many of each family, and an equal part of [`NEAREST`]: a race is between families, and the nearest
+/// species of one whose trees are farther away at first may win it.
 const OF_FAMILY: usize = 3;
 /// Where front drawings choose, this many are compared in the goals' own views, and one of each family.
 pub(super) const FROM_ELSEWHERE: usize = 3;
@@ -33,7 +34,11 @@ impl Near {
 
     /// The candidates of the least `costs`, some of each family.
     pub(super) fn nearest(context: &GoalContext<'_>, costs: &[f64]) -> Self {
-        Self::Of(marked(context, costs, NEAREST, OF_FAMILY))
+        let mut families: Vec<&str> = (0..costs.len()).map(|candidate| context.family(candidate)).collect();
+        families.sort_unstable();
+        families.dedup();
+        let of_family = OF_FAMILY.max(NEAREST / families.len().max(1));
+        Self::Of(marked(context, costs, NEAREST, of_family))
     }
 
     /// Fewer of them, and no tree of the others.

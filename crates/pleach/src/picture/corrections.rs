@@ -50,7 +50,7 @@ fn range(key: &str) -> (f64, f64) {
         "lean_deg" | "stroke_deg" | "fork_arms_deg" => (-90.0, 90.0),
         "asymmetry" | "grain_upright" | "grain_rising" => (-1.0, 1.0),
         "bare_height" | "first_fork" | "crown_widest" | "gap_share" | "gap_by_height" | "gap_sizes"
-        | "stroke_upright" | "hanging_ends" => (0.0, 1.0),
+        | "stroke_upright" | "hanging_ends" | "foliage_share" => (0.0, 1.0),
         "crown_width" | "twig_fineness" | "leaf_spread" => (0.0, 20.0),
         "leaf_size_px" | "clumps" => (0.0, 1e6),
         _ if key.ends_with(SUFFIX) => (0.0, 1.0),

@@ -34,6 +34,20 @@ impl GoalReading {
         {
             (measures.leaves, measures.leaves_confidence) = (leaves, colors.leaves_confidence);
         }
+        if let Some(colors) = &colors {
+            let (foliage, wood) = (colors.foliage.ink() as f64, colors.wood.ink() as f64);
+            if foliage + wood > 0.0 {
+                measures.foliage_share = Some(foliage / (foliage + wood));
+                measures.foliage_share_confidence = colors.layers_confidence;
+            }
+        }
         Self { measures, colors, mask_confidence: mask.map(|mask| mask.confidence), warnings }
+    }
+
+    /// `measures` of the same tree in a smaller picture, with what is known of its foliage.
+    pub(super) fn add_foliage(&self, measures: Reading) -> Reading {
+        let Reading { foliage_share, foliage_share_confidence, .. } = self.measures;
+        let Reading { leaves, leaves_confidence, .. } = self.measures;
+        Reading { foliage_share, foliage_share_confidence, leaves, leaves_confidence, ..measures }
     }
 }

@@ -14,7 +14,7 @@ use pleach_fit::{
     GuessLibrary, Guessing, MeasuredSilhouette, Unknown, fit_goal_with,
 };
 use pleach_generators::GeneratorChoice;
-use pleach_reading::Colors;
+use pleach_reading::{Colors, Reading};
 use pleach_silhouette::{GoalOptions, Polarity, View};
 use pleach_tree::Foliage;
 use pleach_tree::species::safe_name;
@@ -95,8 +95,10 @@ impl FitOptions {
         let view = self.view.unwrap_or_default().view();
         let accuracy = if self.frame.is_some() { Accuracy::Exact } else { Accuracy::Pixel };
         let own = GoalView::new(goal.working.bitmap.clone(), view, goal.working.frame(height));
-        let evidence =
-            is_measured.then(|| AnyEvidence::new(MeasuredSilhouette { reading: corrected.clone() }));
+        let evidence = is_measured.then(|| {
+            let measures = corrected.clone().unwrap_or_else(|| Reading::from_silhouette(&own.goal));
+            AnyEvidence::new(MeasuredSilhouette { reading: Some(reading.add_foliage(measures)) })
+        });
         let mut goals = vec![GoalView { accuracy, evidence, reading: corrected, ..own }];
         let further = |one: &super::direction::FurtherView| -> Result<FurtherPicture, PrepareError> {
             let goal = GoalPair::read(&source.picture(&one.picture), GoalOptions::default(), self.size)?;

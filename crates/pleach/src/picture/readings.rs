@@ -3,7 +3,7 @@
 use super::drawn::FittedTree;
 use super::goal_reading::GoalReading;
 use pleach_fit::{KindVerdict, Verdict};
-use pleach_reading::{Difference, Measure, Reading};
+use pleach_reading::{Difference, Reading};
 use serde::Serialize;
 
 /// What is in a goal and in the pictures of the trees that were found, read by the same code.
@@ -34,9 +34,9 @@ impl Readings {
     }
 
     /// `verdict`, no better than what the tree's measures allow: a clump of canes is not of the kind of a tree with one
-    /// trunk, however alike their outlines are.
+    /// trunk, and a curtain of hanging twigs not of that of an open crown, however alike their outlines are.
     pub(super) fn bound(&self, verdict: Verdict) -> Verdict {
-        let counts = |one: &&Difference| one.measure.is_of_species() || one.measure == Measure::Leaves;
+        let counts = |one: &&Difference| one.measure.is_of_kind();
         let largest = self.differences.iter().filter(counts).map(|one| one.size).fold(0.0, f64::max);
         if largest >= NOT_AT_ALL {
             verdict.at_most(KindVerdict::NotOfItsKind)
@@ -51,6 +51,7 @@ impl Readings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pleach_reading::Measure;
 
     #[test]
     fn a_verdict_is_no_better_than_the_measures_of_a_species_allow() {
@@ -74,6 +75,8 @@ mod tests {
         assert_eq!(bound(&[(Measure::Lean, 9.0), (Measure::BareHeight, 1.6)]), KindVerdict::Roughly);
         assert_eq!(bound(&[(Measure::Feet, 2.5)]), KindVerdict::NotOfItsKind);
         assert_eq!(bound(&[(Measure::Leaves, 3.0)]), KindVerdict::NotOfItsKind);
+        assert_eq!(bound(&[(Measure::Grain, 2.6)]), KindVerdict::NotOfItsKind);
+        assert_eq!(bound(&[(Measure::Crown, 1.6)]), KindVerdict::Roughly);
         // How a single tree leans, forks or is heavier on one side is not of its species.
         assert_eq!(bound(&[(Measure::Lean, 9.0), (Measure::FirstFork, 4.0)]), KindVerdict::OfItsKind);
         // What is bad already stays.

@@ -23,9 +23,13 @@ const GAPS_BY_HEIGHT: f64 = 0.12;
 /// Outlines differ by this part of the height, in the mean over heights and both sides.
 const OUTLINE: f64 = 0.126;
 /// Grains do by this, as vectors of upright and rising.
-const GRAIN: f64 = 0.16;
+const GRAIN: f64 = 0.13;
 /// Leaves in the one and none in the other are as much as this.
 const LEAVES: f64 = 3.0;
+/// Stems behind leaves count as stems of a tree that was grown, so its foliage may be less than the picture's by this …
+const HIDDEN: f64 = 0.3;
+/// … and by this for each further tolerance.
+const FOLIAGE: f64 = 0.18;
 /// Wrong readings of feet that are so many tolerances farther off are e times as rare.
 const WRONG: f64 = 0.7;
 
@@ -59,11 +63,7 @@ pub(super) fn apart<'a>(
             size,
             confidence: [goal.first_fork_confidence, tree.first_fork_confidence],
         }),
-        Some(Apart {
-            measure: Measure::Leaves,
-            size: if goal.leaves == tree.leaves { 0.0 } else { LEAVES },
-            confidence: [goal.leaves_confidence, tree.leaves_confidence],
-        }),
+        Some(leaves(goal, tree)),
         within(goal.bare_height, tree.bare_height, BARE).map(|size| Apart {
             measure: Measure::BareHeight,
             size,
@@ -109,6 +109,18 @@ fn feet(goal: &Reading, tree: &Reading, known: Option<u32>) -> Option<Apart> {
     // Readings that are wrong are mostly a little wrong.
     let of_goal = 1.0 - (1.0 - goal.feet_confidence) * math::exp(-WRONG * (size - 1.0).max(0.0));
     Some(Apart { measure: Measure::Feet, size, confidence: [of_goal, of_fit] })
+}
+
+/// How much of the ink is foliage, where both know it, or else whether there is any.
+fn leaves(goal: &Reading, tree: &Reading) -> Apart {
+    let measure = Measure::Leaves;
+    if let Some((wanted, grown)) = goal.foliage_share.zip(tree.foliage_share) {
+        let size = if grown < wanted { (wanted - HIDDEN - grown).max(0.0) } else { grown - wanted } / FOLIAGE;
+        let confidence = [goal.foliage_share_confidence, tree.foliage_share_confidence];
+        return Apart { measure, size, confidence };
+    }
+    let size = if goal.leaves == tree.leaves { 0.0 } else { LEAVES };
+    Apart { measure, size, confidence: [goal.leaves_confidence, tree.leaves_confidence] }
 }
 
 fn width(goal: &Reading, tree: &Reading, known: Option<u32>) -> Option<Apart> {

@@ -24,7 +24,7 @@ pub enum Measure {
     Lean,
     /// The height of the first fork.
     FirstFork,
-    /// Whether there are leaves.
+    /// Whether there are leaves, and how much of the tree is foliage.
     Leaves,
     /// The height up to which the trunk is bare.
     BareHeight,
@@ -47,20 +47,27 @@ impl Measure {
         matches!(self, Self::Feet | Self::Width | Self::BareHeight)
     }
 
+    /// Whether trees of one species and one season are alike in it, or nearly so: those of its species, and what the crown
+    /// is like. How a single tree leans or forks and which side of it is heavier is its own.
+    #[must_use]
+    pub const fn is_of_kind(self) -> bool {
+        self.is_of_species() || matches!(self, Self::Leaves | Self::Crown | Self::GapsByHeight | Self::Grain)
+    }
+
     /// Its part of [`Reading::distance`]; all add up to 1.
     const fn weight(self) -> f64 {
         match self {
-            Self::Feet => 0.1,
-            Self::Width => 0.14,
+            Self::Feet => 0.09,
+            Self::Width => 0.13,
             Self::Lean => 0.05,
             Self::FirstFork => 0.02,
-            Self::Leaves => 0.0,
-            Self::BareHeight => 0.1,
+            Self::Leaves => 0.1,
+            Self::BareHeight => 0.09,
             Self::Asymmetry => 0.04,
-            Self::Crown => 0.14,
-            Self::GapShare => 0.1,
-            Self::GapsByHeight => 0.13,
-            Self::Grain => 0.18,
+            Self::Crown => 0.13,
+            Self::GapShare => 0.08,
+            Self::GapsByHeight => 0.11,
+            Self::Grain => 0.16,
         }
     }
 }

@@ -27,7 +27,12 @@ pub(super) fn words(measure: Measure, goal: &Reading, tree: &Reading, trunks: Op
         }),
         Measure::Leaves => {
             let state = |leaves: bool| if leaves { "in leaf" } else { "bare" };
-            Some(format!("{} in the picture, {} in the fit", state(goal.leaves), state(tree.leaves)))
+            let shares = goal.foliage_share.zip(tree.foliage_share);
+            Some(match shares.filter(|_| goal.leaves == tree.leaves) {
+                Some((goal, fit)) if fit < goal => "less foliage than in the picture".to_owned(),
+                Some(_) => "more foliage than in the picture".to_owned(),
+                None => format!("{} in the picture, {} in the fit", state(goal.leaves), state(tree.leaves)),
+            })
         }
         Measure::BareHeight => both(|one| one.bare_height).map(|(goal, fit)| {
             format!("bare up to {goal:.2} of the height in the picture, {fit:.2} in the fit")

@@ -9,7 +9,7 @@ const KEYS: &str = "feet feet_confidence width_confidence trunk trunk_confidence
     crown_widest crown_width crown_widest_confidence asymmetry asymmetry_confidence gap_share gap_by_height gap_sizes \
     gap_share_confidence clumps clumps_confidence twig_fineness twig_fineness_confidence leaf_size_px \
     leaf_size_px_confidence stroke_deg stroke_deg_confidence stroke_upright hanging_ends grain_upright \
-    grain_rising grain_confidence leaves leaves_confidence";
+    grain_rising grain_confidence foliage_share foliage_share_confidence leaves leaves_confidence";
 
 #[test]
 fn the_keys_are_as_promised_and_read_back() {
