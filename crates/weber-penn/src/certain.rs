@@ -5,6 +5,7 @@
 //! thickness; where it knows nothing it says zero.
 
 use crate::blame;
+use crate::crown;
 use crate::model::{Level, Model};
 use pleach_tree::{Blame, Foliage, GrowError, Growth};
 
@@ -74,7 +75,7 @@ impl Certain {
             } else {
                 children / (1.0 - level.base_size) * (counted - level.base_size)
             };
-            relative = if depth == 0 { least_shape_ratio(model.shape) } else { 0.3 };
+            relative = if depth == 0 { least_shape_ratio(model.shape) * crown::least(model) } else { 0.3 };
             length *= (next.length - next.length_v).max(0.0) * relative;
             radius = radius.min(BRANCH_RADIUS);
             if length < SAFE_SIZE {

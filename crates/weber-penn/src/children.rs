@@ -4,6 +4,7 @@
 
 use crate::budget::{CHILD_STEPS, Cause, Exceeded};
 use crate::context::{Buffers, GrowContext};
+use crate::crown;
 use crate::model::Model;
 use crate::purpose;
 use crate::radius::Profile;
@@ -69,6 +70,13 @@ pub(crate) fn collect(
         child.turtle = turtle;
         if draw.pitch != 0.0 {
             child.turtle.pitch_down(draw.pitch);
+        }
+        if stem.level == 0 && !crown::is_round(context.model) {
+            child.length *= crown::by_azimuth(context.model, child.turtle.direction);
+            if context.model.prune_ratio <= 0.0 && !child.is_made() {
+                return Ok(());
+            }
+            child.radius = child.branch_radius(context.model);
         }
         let radius_here =
             if site.fan.is_some() { bearing.radius_at(site.offset) } else { child.radius_limit };
@@ -151,7 +159,7 @@ fn length(model: &Model, stem: &StemSpec, child_length: f64, offset: f64) -> f64
         // The bare base keeps its length when the trunk is pruned.
         let base = model.levels[0].base_size * stem.parent_length;
         let q = (stem.length - offset) / (stem.length - base);
-        stem.length * child_length * model.shape_ratio(q)
+        stem.length * child_length * model.shape_ratio(q) * crown::outline(model, q)
     } else {
         child_length * (stem.length - 0.7 * offset)
     };

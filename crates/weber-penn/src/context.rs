@@ -1,6 +1,7 @@
 //! What the parts of a growth share.
 
 use crate::budget::Budget;
+use crate::course::Course;
 use crate::model::Model;
 use crate::path::PathPoint;
 use crate::solid::Surroundings;
@@ -12,6 +13,8 @@ use pleach_tree::{Growth, Tree};
 pub(crate) struct GrowContext<'a> {
     pub(crate) model: &'a Model,
     pub(crate) surroundings: &'a Surroundings,
+    /// By how far the tree will be displaced once it has grown; `None` where it stays upright.
+    pub(crate) course: Option<Course>,
     pub(crate) growth: &'a Growth<'a>,
     /// Whether trunks are pruned, and not their branches alone.
     pub(crate) prunes_trunks: bool,

@@ -1,12 +1,12 @@
 //! The generator: a parameter space, what trees are pruned against, and growing.
 
+use crate::adapt::adapt;
 use crate::blame;
 use crate::grow::{Scratch, grow};
 use crate::leafless::leafless;
 use crate::model::Model;
 use crate::params::active::is_active;
 use crate::params::space;
-use crate::params::table::Id;
 use crate::solid::{Solid, Surroundings};
 use crate::spread::spreads;
 use pleach_tree::param::table::Parameters;
@@ -55,12 +55,7 @@ impl Generator for WeberPenn {
     }
 
     fn adapt(&self, values: &mut [f64], wanted: &Stature, grown: &Stature) {
-        if let Some((wanted, grown)) = wanted.thickness.zip(grown.thickness) {
-            values[Id::ratio.slot(0).index()] *= wanted / grown;
-        }
-        if let Some((wanted, grown)) = wanted.bare_height.zip(grown.bare_height) {
-            values[Id::base_size.slot(0).index()] += wanted - grown;
-        }
+        adapt(values, wanted, grown);
     }
 
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {

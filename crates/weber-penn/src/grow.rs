@@ -9,6 +9,7 @@ use crate::census;
 use crate::certain;
 use crate::children;
 use crate::context::{Buffers, GrowContext};
+use crate::course::Course;
 use crate::leaves;
 use crate::model::Model;
 use crate::path::{Forks, PathPoint, lay_out, stretch, walk};
@@ -56,7 +57,8 @@ pub(crate) fn grow(
     path.clear();
     forked_stems.clear();
     children.clear();
-    let context = GrowContext { model, surroundings, growth, prunes_trunks: true };
+    let course = Course::new(model);
+    let context = GrowContext { model, surroundings, course, growth, prunes_trunks: true };
     let root = Key::root(growth.seed);
 
     let budget = Budget::new(growth.limits, model.prune_ratio > 0.0);
@@ -66,6 +68,9 @@ pub(crate) fn grow(
     }
     if buffers.tree.stems.is_empty() {
         return Err(blame::nothing_left(model).into());
+    }
+    if let Some(course) = course {
+        course.bend(buffers.tree);
     }
     let finite = buffers.tree.knots.iter().all(|k| k.point.is_finite() && k.radius.is_finite());
     if finite { Ok(()) } else { Err(GrowError::NotFinite { what: "the position of a stem" }) }
@@ -291,7 +296,7 @@ impl GrowContext<'_> {
         stem: &StemSpec,
         first: usize,
     ) -> Result<Option<f64>, Exceeded> {
-        let Self { model, surroundings, .. } = *self;
+        let Self { model, surroundings, course, .. } = *self;
         let solids = surroundings.inside.as_ref().map_or(0, Vec::len) + surroundings.obstacles.len();
         let points = u64::from(stem.points(model));
         let judged = if stem.level == 0 { 1 } else { points };
@@ -302,7 +307,7 @@ impl GrowContext<'_> {
             let points = &buffers.path[first + 1..];
             let judged = if stem.level == 0 { &points[points.len() - 1..] } else { points };
             // From the tip, which is the most likely to stick out.
-            Ok(judged.iter().rev().all(|p| prune::fits(model, surroundings, stem.scale, p.point)))
+            Ok(judged.iter().rev().all(|p| prune::fits(model, surroundings, (course, stem.scale), p.point)))
         })
     }
 
@@ -413,8 +418,14 @@ mod tests {
         let model = Model::read(values);
         let growth = Growth::seed(seed);
         let surroundings = Surroundings::default();
-        let context =
-            GrowContext { model: &model, surroundings: &surroundings, growth: &growth, prunes_trunks: true };
+        let course = Course::new(&model);
+        let context = GrowContext {
+            model: &model,
+            surroundings: &surroundings,
+            course,
+            growth: &growth,
+            prunes_trunks: true,
+        };
         let (mut tree, mut scratch) = (Tree::default(), Scratch::default());
         let Scratch { path, forked_stems, children, sites } = &mut scratch;
         let budget = Budget::new(Limits::DEFAULT, false);

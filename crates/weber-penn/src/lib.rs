@@ -13,12 +13,15 @@
 //! ```
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
+mod adapt;
 mod blame;
 mod budget;
 mod census;
 mod certain;
 mod children;
 mod context;
+mod course;
+mod crown;
 mod family;
 mod generator;
 mod grow;

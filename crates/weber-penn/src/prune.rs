@@ -1,5 +1,6 @@
 //! Whether a point fits, and how long a stem may be (Weber and Penn 1995, §4.6).
 
+use crate::course::Course;
 use crate::model::Model;
 use crate::solid::Surroundings;
 use glam::DVec3;
@@ -9,18 +10,24 @@ const MIN_PART: f64 = 0.15;
 /// Each trial is this part of the one before.
 const SHRINK: f64 = 0.9;
 
-/// Whether `point` is inside the envelope (or one of the solids that stand for it) of a tree of
-/// scale `scale` and clear of all obstacles.
-pub(crate) fn fits(model: &Model, surroundings: &Surroundings, scale: f64, point: DVec3) -> bool {
+/// Whether `point` of an upright tree of scale `scale` is inside the envelope (or one of the solids that stand for it)
+/// and clear of all obstacles. The envelope leans with the tree on its `course`; solids do not.
+pub(crate) fn fits(
+    model: &Model,
+    surroundings: &Surroundings,
+    (course, scale): (Option<Course>, f64),
+    point: DVec3,
+) -> bool {
+    let place = course.map_or(point, |course| course.place(point));
     let inside = match &surroundings.inside {
-        Some(solids) => solids.is_empty() || solids.iter().any(|s| s.contains(point)),
+        Some(solids) => solids.is_empty() || solids.iter().any(|s| s.contains(place)),
         None => {
             let foot = scale * (1.0 - model.levels[0].base_size);
             let q = (scale - point.z) / foot;
             model.is_within_envelope(q, point.truncate().length() / scale)
         }
     };
-    inside && !surroundings.obstacles.iter().any(|s| s.contains(point))
+    inside && !surroundings.obstacles.iter().any(|s| s.contains(place))
 }
 
 /// The length that a stem of nominal length `length` is pruned to, given a test of whether it fits

@@ -45,6 +45,7 @@ export interface Parameter {
   unit: string;
   default: number[];
   search: [number, number][];
+  opt_in: boolean;
   group: string;
   first: number | null;
   choices: string[] | null;

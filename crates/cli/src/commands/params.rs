@@ -258,7 +258,8 @@ fn described(param: &Param, title: &str, default: String, searched: &str) -> Str
         }
         _ => {}
     }
-    add("searched", searched.to_owned());
+    let only = if param.opt_in { ", where the start has another value, or by name" } else { "" };
+    add("searched", format!("{searched}{only}"));
     add("source", param.source.to_string());
     lines.join("\n")
 }
@@ -311,7 +312,7 @@ fn key_as_json(key: &FileKey) -> serde_json::Value {
     json!({
         "name": key.path(), "values": 1, "kind": form.word(), "min": min, "max": max, "unit": null,
         "default": Some(default).filter(|default| *default != "none"), "search": null, "group": null, "first": null,
-        "choices": choices, "negative": null, "neutral": null, "breakpoints": null, "doc": doc, "source": null,
+        "choices": choices, "negative": null, "neutral": null, "opt_in": null, "breakpoints": null, "doc": doc, "source": null,
         "slots": null, "parameter": false, "table": key.table, "written": form.example(), "shapes": shapes,
     })
 }

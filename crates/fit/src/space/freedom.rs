@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 /// parameter (`length`), a group (`leaves`), or `level:N`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Freedom {
-    /// Only these are free; all are if the list is empty.
+    /// Only these are free. All are if the list is empty, but for [opt-in](pleach_tree::Param::opt_in) ones that the
+    /// start has at their defaults.
     pub free: Vec<String>,
     /// These keep the value of the start, whatever `free` says.
     pub fix: Vec<String>,

@@ -42,7 +42,8 @@ impl SearchSpace {
     /// Number of bits of a random tree seed.
     const SEED_BITS: u32 = 31;
 
-    /// The free slots of `generator`; all others keep the values of `base`.
+    /// The free slots of `generator`; all others keep the values of `base`. Without patterns, slots of parameters that
+    /// are [opt-in](pleach_tree::Param::opt_in) are free where `base` has other values than the defaults.
     ///
     /// Ranges are those of [`ParamSpace::search_range`], widened to hold `base`.
     ///
@@ -97,7 +98,10 @@ impl SearchSpace {
         (nuisances, usual): (Vec<Gene>, Vec<f64>),
     ) -> Result<Self, SpaceError> {
         params.check_all(base)?;
-        let is_free = free_slots(&params, freedom)?;
+        let mut is_free = free_slots(&params, freedom)?;
+        if freedom.free.is_empty() {
+            params.slots().for_each(|slot| is_free[slot.index()] &= !params.is_left_alone(base, slot));
+        }
         let genes: Vec<Gene> = params
             .slots()
             .filter(|slot| is_free[slot.index()])
@@ -377,6 +381,21 @@ mod tests {
         let wide = build(Freedom::default(), &[7.0, 0.5, 3.0]).unwrap();
         assert_eq!((wide.genes()[0].low, wide.genes()[0].high), (0.0, 7.0));
         assert!(matches!(build(Freedom::default(), &[f64::NAN, 0.5, 3.0]), Err(SpaceError::Start(_))));
+    }
+
+    #[test]
+    fn what_is_opt_in_is_searched_where_the_start_has_it() {
+        let list = pleach_tree::Param::list("b", "height", pleach_tree::Kind::real(0.0, 9.0), [1.0, 1.0]);
+        let space = params(vec![real("a", 0.0, 1.0), list.search([(0.5, 2.0)]).opt_in()]);
+        let names = |f: &Freedom, base: &[f64]| -> Vec<usize> {
+            let space = SearchSpace::from_params(space.clone(), base, f, TreeSeed::Fixed(1)).unwrap();
+            space.genes().iter().filter_map(Gene::slot).map(Slot::index).collect()
+        };
+        let all = Freedom::default();
+        assert_eq!(names(&all, &[0.5, 1.0, 1.0]), [0]);
+        assert_eq!(names(&all, &[0.5, 1.0, 1.5]), [0, 1, 2], "all of its numbers");
+        assert_eq!(names(&freedom(&["b"], &[]), &[0.5, 1.0, 1.0]), [1, 2], "by name");
+        assert_eq!(names(&freedom(&[], &["b"]), &[0.5, 1.0, 1.5]), [0]);
     }
 
     #[test]

@@ -129,6 +129,10 @@ pub struct Param {
     /// them. Beyond, a tree may look right as a silhouette and be absurd; searches go no farther,
     /// unless where they start is beyond it. Empty where the search ranges say it.
     pub plausible: Cow<'static, [(f64, f64)]>,
+    /// Whether searches leave its numbers alone unless they start from others than the defaults, or are
+    /// asked for it by name: for features that few trees have. Each number that is searched makes the
+    /// search for all others longer.
+    pub opt_in: bool,
     /// How values are compared, one for each slot.
     pub scale: Cow<'static, [Scale]>,
     /// What a small change does, one for each slot.
@@ -192,6 +196,7 @@ impl Param {
             search: Cow::Owned(vec![kind.range()]),
             kind,
             plausible: Cow::Borrowed(&[]),
+            opt_in: false,
             scale: Cow::Borrowed(&[Scale::Linear]),
             effect: Cow::Borrowed(&[Effect::Plain]),
             neutral: None,
@@ -213,6 +218,12 @@ impl Param {
     #[must_use]
     pub fn plausible(self, ranges: impl Into<Vec<(f64, f64)>>) -> Self {
         Self { plausible: Cow::Owned(ranges.into()), ..self }
+    }
+
+    /// Sets [`Param::opt_in`].
+    #[must_use]
+    pub fn opt_in(self) -> Self {
+        Self { opt_in: true, ..self }
     }
 
     /// Sets [`Param::scale`].

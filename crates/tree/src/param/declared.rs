@@ -26,6 +26,8 @@ pub struct Declared<'a> {
     pub default: Vec<f64>,
     /// The ranges that searches draw from: one for each number, or one for all.
     pub search: Vec<(f64, f64)>,
+    /// [`Param::opt_in`](super::Param::opt_in).
+    pub opt_in: bool,
     /// The group.
     pub group: &'a str,
     /// Of a choice, the number of its first name.
@@ -87,6 +89,7 @@ impl ParamSpace {
             unit: declaration.unit,
             default: declaration.default.to_vec(),
             search: declaration.search.to_vec(),
+            opt_in: declaration.opt_in,
             group: &declaration.group,
             first,
             choices,

@@ -177,6 +177,14 @@ impl ParamSpace {
         first..first + self.params[param].shape.slot_count()
     }
 
+    /// Whether a search that starts from `values` leaves the number in `slot` alone, unless it is asked for:
+    /// see [`Param::opt_in`].
+    #[must_use]
+    pub fn is_left_alone(&self, values: &[f64], slot: Slot) -> bool {
+        let param = self.info(slot).param;
+        self.params[param].opt_in && self.slots_of(param).all(|s| values[s.index()] == self.default_of(s))
+    }
+
     /// The values of a species that says nothing.
     #[must_use]
     pub fn defaults(&self) -> Vec<f64> {

@@ -73,6 +73,7 @@ impl Facts {
 
 #[cfg(test)]
 mod tests {
+    use super::super::HEIGHTS;
     use super::super::table::Id;
     use super::*;
 
@@ -125,8 +126,10 @@ mod tests {
         let space = Model::space();
         let of_levels = |range: std::ops::RangeFrom<usize>| -> Vec<String> {
             let is_level = |slot: &Slot| {
-                let is_list = matches!(space.param_of(*slot).shape, pleach_tree::param::Shape::List { .. });
-                is_list && range.contains(&space.info(*slot).index)
+                let shape = &space.param_of(*slot).shape;
+                let by_level =
+                    matches!(shape, pleach_tree::param::Shape::List { index, .. } if index == "level");
+                by_level && range.contains(&space.info(*slot).index)
             };
             space.slots().filter(is_level).map(|slot| space.slot_name(slot)).collect()
         };
@@ -136,7 +139,11 @@ mod tests {
         };
         let of_foliage =
             [names(&OF_LEAVES, 0), names(&OF_BLOSSOMS, 0), names(&[Id::leaf_bend, Id::blossom_rate], 0)];
-        let of_branches = names(&[Id::shape, Id::ratio_power, Id::leaf_blos_num], 0);
+        let of_branches = [
+            names(&[Id::shape, Id::ratio_power, Id::leaf_blos_num, Id::side, Id::crown_depth], 0),
+            (0..HEIGHTS).map(|place| Id::outline.slot_name(place)).collect(),
+        ]
+        .concat();
         let of_trunk_alone =
             [of_foliage.concat(), of_branches, names(&[Id::tropism], 2), of_levels(1..)].concat();
         assert_eq!(sorted(without(&[(Id::level_count, 0, 1.0)])), sorted(of_trunk_alone));

@@ -1,4 +1,4 @@
-//! The parameters of Appendix C, declared once and read once.
+//! The parameters of Appendix C, and of how a tree stands, declared once and read once.
 
 pub(crate) mod active;
 mod declare;
@@ -12,6 +12,8 @@ use table::Model;
 
 /// Levels of stems that parameters may differ by.
 pub(crate) const LEVELS: usize = 4;
+/// Heights of the crown's outline.
+pub(crate) const HEIGHTS: usize = 5;
 
 /// The parameter space, the same for every Weber–Penn species.
 ///

@@ -1,12 +1,12 @@
 //! The declarations: one row for each parameter, in the order of their slots.
 //!
 //! Defaults are the quaking aspen's (Hewitt 2017, §3.2); search ranges span the twenty known species
-//! with room on both sides. How a row is read: see [`pleach_tree::parameters!`].
+//! with room on both sides. The last five rows are ours: how a tree stands. How a row is read: see [`pleach_tree::parameters!`].
 
-use super::LEVELS;
 use super::active::Facts;
-use super::declare::{levels, scalar, vector};
+use super::declare::{heights, levels, scalar, stature, vector};
 use super::read::{blossom_shape, leaf_shape, segments};
+use super::{HEIGHTS, LEVELS};
 use glam::DVec3;
 use pleach_tree::leaf_shape::{BlossomShape, LeafShape};
 use pleach_tree::param::Effect::{Layout, Plain, Size, SizeJitter};
@@ -357,5 +357,46 @@ pleach_tree::parameters! {
             )
                 .search([(0.1, 1.5)])
                 .unit(Unit::Ratio).scale([Log]).neutral(0.0);
+        lean: f64 [f64::to_radians], when always =>
+            stature(
+                "lean of the trunk towards +x, with which all that it carries is displaced",
+                Kind::real(-60.0, 60.0),
+                0.0,
+            )
+                .search([(-30.0, 30.0)])
+                .unit(Unit::Degrees);
+        bow: f64 [f64::to_radians], when always =>
+            stature(
+                "by how much more the trunk leans at its top than at its foot",
+                Kind::real(-90.0, 90.0),
+                0.0,
+            )
+                .search([(-40.0, 40.0)])
+                .unit(Unit::Degrees);
+        side: f64, when Facts::has_branches =>
+            stature(
+                "one-sidedness: by which part first-level branches are longer towards +x and shorter towards -x",
+                Kind::real(-1.0, 1.0),
+                0.0,
+            )
+                .search([(-0.8, 0.8)])
+                .unit(Unit::Ratio);
+        crown_depth: f64, when Facts::has_branches =>
+            stature(
+                "depth of the crown over its width along x, by the lengths of first-level branches: 1 is round",
+                Kind::real(0.1, 1.0),
+                1.0,
+            )
+                .search([(0.4, 1.0)])
+                .unit(Unit::Ratio);
+        outline: [f64; HEIGHTS], when Facts::has_branches =>
+            heights(
+                "factors on the lengths that `shape` gives, at five places of the trunk from the bare base to the tip, \
+                 with a spline between; for `cylindrical` they are the outline itself",
+                Kind::real(0.0, 4.0),
+                1.0,
+            )
+                .search([(0.2, 2.0)])
+                .unit(Unit::Ratio);
     }
 }
