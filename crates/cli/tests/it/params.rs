@@ -3,7 +3,8 @@
 use pleach_tests::Dir;
 use serde_json::Value;
 
-const GROUPS: [&str; 8] = ["crown", "trunk", "branches", "stems", "splits", "leaves", "blossoms", "pruning"];
+const GROUPS: [&str; 9] =
+    ["crown", "trunk", "branches", "stems", "splits", "leaves", "blossoms", "pruning", "stature"];
 
 fn names(list: &Value) -> Vec<&str> {
     list.as_array().unwrap().iter().map(|entry| entry["name"].as_str().unwrap()).collect()

@@ -13,5 +13,6 @@ mod nuisances;
 mod pole;
 mod problems;
 mod same_bits;
+mod stature;
 mod stepwise;
 mod whole;
