@@ -41,7 +41,7 @@ pub(crate) fn adapt(values: &mut [f64], wanted: &Stature, grown: &Stature) {
         change(Id::bow, 0, &|_| new.bow());
     }
     let Some((wanted, grown)) = crowns else { return };
-    let moved = new.offset(wanted.height) - course.offset(wanted.height);
+    let moved = new.offset(&wanted) - course.offset(&wanted);
     let side = (wanted.middle - grown.middle - moved) / wanted.half_width;
     if side.abs() >= MIN_SIDE {
         change(Id::side, 0, &|known| (known + side).clamp(-1.0, 1.0));
@@ -90,9 +90,9 @@ impl Course {
         2.0 * math::atan(self.gain).to_degrees()
     }
 
-    /// Displacement at height `z`, over the height of the tree.
-    fn offset(&self, z: f64) -> f64 {
-        (self.foot + self.gain * z) * z
+    /// Mean displacement of `crown`, over the height of the tree.
+    fn offset(&self, crown: &Crown) -> f64 {
+        self.foot * crown.height + self.gain * crown.square
     }
 
     /// With the foot's lean changed from the second of `leans` to the first, in degrees; a trunk whose crown stands less
@@ -104,7 +104,7 @@ impl Course {
         let [wanted, grown] = [wanted, grown].map(|lean| math::tan(lean.to_radians()));
         let foot = self.foot + wanted - grown;
         let gain = crowns.map_or(self.gain, |(wanted_crown, grown_crown)| {
-            let gain = |crown: &Crown, slope: f64| (crown.middle / crown.height - slope) / crown.height;
+            let gain = |crown: &Crown, slope: f64| (crown.middle - slope * crown.height) / crown.square;
             self.gain + gain(wanted_crown, wanted) - gain(grown_crown, grown)
         });
         let most = math::tan(MAX_BOW.to_radians() / 2.0);
@@ -119,9 +119,11 @@ struct Crown {
     widths: Vec<f64>,
     /// Mean height.
     height: f64,
+    /// Mean square of the height.
+    square: f64,
     /// Mean place of its middle, towards +x from the foot.
     middle: f64,
-    /// Mean half-width. All three means are weighted by the widths.
+    /// Mean half-width. All four means are weighted by the widths.
     half_width: f64,
 }
 
@@ -141,9 +143,9 @@ impl Crown {
         let mean = |of: &dyn Fn(f64, f64, f64) -> f64| {
             rows.clone().zip(&widths).map(|((z, l, r), width)| width * of(z, *l, *r)).sum::<f64>() / area
         };
-        let (height, middle) = (mean(&|z, _, _| z), mean(&|_, l, r| (r - l) / 2.0));
-        let half_width = mean(&|_, l, r| (l + r) / 2.0);
-        (height > 0.0).then_some(Self { widths, height, middle, half_width })
+        let (height, square) = (mean(&|z, _, _| z), mean(&|z, _, _| z * z));
+        let (middle, half_width) = (mean(&|_, l, r| (r - l) / 2.0), mean(&|_, l, r| (l + r) / 2.0));
+        (height > 0.0).then_some(Self { widths, height, square, middle, half_width })
     }
 
     fn area(&self) -> f64 {

@@ -221,7 +221,7 @@ fn a_leaning_trunk_with_a_one_sided_crown_is_adapted_to_measures() {
         let side = |sign: f64| {
             (0..33)
                 .map(|row| f64::from(row) / 32.0)
-                .map(|z| if z < 0.2 { 0.0 } else { half(z) + sign * off(z) })
+                .map(move |z| if z < 0.2 { 0.0 } else { half(z) + sign * off(z) })
         };
         let crown = Some([side(-1.0).collect(), side(1.0).collect()]);
         Stature { lean: Some(lean), bare_height: Some(0.2), crown, ..Stature::default() }
