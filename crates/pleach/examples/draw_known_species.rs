@@ -10,8 +10,8 @@ use pleach::{FitSettings, GeneratorChoice};
 use std::path::Path;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let generator = GeneratorChoice::default();
-    let start = usual_start(generator).ok_or("the usual generator has species")?;
+    let generator = GeneratorChoice::Trees;
+    let start = usual_start(generator).ok_or("the usual generators have species")?;
     let guess = Origin::Guess { detect_leaves: true };
     let candidates = plan(guess, generator, &start, FitSettings::default())?.candidates;
     let bytes = draw(candidates.into_iter().map(|candidate| candidate.species))?;

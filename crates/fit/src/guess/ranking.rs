@@ -11,11 +11,9 @@ use crate::evaluator::Evaluator;
 use crate::problem::{FitProblem, Genome};
 use pleach_tree::math;
 
-/// This many times the kept trees are scored by the cost of the search, and as many of each family as are kept …
+/// This many times the kept trees are scored by the cost of the search, and of each family an equal part of them, but at
+/// least as many as are kept: the trees of a family that looks less like the goal at first may come nearer to it.
 const ALIKE: usize = 3;
-/// … or an equal part of this many times as many: where two families compete, the trees of the one that looks less like
-/// the goal at first may come nearer to it.
-const OF_ALL_FAMILIES: usize = 4;
 /// How much lower the likeness of a candidate is that is e times less probable.
 const DOUBT: f64 = 0.02;
 
@@ -50,7 +48,7 @@ pub(super) fn ranked(
         contradictions.next().is_some_and(|one| one <= least.of(context.family(*candidate)) + NO_START)
     });
     alike.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let of_each = keep.max(keep * OF_ALL_FAMILIES / least.0.len().max(1));
+    let of_each = keep.max(keep * ALIKE / least.0.len().max(1));
     let mut kept = Vec::<Alike>::new();
     let of_family =
         |kept: &[Alike], family| kept.iter().filter(|one| context.family(one.1) == family).count();
