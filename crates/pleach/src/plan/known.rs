@@ -9,8 +9,8 @@ use std::sync::atomic::AtomicBool;
 /// Made by `cargo run --release -p pleach --example draw_known_species`.
 static DRAWINGS: &[u8] = include_bytes!("known.bin");
 
-/// A library of first guesses that knows how the species of the usual generator look: it grows them only for goals
-/// that were taken from elsewhere than the front or are not compared at 129 to 256 pixels, and where seeds are not
+/// A library of first guesses that knows how the species of Weber and Penn's and of the space-colonisation generator look:
+/// it grows them only for goals that were taken from elsewhere than the front or are not compared at 129 to 256 pixels, and where seeds are not
 /// the usual ones.
 ///
 /// # Panics
