@@ -135,6 +135,12 @@ impl Bitmap {
         self.words.iter_mut().zip(&other.words).for_each(|(word, more)| *word |= more);
     }
 
+    /// Takes away the ink that `other`, of the same size, has too.
+    pub(crate) fn subtract(&mut self, other: &Self) {
+        debug_assert_eq!((self.width, self.height), (other.width, other.height), "pictures of one size");
+        self.words.iter_mut().zip(&other.words).for_each(|(word, less)| *word &= !less);
+    }
+
     fn count_pairs(&self, other: &Self, combine: impl Fn(u64, u64) -> u64) -> u64 {
         assert_eq!((self.width, self.height), (other.width, other.height), "pictures of one size");
         let pairs = self.words.iter().zip(&other.words);

@@ -123,6 +123,32 @@ fn inked(ink: &Bitmap, grounds: &Bitmap) -> Vec<((u32, u32), u64)> {
     found
 }
 
+/// The pieces of ink: where each begins, in rows from the top; its first column and row and its last ones; and its ink.
+pub(crate) fn boxes(ink: &Bitmap) -> Vec<((u32, u32), (u32, u32, u32, u32), u64)> {
+    let mut seen = Bitmap::new(ink.width(), ink.height());
+    let mut found = Vec::new();
+    for y in 0..ink.height() {
+        for x in ink.ink_in_row(y) {
+            if !seen.get(x, y) {
+                let (mut around, mut count) = ((x, y, x, y), 0);
+                flood(
+                    |x, y| ink.get(x, y),
+                    (x, y),
+                    true,
+                    &mut seen,
+                    |x, y| {
+                        let (left, top, right, bottom) = around;
+                        around = (left.min(x), top.min(y), right.max(x), bottom.max(y));
+                        count += 1;
+                    },
+                );
+                found.push(((x, y), around, count));
+            }
+        }
+    }
+    found
+}
+
 /// Of the pieces of `grounds`, the one that holds `start`, or else the one with the most ink: its
 /// ink. `None` if `start` lies outside `grounds`, or there is no ink.
 pub(crate) fn piece(ink: &Bitmap, grounds: &Bitmap, start: Option<(u32, u32)>) -> Option<Bitmap> {

@@ -60,6 +60,26 @@ fn a_shaded_tree_comes_out_of_its_photograph() {
     }
 }
 
+/// `render` draws the tree's shadow on the floor.
+#[test]
+fn the_shadow_below_a_rendered_tree_is_not_tree() {
+    let dir = Dir::new();
+    for species in ["quaking_aspen", "black_tupelo"] {
+        let render = ["render", species, "--size", "320", "--quiet"];
+        let _ = dir.run([&render[..], &["-o", "photo.png"]].concat()).ok();
+        let alone = ["--background", "transparent", "--ground", "none", "-o", "tree.png"];
+        let _ = dir.run([&render[..], &alone].concat()).ok();
+        let tree = image::open(dir.path("tree.png")).unwrap().to_rgba8();
+        let ink = |x, y| Rgb([if tree.get_pixel(x, y)[3] >= 128 { 0 } else { 255 }; 3]);
+        RgbImage::from_fn(320, 320, ink).save(dir.path("truth.png")).unwrap();
+        for way in [&["--background", "auto"][..], &["--box", "60,5,255,310"]] {
+            let _ = dir.run([&["mask", "photo.png", "-o", "mask.png"], way].concat()).ok();
+            let found = iou(&dir, "mask.png", "truth.png");
+            assert!(found >= 0.88, "{species}, {way:?}: {found:.3}");
+        }
+    }
+}
+
 #[test]
 fn what_was_found_is_there_as_json() {
     let dir = Dir::new();

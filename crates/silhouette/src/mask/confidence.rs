@@ -65,6 +65,11 @@ impl Evidence {
         Self { foot: 0.0, dropped: 0.0, spans: false, ..self }
     }
 
+    /// The same of a tree in a box that a person dragged: where that ends with the picture, the tree is known to.
+    pub(super) const fn of_a_box(self) -> Self {
+        Self { edge: 0.0, foot: 0.0, spans: false, ..self }
+    }
+
     /// All of it in one number, in 0..=1.
     pub(super) fn confidence(self) -> f64 {
         let against = 1.0 - (4.0 * self.edge).min(1.0);

@@ -10,6 +10,7 @@
 //!    and continued behind the tree; colours are compared in Oklab.
 //! 4. What is farther from it than Otsu's threshold on that distance, and than half of what is usual
 //!    for the tree around, stands out.
+//!    What has the ground's hue, is darker, wide and flat, and lies low is the tree's shadow (`shadow.rs`).
 //! 5. Specks go. Of the pieces that are left, those near to each other belong together: leaves that
 //!    hang apart from the crown are tree. The largest is the tree, or the one at the seed point.
 //! 6. Small holes are filled, such as glints on leaves; the sky between leaves stays.
@@ -38,6 +39,7 @@ mod region;
 #[cfg(test)]
 mod region_tests;
 mod score;
+mod shadow;
 #[cfg(test)]
 mod tests;
 mod trunk;
@@ -246,7 +248,9 @@ impl Mask {
             // Each with what it is chosen by.
             let mut all: Vec<(f64, Self)> = best.into_iter().map(|mask| (mask.confidence, mask)).collect();
             for region in [guess::middle(photo)].into_iter().chain(guess).filter(|_| is_seen) {
-                if let Ok(mask) = Self::from_seeds(photo, &Seeds::guessed(region, photo), options) {
+                if let Ok(mask) =
+                    Self::from_seeds(photo, &Seeds::guessed(region, photo), options, Evidence::confidence)
+                {
                     let (score, confidence) = guess::score(mask.confidence, &mask.bitmap, &region, by_colors);
                     all.push((score, Self { confidence, ..mask }));
                 }
@@ -264,27 +268,34 @@ impl Mask {
     /// Evidence says 0.94 of masks of which nine in ten have an IoU of 0.9 with the truth (the example `composites`,
     /// pictures 0 to 37): its square is what can be believed.
     fn from_cut(photo: &Photo, shown: &Shown, options: &MaskOptions) -> Result<Self, MaskError> {
-        let made = Self::from_seeds(photo, &Seeds::shown(shown, photo), options)?;
+        let judge = |evidence: Evidence| evidence.of_a_box().confidence();
+        let made = Self::from_seeds(photo, &Seeds::shown(shown, photo), options, judge)?;
         Ok(Self { confidence: made.confidence * made.confidence, ..made })
     }
 
-    fn from_seeds(photo: &Photo, seeds: &Seeds<'_>, options: &MaskOptions) -> Result<Self, MaskError> {
+    fn from_seeds(
+        photo: &Photo,
+        seeds: &Seeds<'_>,
+        options: &MaskOptions,
+        judge: impl Fn(Evidence) -> f64,
+    ) -> Result<Self, MaskError> {
         let none = MaskError::NoTree { why: "nothing in the box differs from what is around it" };
         let converter = Converter::new();
         let cut = Cut::new(photo, &converter, seeds).ok_or(none)?;
         let foreground = refine::refined(photo, &converter, &cut, seeds);
-        Self::with_pieces(&foreground, options, seeds.include)
+        Self::with_pieces(&foreground, options, seeds.include, judge)
     }
 
     fn by_color(foreground: &Foreground, options: &MaskOptions) -> Result<Self, MaskError> {
-        Self::with_pieces(foreground, options, None)
+        Self::with_pieces(foreground, options, None, Evidence::confidence)
     }
 
-    /// The largest piece, and all that were marked.
+    /// The largest piece, and all that were marked, with what `judge` makes of the evidence.
     fn with_pieces(
         foreground: &Foreground,
         options: &MaskOptions,
         marked: Option<&Bitmap>,
+        judge: impl Fn(Evidence) -> f64,
     ) -> Result<Self, MaskError> {
         let (width, height) = (foreground.ink.width(), foreground.ink.height());
         let ink = pieces::without_specks(&foreground.ink, foreground.ink.area() / SPECK);
@@ -307,7 +318,7 @@ impl Mask {
         check(&bitmap)?;
         let largest = options.fill_holes.unwrap_or(bitmap.area() / HOLE);
         let filled = pieces::fill_holes(&mut bitmap, largest);
-        let confidence = Evidence::new(&bitmap, foreground).confidence();
+        let confidence = judge(Evidence::new(&bitmap, foreground));
         Ok(Self {
             touches: touches(&bitmap),
             warnings: Vec::new(),

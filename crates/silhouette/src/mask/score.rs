@@ -4,6 +4,7 @@ use super::backdrop::{Backdrop, Sample};
 use super::horizon::{Horizon, StepThreshold};
 use super::oklab::{Converter, Oklab};
 use super::photo::Photo;
+use super::shadow;
 use super::{Background, MaskError, Segmentation};
 use crate::bitmap::Bitmap;
 use crate::goal::ink::otsu;
@@ -84,6 +85,7 @@ fn foreground(frame: &PhotoFrame<'_>, horizon: Option<Horizon>) -> Result<Foregr
 
     let mut levels = Vec::with_capacity(width as usize * height as usize);
     let mut histogram = [0_u64; 256];
+    let mut shade = Bitmap::new(width, height);
     for y in 0..height {
         for x in 0..width {
             let color = frame.converter.oklab(photo.rgb(x, y));
@@ -98,6 +100,11 @@ fn foreground(frame: &PhotoFrame<'_>, horizon: Option<Horizon>) -> Result<Foregr
                 _ => above.spreads(less(color, above.color(at))),
             };
             let level = (LEVELS * distance).min(255.0) as u8;
+            if distance > LOOSE * MIN_DISTANCE {
+                let ground = below.as_ref().filter(|_| depth > 0.0).unwrap_or(&above);
+                let spreads = |difference| ground.spreads(difference);
+                shade.set(x, y, shadow::is_shade(color.map(f64::from), ground.color(at), spreads));
+            }
             // Trunk and lawn say nothing about crown and sky.
             if depth <= 0.0 {
                 histogram[usize::from(level)] += 1;
@@ -117,7 +124,9 @@ fn foreground(frame: &PhotoFrame<'_>, horizon: Option<Horizon>) -> Result<Foregr
             levels[y as usize * row + x as usize] > least.min(MAX_LEVEL)
         })
     };
-    let (ink, firm, loose) = (beyond(1.0), beyond(FIRM), beyond(LOOSE));
+    let (mut ink, mut firm, mut loose) = (beyond(1.0), beyond(FIRM), beyond(LOOSE));
+    let shadow = shadow::on_ground(&ink, &shade);
+    [&mut ink, &mut firm, &mut loose].into_iter().for_each(|map| map.subtract(&shadow));
     let segmentation = Segmentation::Color { threshold: f64::from(level) / LEVELS, horizon };
     Ok(Foreground { ink, horizon, segmentation, firm, loose })
 }
