@@ -1,13 +1,16 @@
-//! Readings of grown trees against their skeletons: `cargo run --release -p pleach-reading --example judge -- [SEEDS]
-//! [MODELS [CSV [FOLDER]]]`.
+//! Readings of grown trees against their skeletons, and the models of confidence that follow from them.
+//!
+//! ```text
+//! cargo run --release -p pleach-experiments --example calibrate_reading -- [SEEDS [MODELS [CSV [FOLDER]]]]
+//! ```
 //!
 //! Grows species of all five families, leafy and bare, upright, leaned by up to 20°, and as clumps of two to four,
 //! draws them at 256 pixels (some at 600), and reads the pictures. Constants are tuned on even seeds; odd seeds judge.
 //! The table says which part of the readings is right, and for each class of confidence how many of its readings
 //! are; the same for ragged masks of the same trees, as they are cut out of photographs. No photograph takes part. To
-//! MODELS goes `src/confidence/models.rs`, fitted to the even seeds. The CSV has a row per picture with what confidences
-//! are made from. Pictures with a wrong measure go to the folder, with the reading on the left and the truth on the
-//! right.
+//! MODELS goes `crates/reading/src/confidence/models.rs`, fitted to the even seeds. The CSV has a row per picture with
+//! what confidences are made from. Pictures with a wrong measure go to the folder, with the reading on the left and the
+//! truth on the right.
 #![allow(clippy::print_stdout, reason = "it is a program")]
 #![allow(clippy::unwrap_used, reason = "a program for engineers")]
 
@@ -197,7 +200,7 @@ const SPARSE_WEIGHT: f64 = 3.0;
 
 /// Models of these outcomes, as a source file.
 fn models(outcomes: &[&Outcome], judged: &[&Outcome]) -> String {
-    let mut text = "//! Logistic models of what was read on grown trees: fitted by ridge regression, from what the example \
+    let mut text = "//! Logistic models of what was read on grown trees: fitted by ridge regression, from what the example\n//! \
         `calibrate_reading` of `pleach-experiments` measures,\n//! to the even seeds, as drawn and as ragged masks.\n\nuse super::logistic::Logistic;\n"
         .to_owned();
     for (name, measure, what) in MODELS {
