@@ -266,8 +266,9 @@ fn cut_off(scene: &Scene) -> Option<Scene> {
     let (left, _, right, _) = scene.truth.ink_box()?;
     let gap = (right - left) / 12;
     let (first, end) = (left + gap, right + 1 - gap);
+    let pixels = scene.photo.pixels();
     let photo = Photo::from_fn(end - first, HEIGHT, |x, y| {
-        let [r, g, b] = scene.photo.rgb(first + x, y);
+        let [r, g, b, _] = pixels[(y * scene.truth.width() + first + x) as usize];
         [r, g, b, 255]
     });
     let truth = Bitmap::from_fn(end - first, HEIGHT, |x, y| scene.truth.get(first + x, y));
