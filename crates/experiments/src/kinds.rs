@@ -4,6 +4,7 @@ use super::families::FamiliesSpec;
 use super::individual::IndividualSpec;
 use super::likeness::LikenessSpec;
 use super::needle::NeedleSpec;
+use super::photographs::PhotographsSpec;
 use super::reading::ReadingSpec;
 use super::robustness::RobustnessSpec;
 use super::rules::RulesSpec;
@@ -28,6 +29,7 @@ pub(super) enum Spec {
     Yao(YaoSpec),
     Stylised(StylisedSpec),
     Reading(ReadingSpec),
+    Photographs(PhotographsSpec),
 }
 
 impl Spec {
@@ -45,6 +47,7 @@ impl Spec {
             Kind::Robustness => Self::Robustness(source.parse::<RobustnessSpec>()?.checked(source)?),
             Kind::Rules => Self::Rules(source.parse::<RulesSpec>()?.checked(source)?),
             Kind::Yao => Self::Yao(source.parse::<YaoSpec>()?.checked(source)?),
+            Kind::Photographs => Self::Photographs(source.parse::<PhotographsSpec>()?.checked(source)?),
             Kind::Reading => Self::Reading(source.parse::<ReadingSpec>()?.checked(source)?),
             Kind::Stylised => Self::Stylised(source.parse::<StylisedSpec>()?.checked(source)?),
         })

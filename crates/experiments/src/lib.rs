@@ -16,6 +16,7 @@ mod list;
 mod needle;
 mod outputs;
 mod part;
+mod photographs;
 mod pictured;
 mod plot;
 mod reading;
@@ -61,6 +62,7 @@ impl Spec {
             Self::Families(spec) => spec,
             Self::Stylised(spec) => spec,
             Self::Reading(spec) => spec,
+            Self::Photographs(spec) => spec,
         }
     }
 }

@@ -42,6 +42,8 @@ pub(super) enum Kind {
     Stylised,
     /// What is read in pictures of grown trees.
     Reading,
+    /// Whole fits of pictures of real trees.
+    Photographs,
 }
 
 impl Kind {
@@ -61,6 +63,7 @@ impl Kind {
             Self::Yao => "yao",
             Self::Stylised => "stylised",
             Self::Reading => "reading",
+            Self::Photographs => "photographs",
         }
     }
 }
