@@ -102,7 +102,7 @@ mod tests {
         assert!(
             read("picture,kind,tree\noak,3,6\n").unwrap_err().contains("6, expected a number from 0 to 5")
         );
-        assert!(read("picture,kind\noak,3\n").unwrap_err().contains("tree"));
+        assert!(read("picture,kind,looks\noak,3,3\n").unwrap_err().contains("looks"));
         std::fs::remove_file(path(folder.path())).unwrap();
         assert_eq!(super::read(folder.path(), &names).unwrap(), []);
     }

@@ -9,12 +9,13 @@ use pleach_console::output;
 type Column = fn(&Row) -> Option<f64>;
 
 /// What medians are taken of: name, decimals, value. Of ratios it is the factor by which they are off, either way.
-const SHOWN: [(&str, usize, Column); 11] = [
+const SHOWN: [(&str, usize, Column); 12] = [
     ("IoU", 3, |row| Some(row.iou.0)),
     ("crown IoU", 3, |row| Some(row.crown_iou.0)),
     ("left off", 3, |row| Some(row.left_off.0)),
     ("right off", 3, |row| Some(row.right_off.0)),
     ("boundary F", 3, |row| Some(row.boundary_f.0)),
+    ("crown F", 3, |row| Some(row.crown_f.0)),
     ("likeness", 3, |row| Some(row.likeness.0)),
     ("width ×", 2, |row| Some(factor(row.width.0))),
     ("trunk ×", 2, |row| Some(factor(row.trunk?.0))),
@@ -24,10 +25,11 @@ const SHOWN: [(&str, usize, Column); 11] = [
 ];
 
 /// What a person's scores are compared with: name, value of a row.
-const AGREE: [(&str, Column); 6] = [
+const AGREE: [(&str, Column); 7] = [
     ("IoU", |row| Some(row.iou.0)),
     ("crown IoU", |row| Some(row.crown_iou.0)),
     ("boundary F", |row| Some(row.boundary_f.0)),
+    ("crown F", |row| Some(row.crown_f.0)),
     ("likeness", |row| Some(row.likeness.0)),
     ("verdict", |row| rank(if row.which == Which::Kind { &row.kind_verdict } else { &row.tree_verdict })),
     ("share", |row| Some(row.share?.0)),

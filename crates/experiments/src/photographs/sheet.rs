@@ -6,7 +6,7 @@ use anyhow::Context;
 use image::imageops::{self, FilterType};
 use image::{Rgba, RgbaImage};
 use pleach_mesh::Palette;
-use pleach_render::preview::Background;
+use pleach_render::preview::{Background, Ground};
 use pleach_render::{Picture as Shaded, Preview, PreviewSettings};
 use pleach_silhouette::mask::Photo;
 use pleach_silhouette::picture::{Picture, sheet_of_pictures};
@@ -87,6 +87,7 @@ fn shaded(species: &Species, seed: u64) -> anyhow::Result<Picture> {
         height: SIZE,
         elevation: 0.0,
         background: Background::Plain(Color([255; 3])),
+        ground: Ground::None,
         ..PreviewSettings::default()
     };
     let picture = Preview::new(&tree, &palette, SIZE).picture(&settings);

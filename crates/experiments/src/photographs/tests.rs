@@ -12,14 +12,14 @@ fn draw(path: &Path) {
     let species = pleach_generators::species("apple").unwrap();
     let tree = species.grow(3).unwrap();
     let settings = PreviewSettings {
-        width: 160,
-        height: 160,
+        width: 256,
+        height: 256,
         elevation: 0.0,
         background: Background::Transparent,
         ground: Ground::None,
         ..PreviewSettings::default()
     };
-    let picture = Preview::new(&tree, &Palette::new(&species.appearance, None), 160).picture(&settings);
+    let picture = Preview::new(&tree, &Palette::new(&species.appearance, None), 256).picture(&settings);
     picture.write_png(&mut std::fs::File::create(path).unwrap()).unwrap();
 }
 
@@ -34,7 +34,7 @@ fn a_picture_in_colour_is_fitted_measured_and_scored() {
         std::fs::write(here("experiment.toml"), text).unwrap();
     };
     let said = |part: &Part| run(folder.path(), part).map_err(|error| format!("{error:#}"));
-    spec("evaluations = 2");
+    spec("seconds = 1.5");
     assert!(said(&Part::default()).unwrap_err().contains("no such file"));
     draw(&here("apple.png"));
     assert!(said(&Part::default()).unwrap().contains("kinds of judged: 1 "));
