@@ -72,7 +72,14 @@ fn the_shadow_below_a_rendered_tree_is_not_tree() {
         let tree = image::open(dir.path("tree.png")).unwrap().to_rgba8();
         let ink = |x, y| Rgb([if tree.get_pixel(x, y)[3] >= 128 { 0 } else { 255 }; 3]);
         RgbImage::from_fn(320, 320, ink).save(dir.path("truth.png")).unwrap();
-        for way in [&["--background", "auto"][..], &["--box", "60,5,255,310"]] {
+        let inked = |at: &(u32, u32)| tree.get_pixel(at.0, at.1)[3] >= 128;
+        let all: Vec<(u32, u32)> =
+            (0..320).flat_map(|y| (0..320).map(move |x| (x, y))).filter(inked).collect();
+        let range = |values: Vec<u32>| (*values.iter().min().unwrap(), *values.iter().max().unwrap());
+        let (left, right) = range(all.iter().map(|at| at.0).collect());
+        let (top, bottom) = range(all.iter().map(|at| at.1).collect());
+        let tight = format!("{left},{top},{},{}", right + 1 - left, bottom + 1 - top);
+        for way in [["--background", "auto"], ["--box", &tight]] {
             let _ = dir.run([&["mask", "photo.png", "-o", "mask.png"], way].concat()).ok();
             let found = iou(&dir, "mask.png", "truth.png");
             assert!(found >= 0.88, "{species}, {way:?}: {found:.3}");

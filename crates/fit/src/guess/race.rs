@@ -12,8 +12,8 @@ use crate::control::{Budget, Control, StopReason};
 use crate::error::FitError;
 use crate::method::Start;
 use crate::problem::{FitProblem, with_values};
-use crate::run::FitSettings;
-use crate::run::fit;
+use crate::registration::{Closeness, with_registered_frames};
+use crate::run::{FitSettings, evaluator_in, fit, search_space};
 use crate::space::SpaceError;
 use std::time::Duration;
 
@@ -30,6 +30,8 @@ pub(super) struct Contender {
     pub(super) found: Option<Guess>,
     /// Likeness of the tree of its family that is most like the goal.
     likeness: f64,
+    /// The goals as its first list lies on them, where that matters.
+    registered: Option<FitProblem>,
 }
 
 /// Weight of the likeness before any search, against the cost that a search reaches.
@@ -85,7 +87,7 @@ pub(super) fn contenders(
             Some(_) => {}
             None => {
                 let (likeness, lists) = (likeness(candidate), vec![guess]);
-                all.push(Contender { model, candidate, lists, found: None, likeness });
+                all.push(Contender { model, candidate, lists, found: None, likeness, registered: None });
             }
         }
     }
@@ -111,6 +113,12 @@ pub(super) fn race(
     mut progress: impl FnMut(usize, usize),
 ) -> Result<Vec<Contender>, FitError> {
     let mut all = entered(context, race.runners, all);
+    if race.criterion == RaceCriterion::Cost {
+        for one in &mut all {
+            interrupt::check(context.stop)?;
+            one.registered = Some(registered(problem, context, one)?);
+        }
+    }
     let mut running = all.len();
     for evaluations in [race.evaluations / ROUNDS, race.evaluations] {
         for (number, one) in all[..running].iter_mut().enumerate() {
@@ -146,6 +154,30 @@ fn entered(context: &GoalContext<'_>, room: usize, mut all: Vec<Contender>) -> V
     all
 }
 
+/// `problem` from the first list of `one`.
+fn of_contender(
+    problem: &FitProblem,
+    context: &GoalContext<'_>,
+    one: &Contender,
+) -> Result<FitProblem, FitError> {
+    let start = with_values(&context.candidates[one.candidate].species, one.lists[0].values.clone());
+    Ok(FitProblem { start: start.map_err(SpaceError::Start)?, ..problem.clone() })
+}
+
+/// The same with frames as its tree lies in them best: a crown that stands a little beside its goal costs as much as
+/// another crown.
+fn registered(
+    problem: &FitProblem,
+    context: &GoalContext<'_>,
+    one: &Contender,
+) -> Result<FitProblem, FitError> {
+    let problem = of_contender(problem, context, one)?;
+    let Ok(space) = search_space(&problem, context.settings) else { return Ok(problem) };
+    let genome = space.individual(&one.lists[0].values, context.settings.seed);
+    let evaluator = evaluator_in(&space, &problem, context.settings)?;
+    Ok(with_registered_frames(&problem, &evaluator, &genome, Closeness::Search))
+}
+
 /// The result of a short search from the lists of `one`, if it is better than all of them.
 fn search(
     problem: &FitProblem,
@@ -154,8 +186,10 @@ fn search(
     one: &Contender,
 ) -> Result<Option<Guess>, FitError> {
     let best = &one.lists[0];
-    let start = with_values(&context.candidates[one.candidate].species, best.values.clone());
-    let problem = FitProblem { start: start.map_err(SpaceError::Start)?, ..problem.clone() };
+    let problem = match &one.registered {
+        Some(registered) => registered.clone(),
+        None => of_contender(problem, context, one)?,
+    };
     let evaluations = context.settings.budget.evaluations.map_or(evaluations, |n| n.min(evaluations)).max(1);
     let settings = FitSettings {
         start: Start::Lists(one.lists.iter().map(|guess| guess.values.clone()).collect()),

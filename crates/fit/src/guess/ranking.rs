@@ -45,7 +45,7 @@ pub(super) fn ranked(
     // Where some tree of a family does not contradict the goal, no search of the family starts from one that does.
     let mut contradictions = contradictions.into_iter();
     alike.retain(|(_, candidate, _)| {
-        contradictions.next().is_some_and(|one| one <= least.of(context.family(*candidate)) + NO_START)
+        contradictions.next().is_some_and(|one| one <= least.get(context.family(*candidate)) + NO_START)
     });
     alike.sort_by(|a, b| a.0.total_cmp(&b.0));
     let of_each = keep.max(keep * ALIKE / least.0.len().max(1));
@@ -72,7 +72,7 @@ impl Least {
         }
     }
 
-    fn of(&self, family: &str) -> f64 {
+    fn get(&self, family: &str) -> f64 {
         self.0.iter().find(|(known, _)| *known == family).map_or(f64::INFINITY, |(_, least)| *least)
     }
 }

@@ -111,7 +111,6 @@ impl FitDrawing<'_> {
         let [stems, all] = self.inks(tree);
         let share = if all > 0.0 { 1.0 - stems / all } else { 0.0 };
         (reading.foliage_share, reading.foliage_share_confidence) = (Some(share), 1.0);
-        (reading.leaves, reading.leaves_confidence) = (share > 0.0, 1.0);
         reading
     }
 

@@ -28,7 +28,7 @@ pub(super) fn words(measure: Measure, goal: &Reading, tree: &Reading, trunks: Op
         Measure::Leaves => {
             let state = |leaves: bool| if leaves { "in leaf" } else { "bare" };
             let shares = goal.foliage_share.zip(tree.foliage_share);
-            Some(match shares.filter(|_| goal.leaves == tree.leaves) {
+            Some(match shares {
                 Some((goal, fit)) if fit < goal => "less foliage than in the picture".to_owned(),
                 Some(_) => "more foliage than in the picture".to_owned(),
                 None => format!("{} in the picture, {} in the fit", state(goal.leaves), state(tree.leaves)),
