@@ -80,7 +80,7 @@ fn the_shadow_below_a_rendered_tree_is_not_tree() {
         let (top, bottom) = range(all.iter().map(|at| at.1).collect());
         let tight = format!("{left},{top},{},{}", right + 1 - left, bottom + 1 - top);
         for way in [["--background", "auto"], ["--box", &tight]] {
-            let _ = dir.run([&["mask", "photo.png", "-o", "mask.png"], way].concat()).ok();
+            let _ = dir.run([&["mask", "photo.png", "-o", "mask.png"][..], &way[..]].concat()).ok();
             let found = iou(&dir, "mask.png", "truth.png");
             assert!(found >= 0.88, "{species}, {way:?}: {found:.3}");
         }
