@@ -8,7 +8,7 @@ use pleach_reading::Reading;
 use pleach_silhouette::score::ScoreCard;
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use pleach_tree::param::SlotError;
-use pleach_tree::{GrowError, Growth, Limits, Species, Tree};
+use pleach_tree::{Foliage, GrowError, Growth, Limits, Species, Tree};
 
 /// A tree that a fit has found.
 #[derive(Clone, Debug)]
@@ -108,18 +108,11 @@ impl FitDrawing<'_> {
     /// What is in `silhouette`, a picture of `tree`.
     pub(super) fn measures(&self, tree: &Tree, silhouette: &Bitmap) -> Reading {
         let mut reading = Reading::from_silhouette(silhouette);
-        let [stems, all] = self.inks(tree);
-        let share = if all > 0.0 { 1.0 - stems / all } else { 0.0 };
+        let (mut stems, all) = (Bitmap::default(), silhouette.ink() as f64);
+        Rasterizer::new().draw(tree, &self.prepared.view, &self.frame(), Foliage::None.into(), &mut stems);
+        let share = if all > 0.0 { (1.0 - stems.ink() as f64 / all).max(0.0) } else { 0.0 };
         (reading.foliage_share, reading.foliage_share_confidence) = (Some(share), 1.0);
         reading
-    }
-
-    /// Ink of the stems of `tree` and of all of it, as the goal is seen.
-    fn inks(&self, tree: &Tree) -> [f64; 2] {
-        let (mut stems, mut all) = (Bitmap::default(), Bitmap::default());
-        let (view, frame, parts) = (&self.prepared.view, self.frame(), self.problem.foliage.into());
-        Rasterizer::new().draw_with_stems(tree, view, &frame, parts, [&mut stems, &mut all]);
-        [stems.ink() as f64, all.ink() as f64]
     }
 
     /// `tree` from `view` in `frame`.

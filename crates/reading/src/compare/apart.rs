@@ -50,50 +50,53 @@ pub(super) fn apart<'a>(
     trunks: Option<u32>,
 ) -> impl Iterator<Item = Apart> + 'a {
     let within = |a: Option<f64>, b: Option<f64>, tolerance: f64| Some((a? - b?).abs() / tolerance);
+    let one = |measure, size: Option<f64>, goal: f64, tree: f64| {
+        size.map(|size| Apart { measure, size, confidence: [goal, tree] })
+    };
+    let gaps = [goal.gap_share_confidence, tree.gap_share_confidence];
+    let by_height = mean_apart(goal.gap_by_height.iter().zip(&tree.gap_by_height));
     [
         feet(goal, tree, trunks),
         width(goal, tree, trunks),
-        within(goal.lean_deg, tree.lean_deg, LEAN).map(|size| Apart {
-            measure: Measure::Lean,
-            size,
-            confidence: [goal.lean_deg_confidence, tree.lean_deg_confidence],
-        }),
-        within(goal.first_fork, tree.first_fork, FORK).map(|size| Apart {
-            measure: Measure::FirstFork,
-            size,
-            confidence: [goal.first_fork_confidence, tree.first_fork_confidence],
-        }),
+        one(
+            Measure::Lean,
+            within(goal.lean_deg, tree.lean_deg, LEAN),
+            goal.lean_deg_confidence,
+            tree.lean_deg_confidence,
+        ),
+        one(
+            Measure::FirstFork,
+            within(goal.first_fork, tree.first_fork, FORK),
+            goal.first_fork_confidence,
+            tree.first_fork_confidence,
+        ),
         Some(leaves(goal, tree)),
-        within(goal.bare_height, tree.bare_height, BARE).map(|size| Apart {
-            measure: Measure::BareHeight,
-            size,
-            confidence: [goal.bare_height_confidence, tree.bare_height_confidence],
-        }),
-        within(goal.asymmetry, tree.asymmetry, ASYMMETRY).map(|size| Apart {
-            measure: Measure::Asymmetry,
-            size,
-            confidence: [goal.asymmetry_confidence, tree.asymmetry_confidence],
-        }),
-        outline(goal, tree).map(|off| Apart {
-            measure: Measure::Crown,
-            size: off / OUTLINE,
-            confidence: [goal.crown_confidence, tree.crown_confidence],
-        }),
-        within(goal.gap_share, tree.gap_share, GAPS).map(|size| Apart {
-            measure: Measure::GapShare,
-            size,
-            confidence: [goal.gap_share_confidence, tree.gap_share_confidence],
-        }),
-        mean_apart(goal.gap_by_height.iter().zip(&tree.gap_by_height)).map(|off| Apart {
-            measure: Measure::GapsByHeight,
-            size: off / GAPS_BY_HEIGHT,
-            confidence: [goal.gap_share_confidence, tree.gap_share_confidence],
-        }),
-        grain(goal, tree).map(|off| Apart {
-            measure: Measure::Grain,
-            size: off / GRAIN,
-            confidence: [goal.grain_confidence, tree.grain_confidence],
-        }),
+        one(
+            Measure::BareHeight,
+            within(goal.bare_height, tree.bare_height, BARE),
+            goal.bare_height_confidence,
+            tree.bare_height_confidence,
+        ),
+        one(
+            Measure::Asymmetry,
+            within(goal.asymmetry, tree.asymmetry, ASYMMETRY),
+            goal.asymmetry_confidence,
+            tree.asymmetry_confidence,
+        ),
+        one(
+            Measure::Crown,
+            outline(goal, tree).map(|off| off / OUTLINE),
+            goal.crown_confidence,
+            tree.crown_confidence,
+        ),
+        one(Measure::GapShare, within(goal.gap_share, tree.gap_share, GAPS), gaps[0], gaps[1]),
+        one(Measure::GapsByHeight, by_height.map(|off| off / GAPS_BY_HEIGHT), gaps[0], gaps[1]),
+        one(
+            Measure::Grain,
+            grain(goal, tree).map(|off| off / GRAIN),
+            goal.grain_confidence,
+            tree.grain_confidence,
+        ),
     ]
     .into_iter()
     .flatten()
@@ -115,7 +118,8 @@ fn feet(goal: &Reading, tree: &Reading, known: Option<u32>) -> Option<Apart> {
 fn leaves(goal: &Reading, tree: &Reading) -> Apart {
     let measure = Measure::Leaves;
     if let Some((wanted, grown)) = goal.foliage_share.zip(tree.foliage_share) {
-        let size = if grown < wanted { (wanted - HIDDEN - grown).max(0.0) } else { grown - wanted } / FOLIAGE;
+        let off = if grown < wanted { (wanted - HIDDEN - grown).max(0.0) } else { grown - wanted };
+        let size = off / FOLIAGE;
         let confidence = [goal.foliage_share_confidence, tree.foliage_share_confidence];
         return Apart { measure, size, confidence };
     }

@@ -47,8 +47,8 @@ impl Measure {
         matches!(self, Self::Feet | Self::Width | Self::BareHeight)
     }
 
-    /// Whether trees of one species and one season are alike in it, or nearly so: those of its species, and what the crown
-    /// is like. How a single tree leans or forks and which side of it is heavier is its own.
+    /// Whether trees of one species and one season are alike in it, or nearly so: those of its species, and what the
+    /// crown is like. How a single tree leans or forks and which side of it is heavier is its own.
     #[must_use]
     pub const fn is_of_kind(self) -> bool {
         self.is_of_species() || matches!(self, Self::Leaves | Self::Crown | Self::GapsByHeight | Self::Grain)
@@ -135,9 +135,9 @@ impl Reading {
     /// How far `tree` stands from `self`, its goal, in 0..=1: 0 where nothing is different, and 1 where everything is and
     /// the goal's reading is sure. `trunks` as in [`Reading::differences_from`].
     ///
-    /// Each measure counts by its weight and by how far the confidence of the goal's reading is above 0.4: s/(1 + s) of it,
-    /// where s is the difference in tolerances. So a search follows small differences too, and one that cannot be mended does not
-    /// hide the others.
+    /// Each measure counts by its weight and by how far the confidence of the goal's reading is above 0.4: s/(1 + s) of
+    /// it, where s is the difference in tolerances. So a search follows small differences too, and one that cannot be
+    /// mended does not hide the others.
     ///
     /// ```
     /// use pleach_reading::{Foot, Reading};

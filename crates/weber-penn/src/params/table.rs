@@ -1,7 +1,8 @@
 //! The declarations: one row for each parameter, in the order of their slots.
 //!
 //! Defaults are the quaking aspen's (Hewitt 2017, §3.2); search ranges span the twenty known species
-//! with room on both sides. The last five rows are ours: how a tree stands. How a row is read: see [`pleach_tree::parameters!`].
+//! with room on both sides. The last five rows are ours: how a tree stands. How a row is read: see
+//! [`pleach_tree::parameters!`].
 
 use super::active::Facts;
 use super::declare::{heights, levels, scalar, stature, vector};

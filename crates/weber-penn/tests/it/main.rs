@@ -6,3 +6,4 @@ mod behaviour;
 mod census;
 mod conformance;
 mod leafless;
+mod stature;
