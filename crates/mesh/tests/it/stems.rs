@@ -117,7 +117,8 @@ fn every_knot_of_random_trees_is_in_its_mesh() {
     let limits = Limits { stems: 5_000, knots: 40_000, ..Limits::default() };
     let growth = Growth { foliage: Foliage::None, limits, ..Growth::seed(1) };
     // Every fifth list is of the search's ranges; some are larger than the limits. Numbers that a search leaves alone
-    // unless it is asked for them are so here: with any lean, bow and outline one of the trees (list 375) loses 3 mm.
+    // unless it is asked for them are left alone here too. Known gap: with any lean and outline as well, a waist of the
+    // thick stem of list 375 is drawn 3 mm too wide.
     let trees = (0..600).step_by(5).filter_map(|case| {
         let mut values = list_within(space, case);
         for slot in space.slots().filter(|slot| space.param_of(*slot).opt_in) {
@@ -133,6 +134,24 @@ fn every_knot_of_random_trees_is_in_its_mesh() {
         count += 1;
     }
     assert_eq!(count, 25, "{count} trees grew");
+}
+
+/// What a first guess makes of known species: trunks that lean and come back, crowns of another outline.
+#[test]
+fn every_knot_of_trees_that_stand_otherwise_is_in_its_mesh() {
+    for name in ["acer", "silver_birch", "black_tupelo"] {
+        let species = pleach_generators::preset(name).unwrap();
+        let space = species.generator.space();
+        let mut values = species.params.values().to_vec();
+        for (name, value) in [("lean", 30.0), ("bow", -40.0), ("side", 0.6), ("outline[1]", 0.4)] {
+            let slot = space.select(name).unwrap()[0];
+            values[slot.index()] = value;
+        }
+        let params = space.check(values).unwrap();
+        let tree = Species { params, ..species.clone() }.grow_bare(1).unwrap();
+        let worst = worst(&tree, settings());
+        assert!(worst <= 0.0, "{name}: {worst} m");
+    }
 }
 
 /// Twigs that a strong pull bends within their own width.
