@@ -89,6 +89,10 @@ fn adapted_trees_lean_and_reach_as_the_goal_does() {
         let (lean, wanted) = (grown.lean.unwrap(), goal.lean.unwrap());
         assert!((lean - wanted).abs() <= 3.0, "{name}: {lean}° instead of {wanted}°");
         let after = apart(&goal, &grown);
+        // A tree of the goal's very numbers and another seed is no nearer, or hardly.
+        let own = read(&picture(&standing(name, &stands).grow(2).unwrap(), Parts::LEAFY).0);
+        let own = apart(&goal, &own);
+        assert!(after < 1.15 * own, "{name}: outlines {after} apart, and {own} from another seed");
         assert!(after < 0.8 * before, "{name}: outlines {after} apart instead of {before}");
     }
 }
