@@ -1,6 +1,7 @@
 //! A second reading allocates nothing: a search reads millions of pictures.
 //!
-//! Alone in its program: the counter sees every thread.
+//! Alone in its program: the counter sees every thread. The test harness allocates a little while a test begins, so that
+//! one round of several without an allocation is asked for: a reader that allocates does so in each.
 
 use pleach_reading::{Reader, Reading};
 use pleach_silhouette::Bitmap;
@@ -23,10 +24,13 @@ fn second_readings_allocate_nothing() {
     for picture in &pictures {
         reader.read(picture, &mut reading);
     }
-    let region = Region::new(COUNTING);
-    for picture in &pictures {
-        reader.read(picture, &mut reading);
-    }
-    let change = region.change();
-    assert_eq!((change.allocations, change.reallocations), (0, 0), "{change:?}");
+    let rounds = (0..8).map(|_| {
+        let region = Region::new(COUNTING);
+        for picture in &pictures {
+            reader.read(picture, &mut reading);
+        }
+        let change = region.change();
+        change.allocations + change.reallocations
+    });
+    assert_eq!(rounds.min(), Some(0), "allocations of the round with the fewest");
 }
