@@ -64,7 +64,9 @@ pub use appearance::{Appearance, BarkPattern, Color, Look, Season, oklab};
 pub use dendrometry::{BREAST_HEIGHT, Dendrometry};
 pub use fnv::Fnv;
 pub use glam;
-pub use individual::{Address, BadStemPath, Draw, Draws, Individual, Spread, StemPath, Step, Trial};
+pub use individual::{
+    Address, BadStemPath, DENSEST, Draw, Draws, Hull, HullView, Individual, Spread, StemPath, Step, Trial,
+};
 pub use random::Key;
 pub use stats::{Bounds, TreeStats};
 pub use tree::{Blob, Foliage, Knot, Leaf, MalformedTree, Parts, Stem, StemKind, Tree, piece};

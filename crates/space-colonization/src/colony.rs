@@ -120,7 +120,7 @@ impl Colony {
     /// Grows `nodes` into `points`.
     pub(crate) fn grow(
         &mut self,
-        (points, volume): (&[DVec3], &Volume),
+        (points, volume): (&[DVec3], &Volume<'_>),
         rules: &Rules,
         nodes: &mut Nodes,
         budget: &mut Budget,
@@ -222,7 +222,7 @@ impl Colony {
     /// rounds the next one can that waits for its turn; infinitely many if none waits.
     fn round(
         &mut self,
-        (points, volume): (&[DVec3], &Volume),
+        (points, volume): (&[DVec3], &Volume<'_>),
         rules: &Rules,
         nodes: &mut Nodes,
         budget: &mut Budget,
@@ -283,7 +283,7 @@ impl Colony {
 /// One step from `node`, if it can. Returns whether it may be able to in the next round.
 fn grow_from(
     node: u32,
-    (pull, volume): (DVec3, &Volume),
+    (pull, volume): (DVec3, &Volume<'_>),
     rules: &Rules,
     nodes: &mut Nodes,
     spent: &mut [bool],
@@ -361,8 +361,8 @@ mod tests {
         bud_spacing: 0,
     };
 
-    fn volume() -> Volume {
-        Volume::new(&Numbers::read(&Numbers::space().defaults()), Key::root(1))
+    fn volume() -> Volume<'static> {
+        Volume::new(&Numbers::read(&Numbers::space().defaults()), None, Key::root(1))
     }
 
     fn stake() -> Nodes {

@@ -15,7 +15,8 @@ use crate::volume::Volume;
 use glam::DVec3;
 use pleach_tree::param::table::Parameters;
 use pleach_tree::{
-    CheckedParams, Generator, GrowError, Growth, Key, ParamSpace, Slot, Spread, Stature, Tree, Workspace,
+    CheckedParams, Draw, Generator, GrowError, Growth, Key, ParamSpace, Slot, Spread, Stature, Tree,
+    Workspace,
 };
 use std::sync::Arc;
 
@@ -49,18 +50,24 @@ impl SpaceColonization {
     ) -> Result<usize, GrowError> {
         let n = Numbers::read(params.values_in(Numbers::space())?);
         let scratch: &mut Scratch = workspace.scratch();
-        scaffold(&n, growth.seed, scratch, &mut Budget::new(growth.limits))?;
+        scaffold(&n, growth, scratch, &mut Budget::new(growth.limits))?;
         Ok(scratch.nodes.all.len())
     }
 }
 
 /// Grows the nodes of a tree.
-fn scaffold(n: &Numbers, seed: u64, scratch: &mut Scratch, budget: &mut Budget) -> Result<(), GrowError> {
+fn scaffold(
+    n: &Numbers,
+    growth: &Growth<'_>,
+    scratch: &mut Scratch,
+    budget: &mut Budget,
+) -> Result<(), GrowError> {
     let Scratch { points, nodes, colony, pipes, .. } = scratch;
-    let key = Key::root(seed);
-    let volume = Volume::new(n, key.child(VOLUME, 0));
+    let hull = growth.hull();
+    let key = Draw { seed: hull.map_or(0, |hull| hull.seed), ..Draw::OWN }.key(Key::root(growth.seed));
+    let volume = Volume::new(n, hull, key.child(VOLUME, 0));
     points::scatter(n, &volume, key.child(POINTS, 0), points);
-    let rules = Rules::new(n, Rules::spacing(volume.size(), n.points));
+    let rules = Rules::new(n, Rules::spacing(volume.own_size(), n.points));
     nodes.clear();
     trunks::stand(n, &volume, &rules, key, nodes);
     colony.grow((points, &volume), &rules, nodes, budget)?;
@@ -93,7 +100,7 @@ impl Generator for SpaceColonization {
         tree.leaf_shapes.push(Arc::clone(n.leaf_shape.outline()));
         let scratch: &mut Scratch = workspace.scratch();
         let mut budget = Budget::new(growth.limits);
-        scaffold(&n, growth.seed, scratch, &mut budget)?;
+        scaffold(&n, growth, scratch, &mut budget)?;
         let twigs = Twigs::new(&n, growth);
         let Scratch { nodes, pipes, stems, .. } = scratch;
         stems.build((&n, growth), (nodes, pipes), tree, &mut budget, &mut |limb, source, tree, budget| {
@@ -115,6 +122,10 @@ impl Generator for SpaceColonization {
         let n = Numbers::read(values);
         let twigs = Spread { azimuth: 0.0, pitch: n.twig_angle_v, length: n.twig_length_v };
         vec![Spread::for_trunks(), Spread::for_stems(twigs)]
+    }
+
+    fn hull_height(&self, values: &[f64]) -> Option<f64> {
+        Some(Numbers::read(values).height)
     }
 
     fn grows_in_proportion(&self) -> bool {

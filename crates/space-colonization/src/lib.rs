@@ -17,7 +17,7 @@
 //! | module | idea |
 //! | --- | --- |
 //! | `params` | the numbers, declared once |
-//! | `volume` | what a crown fills |
+//! | `volume`, `sections` | what a crown fills: a solid of revolution, or the hull of an individual |
 //! | `points` | attraction points in it, by address |
 //! | `nodes` | the scaffold |
 //! | `trunks` | trunks and limbs, which stand before points are colonised |
@@ -41,6 +41,7 @@ mod pipes;
 mod points;
 mod pose;
 mod purpose;
+mod sections;
 mod stems;
 mod trunks;
 mod twigs;

@@ -4,7 +4,7 @@
 //! Points come one after the other from a sequence that fills the cube evenly: fewer points are the first of them.
 
 use crate::params::Numbers;
-use crate::purpose::{CLUMP, CLUMP_PLACE, JITTER, OFFSET, SHADED};
+use crate::purpose::{CLUMP, CLUMP_PLACE, HELD, JITTER, OFFSET, SHADED};
 use crate::volume::{Inside, Volume};
 use glam::{DVec3, dvec3};
 use pleach_tree::trig::sin_cos;
@@ -19,14 +19,17 @@ const DEVIATION: f64 = 0.6;
 const GOLDEN: f64 = 0.381_966_011_250_105;
 
 /// Draws the attraction points of a tree into `points`.
-pub(crate) fn scatter(n: &Numbers, volume: &Volume, key: Key, points: &mut Vec<DVec3>) {
+pub(crate) fn scatter(n: &Numbers, volume: &Volume<'_>, key: Key, points: &mut Vec<DVec3>) {
     points.clear();
     let spacing = DEVIATION / math::cbrt(f64::from(n.points));
     let offset: [f64; 3] = std::array::from_fn(|axis| key.unit(OFFSET, axis as u32));
-    for i in 0..n.points {
+    for i in 0..volume.tries(n.points) {
         let own = key.child(JITTER, i);
         if own.unit(CLUMP, 0) < n.clumping {
-            points.push(in_clump(n, volume, key, i, own));
+            let place = in_clump(n, volume, key, i, own);
+            if volume.holds(place, own.unit(HELD, 0)) {
+                points.push(place);
+            }
             continue;
         }
         let unit = |axis: usize| {
@@ -37,14 +40,16 @@ pub(crate) fn scatter(n: &Numbers, volume: &Volume, key: Key, points: &mut Vec<D
         let inside = Inside { rise: volume.rise_of(unit(0)), out: unit(1).sqrt() };
         // 1 at the crown's surface, 0 at the foot of its axis.
         let light = 1.0 - (1.0 - inside.out) * (1.0 - inside.rise);
-        if own.unit(SHADED, 0) >= n.shade * (1.0 - light * light) {
-            points.push(volume.place(inside, TAU * unit(2)));
+        let place = volume.place(inside, TAU * unit(2));
+        let is_lit = own.unit(SHADED, 0) >= n.shade * (1.0 - light * light);
+        if is_lit && volume.holds(place, own.unit(HELD, 0)) {
+            points.push(place);
         }
     }
 }
 
 /// A point of a clump.
-fn in_clump(n: &Numbers, volume: &Volume, key: Key, i: u32, own: Key) -> DVec3 {
+fn in_clump(n: &Numbers, volume: &Volume<'_>, key: Key, i: u32, own: Key) -> DVec3 {
     let clump = i % n.clumps;
     let place = key.child(CLUMP_PLACE, clump);
     // Heights one after the other, azimuths by the golden angle: no two clumps in the same place.
@@ -68,11 +73,11 @@ mod tests {
     use crate::params::Id;
     use pleach_tree::param::table::Parameters;
 
-    fn scattered(set: &[(Id, f64)]) -> (Vec<DVec3>, Volume) {
+    fn scattered(set: &[(Id, f64)]) -> (Vec<DVec3>, Volume<'static>) {
         let mut values = Numbers::space().defaults();
         set.iter().for_each(|&(id, value)| values[id.slot(0).index()] = value);
         let n = Numbers::read(&values);
-        let volume = Volume::new(&n, Key::root(3));
+        let volume = Volume::new(&n, None, Key::root(3));
         let mut points = Vec::new();
         scatter(&n, &volume, Key::root(4), &mut points);
         (points, volume)

@@ -27,6 +27,8 @@ pub(crate) const SHADED: Purpose = 22;
 pub(crate) const CLUMP: Purpose = 23;
 /// Place of a clump.
 pub(crate) const CLUMP_PLACE: Purpose = 24;
+/// Whether a hull has a point.
+pub(crate) const HELD: Purpose = 25;
 
 // Of a trunk.
 /// Phases of its crookedness.

@@ -26,7 +26,7 @@ const LIMB_V: [f64; 4] = [0.3, 0.22, 0.12, 0.3];
 const WAVES: [f64; 2] = [2.3, 5.1];
 
 /// Grows the trunks and limbs of a tree.
-pub(crate) fn stand(n: &Numbers, volume: &Volume, rules: &Rules, key: Key, nodes: &mut Nodes) {
+pub(crate) fn stand(n: &Numbers, volume: &Volume<'_>, rules: &Rules, key: Key, nodes: &mut Nodes) {
     for number in 0..n.trunks {
         Trunk::new(n, volume, rules, key, number).grow(nodes);
     }
@@ -34,7 +34,7 @@ pub(crate) fn stand(n: &Numbers, volume: &Volume, rules: &Rules, key: Key, nodes
 
 struct Trunk<'a> {
     n: &'a Numbers,
-    volume: &'a Volume,
+    volume: &'a Volume<'a>,
     step: f64,
     key: Key,
     crook: Crook,
@@ -43,7 +43,7 @@ struct Trunk<'a> {
 }
 
 impl<'a> Trunk<'a> {
-    fn new(n: &'a Numbers, volume: &'a Volume, rules: &Rules, key: Key, number: u32) -> Self {
+    fn new(n: &'a Numbers, volume: &'a Volume<'a>, rules: &Rules, key: Key, number: u32) -> Self {
         let own = key.child(TRUNK, number);
         let away = if n.trunks > 1 {
             let turn = (f64::from(number) + 0.25 * own.signed(STAND, 0)) / f64::from(n.trunks);
@@ -65,7 +65,7 @@ impl<'a> Trunk<'a> {
         let mut node = nodes.push(foot, self.direction(0.0), NONE, axis);
         let crown_top = n.bare_height + (1.0 - n.bare_height) * n.leader;
         let top = if n.has_limbs() { n.first_fork + n.fork_spread } else { crown_top.max(n.bare_height) };
-        let top = top.clamp(2.0 * self.step, 1.0);
+        let top = top.min(self.volume.top()).clamp(2.0 * self.step, 1.0);
         let mut limbs = Limbs::new(n, self.key);
         for _ in 0..MAX_STEPS {
             let from = nodes.all[node as usize];
@@ -84,6 +84,10 @@ impl<'a> Trunk<'a> {
     /// Where the trunk grows to at height `z`.
     fn direction(&self, z: f64) -> DVec3 {
         let n = self.n;
+        // Of several trunks a picture shows one.
+        if let (1, Some(slope)) = (n.trunks, self.volume.shown_slope(z)) {
+            return slope.extend(1.0).normalize();
+        }
         let (sin, cos) = sin_cos(n.lean_azimuth);
         let lean = DVec2::new(cos, sin) * math::tan(lean_at(n, z));
         // Trunks that stand apart turn upwards with height.
@@ -208,7 +212,7 @@ mod tests {
         let mut values = Numbers::space().defaults();
         set.iter().for_each(|&(id, value)| values[id.slot(0).index()] = value);
         let n = Numbers::read(&values);
-        let volume = Volume::new(&n, Key::root(1));
+        let volume = Volume::new(&n, None, Key::root(1));
         let mut nodes = Nodes::default();
         stand(&n, &volume, &Rules::new(&n, 0.08), Key::root(2), &mut nodes);
         nodes

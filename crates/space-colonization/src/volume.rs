@@ -1,23 +1,26 @@
 //! The volume that a crown fills.
 //!
 //! Everything else asks a [`Volume`] for three things: the place of a point in it, where a place lies in it, and how
-//! large it is. Outlines from pictures can come in by the same three.
+//! large it is. It is one of revolution, by its numbers, or the hull of an individual.
 //!
 //! Lengths are over the tree's height: the ground is z = 0 and the crown's top z = 1.
 
 use crate::params::{Numbers, STATIONS};
 use crate::purpose::RIPPLE;
+use crate::sections::{PIECES, Sections};
 use glam::{DVec2, DVec3};
 use pleach_tree::trig::{atan2, sin_cos};
-use pleach_tree::{Key, math};
+use pleach_tree::{Hull, Key, math};
 use std::f64::consts::{PI, TAU};
 
 /// Narrowest half-width of a crown over its greatest, so that no part of it is empty.
 const MIN_PROFILE: f64 = 0.03;
 /// Height of the crown's heart over the crown's height.
 const HEART: f64 = 0.25;
-/// Pieces of the tables of the axis and of sections.
-const PIECES: usize = 32;
+/// Density of points in the densest cells of a hull over that of a species' own crown.
+const DENSER: f64 = 1.5;
+/// Largest number of places that are tried for the points of a hull.
+const MAX_TRIES: f64 = 20_000.0;
 /// Waves of the surface: about the axis, and along it.
 const RIPPLES: [(f64, f64); 5] = [(1.0, 0.4), (2.0, 0.8), (3.0, 0.6), (1.0, 1.3), (4.0, 1.1)];
 
@@ -30,10 +33,12 @@ pub(crate) struct Inside {
     pub(crate) out: f64,
 }
 
-/// A crown of revolution whose section, width and axis vary.
+/// A crown of revolution whose section, width and axis vary, or one that fills a hull.
 #[derive(Clone, Debug)]
-pub(crate) struct Volume {
+pub(crate) struct Volume<'a> {
     base: f64,
+    /// From its base to its top.
+    height: f64,
     half_width: f64,
     profile: [f64; STATIONS],
     depth: f64,
@@ -46,16 +51,20 @@ pub(crate) struct Volume {
     /// Part of the volume below each of the heights.
     below: [f64; PIECES + 1],
     size: f64,
+    /// With the size of the crown that the numbers alone make.
+    hull: Option<(&'a Hull, Sections, f64)>,
 }
 
-impl Volume {
-    /// The volume of a tree of these numbers; `key` draws its irregularity.
-    pub(crate) fn new(n: &Numbers, key: Key) -> Self {
+impl<'a> Volume<'a> {
+    /// The volume of a tree of these numbers; `key` draws its irregularity. Of a tree with a `hull` width, base, top and
+    /// one-sidedness are the hull's.
+    pub(crate) fn new(n: &Numbers, hull: Option<&'a Hull>, key: Key) -> Self {
         let (sin, cos) = sin_cos(n.crown_azimuth);
         let (side_sin, side_cos) = sin_cos(n.side_azimuth);
         let half_width = n.crown_width / 2.0;
         let mut volume = Self {
             base: n.bare_height,
+            height: 1.0 - n.bare_height,
             half_width,
             profile: n.profile.map(|part| part.max(MIN_PROFILE)),
             depth: n.crown_depth,
@@ -66,9 +75,23 @@ impl Volume {
             axis: axis(n),
             below: [0.0; PIECES + 1],
             size: 0.0,
+            hull: hull.and_then(|hull| {
+                Some((hull, Sections::new(hull, n.crown_depth)?, Self::new(n, None, key).size))
+            }),
         };
+        if let Some((hull, sections, _)) = &volume.hull {
+            volume.base = sections.base;
+            volume.height = sections.top - sections.base;
+            volume.axis = course(hull, &volume.axis);
+            volume.depth = 1.0;
+            volume.half_width = sections.half_width();
+        }
         let section = |i: usize| {
-            let half = volume.half_width * volume.profile_at((i as f64 + 0.5) / PIECES as f64);
+            let rise = (i as f64 + 0.5) / PIECES as f64;
+            if let Some((_, sections, _)) = &volume.hull {
+                return sections.width_and_area(rise).1;
+            }
+            let half = volume.half_width * volume.profile_at(rise);
             half * half
         };
         let mut sum = 0.0;
@@ -78,13 +101,27 @@ impl Volume {
             below[i + 1] = sum;
         }
         volume.below = below.map(|part| part / sum);
-        volume.size = PI * sum / PIECES as f64 * volume.depth * (1.0 - volume.base);
+        volume.size = PI * sum / PIECES as f64 * volume.depth * volume.height;
         volume
     }
 
-    /// Content, over the cube of the tree's height.
-    pub(crate) fn size(&self) -> f64 {
-        self.size
+    /// How many places are tried for the points of a tree that has `points` in its own crown: a hull is filled as densely
+    /// as that.
+    pub(crate) fn tries(&self, points: u32) -> u32 {
+        let Some((.., own)) = &self.hull else { return points };
+        let tries = f64::from(points) * DENSER * self.size / own;
+        tries.min(MAX_TRIES) as u32
+    }
+
+    /// Whether the point of a tree that lies at `place` is there; `chance`, in 0..1, is its own. A hull has fewer points
+    /// where its pictures have less ink.
+    pub(crate) fn holds(&self, place: DVec3, chance: f64) -> bool {
+        self.hull.as_ref().is_none_or(|(hull, ..)| chance < hull.density(place))
+    }
+
+    /// Content of the crown that the numbers alone make, over the cube of the tree's height.
+    pub(crate) fn own_size(&self) -> f64 {
+        self.hull.as_ref().map_or(self.size, |(.., own)| *own)
     }
 
     /// Half of the greatest width, over the tree's height.
@@ -95,6 +132,11 @@ impl Volume {
     /// Height of the crown's base.
     pub(crate) fn base(&self) -> f64 {
         self.base
+    }
+
+    /// Height above which no trunk grows.
+    pub(crate) fn top(&self) -> f64 {
+        self.hull.as_ref().map_or(1.0, |(_, sections, _)| sections.top)
     }
 
     /// The height, as [`Inside::rise`], below which the part `part` of the volume lies.
@@ -108,15 +150,22 @@ impl Volume {
     /// The place at `inside`, towards `azimuth`.
     pub(crate) fn place(&self, inside: Inside, azimuth: f64) -> DVec3 {
         let (sin, cos) = sin_cos(azimuth);
+        if let Some((_, sections, _)) = &self.hull {
+            let flat = sections.place(inside.rise, DVec2::new(cos, sin) * inside.out);
+            return flat.extend(self.base + self.height * inside.rise);
+        }
         let half = self.half_width_at(inside.rise, azimuth) * inside.out;
         let flat = self.squeezed(DVec2::new(cos, sin) * half, self.depth);
-        let z = self.base + (1.0 - self.base) * inside.rise;
+        let z = self.base + self.height * inside.rise;
         (self.center(z) + flat).extend(z)
     }
 
     /// Where `place` lies; above and below the crown the section of its ends counts.
     pub(crate) fn inside(&self, place: DVec3) -> Inside {
-        let rise = (place.z - self.base) / (1.0 - self.base);
+        let rise = (place.z - self.base) / self.height;
+        if let Some((_, sections, _)) = &self.hull {
+            return Inside { rise, out: sections.unit(rise, place.truncate()).length() };
+        }
         let flat = place.truncate() - self.center(place.z);
         let round = self.squeezed(flat, 1.0 / self.depth);
         let azimuth = atan2(round.y, round.x);
@@ -135,9 +184,23 @@ impl Volume {
 
     /// The middle of the crown's section at height `z`.
     fn center(&self, z: f64) -> DVec2 {
+        if let Some((_, sections, _)) = &self.hull {
+            return sections.place((z - self.base) / self.height, DVec2::ZERO);
+        }
         // The crown stands off its trunk gradually, from its base to the middle of its height.
-        let rise = ((z - self.base) / (0.5 * (1.0 - self.base))).clamp(0.0, 1.0);
+        let rise = ((z - self.base) / (0.5 * self.height)).clamp(0.0, 1.0);
         self.axis_at(z) + self.shift * rise
+    }
+
+    /// The slope of a trunk whose course a picture shows, at height `z`.
+    pub(crate) fn shown_slope(&self, z: f64) -> Option<DVec2> {
+        let (hull, ..) = self.hull.as_ref()?;
+        let last = hull.trunk.last()?;
+        if z >= last[1] {
+            return None;
+        }
+        let piece = ((z.max(0.0) * PIECES as f64) as usize).min(PIECES - 1);
+        Some((self.axis[piece + 1] - self.axis[piece]) * PIECES as f64)
     }
 
     /// The trunk's nominal place at height `z`.
@@ -150,10 +213,14 @@ impl Volume {
     /// The pull away from the heart of the crown: level, or upwards above the heart; 1 in the inner half of the crown,
     /// nothing at its surface.
     pub(crate) fn outward(&self, place: DVec3) -> DVec3 {
-        let rise = (place.z - self.base) / (1.0 - self.base);
-        let heart = self.base + rise.min(HEART) * (1.0 - self.base);
+        let rise = (place.z - self.base) / self.height;
+        let heart = self.base + rise.min(HEART) * self.height;
         let away = place - self.center(heart).extend(heart);
-        let out = away.truncate().length() / (self.half_width * self.profile_at(rise));
+        let half = match &self.hull {
+            Some((_, sections, _)) => sections.width_and_area(rise).0,
+            None => self.half_width * self.profile_at(rise),
+        };
+        let out = away.truncate().length() / half;
         let fade = (2.0 * (1.0 - out).min(1.0 - rise)).clamp(0.0, 1.0);
         away.normalize_or_zero() * fade
     }
@@ -205,16 +272,36 @@ fn axis(n: &Numbers) -> [DVec2; PIECES + 1] {
     axis
 }
 
+/// The course of a trunk as a picture of `hull` shows it; above that it goes on as `nominal` does.
+fn course(hull: &Hull, nominal: &[DVec2; PIECES + 1]) -> [DVec2; PIECES + 1] {
+    let (Some(view), Some(last)) = (hull.views.first(), hull.trunk.last()) else { return *nominal };
+    let mut course = *nominal;
+    for i in 1..=PIECES {
+        let z = i as f64 / PIECES as f64;
+        let above = hull.trunk.partition_point(|point| point[1] <= z);
+        course[i] = match (hull.trunk.get(above.wrapping_sub(1)), hull.trunk.get(above)) {
+            (Some(from), Some(to)) => {
+                let part = (z - from[1]) / (to[1] - from[1]).max(1e-9);
+                view.right() * (from[0] + (to[0] - from[0]) * part)
+            }
+            (None, Some(first)) => view.right() * (first[0] * z / first[1].max(1e-9)),
+            _ if z - 1.0 / PIECES as f64 <= last[1] => view.right() * last[0],
+            _ => course[i - 1] + nominal[i] - nominal[i - 1],
+        };
+    }
+    course
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::params::Id;
     use pleach_tree::param::table::Parameters;
 
-    fn volume(set: &[(Id, f64)]) -> Volume {
+    fn volume(set: &[(Id, f64)]) -> Volume<'static> {
         let mut values = Numbers::space().defaults();
         set.iter().for_each(|&(id, value)| values[id.slot(0).index()] = value);
-        Volume::new(&Numbers::read(&values), Key::root(1))
+        Volume::new(&Numbers::read(&values), None, Key::root(1))
     }
 
     const ODD: [(Id, f64); 6] = [
@@ -251,7 +338,7 @@ mod tests {
     fn a_cylinder_has_its_content() {
         let mut values = Numbers::space().defaults();
         (0..STATIONS).for_each(|i| values[Id::profile.slot(i).index()] = 1.0);
-        let volume = Volume::new(&Numbers::read(&values), Key::root(1));
-        assert!((volume.size() - PI * 0.4 * 0.4 * 0.75).abs() < 1e-9, "{}", volume.size());
+        let volume = Volume::new(&Numbers::read(&values), None, Key::root(1));
+        assert!((volume.own_size() - PI * 0.4 * 0.4 * 0.75).abs() < 1e-9, "{}", volume.own_size());
     }
 }

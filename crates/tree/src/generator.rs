@@ -69,6 +69,13 @@ pub trait Generator: Send + Sync + fmt::Debug {
         Vec::new()
     }
 
+    /// The height in metres that the lengths of a [hull](pleach_plant::Hull) are over in trees of these `values`; `None`
+    /// where crowns do not grow into hulls.
+    fn hull_height(&self, values: &[f64]) -> Option<f64> {
+        let _ = values;
+        None
+    }
+
     /// The generator without the draws that make one of its trees an individual, if it has such.
     fn kind(&self) -> Option<Arc<dyn Generator>> {
         None

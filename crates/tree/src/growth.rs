@@ -1,6 +1,6 @@
 //! One request to grow a tree, and what is reused from one tree to the next.
 
-use pleach_plant::{Address, Draw, Draws, Foliage};
+use pleach_plant::{Address, Draw, Draws, Foliage, Hull};
 use std::any::Any;
 use std::fmt;
 
@@ -66,6 +66,12 @@ impl Growth<'_> {
     #[must_use]
     pub fn draw(&self, address: Address, level: usize) -> Draw {
         self.draws.map_or(Draw::OWN, |draws| draws.at(address, level))
+    }
+
+    /// What the crown grows into, if it is an individual's.
+    #[must_use]
+    pub fn hull(&self) -> Option<&Hull> {
+        self.draws.and_then(Draws::hull)
     }
 }
 

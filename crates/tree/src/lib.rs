@@ -34,9 +34,9 @@ pub use leafless::Leafless;
 pub use model::ModelId;
 pub use param::{CheckedParams, Kind, Param, ParamSpace, Slot, Unit};
 pub use pleach_plant::{
-    Address, Appearance, BREAST_HEIGHT, BadStemPath, BarkPattern, Blob, Bounds, Color, Dendrometry, Draw,
-    Draws, Fnv, Foliage, Individual, Key, Knot, Leaf, Look, MalformedTree, Parts, Season, Spread, Stem,
-    StemKind, StemPath, Step, Tree, TreeStats, Trial, piece,
+    Address, Appearance, BREAST_HEIGHT, BadStemPath, BarkPattern, Blob, Bounds, Color, DENSEST, Dendrometry,
+    Draw, Draws, Fnv, Foliage, Hull, HullView, Individual, Key, Knot, Leaf, Look, MalformedTree, Parts,
+    Season, Spread, Stem, StemKind, StemPath, Step, Tree, TreeStats, Trial, piece,
 };
 pub use pleach_plant::{leaf_shape, math, random, spline, trig, turtle};
 pub use species::{Family, Species, SpeciesDoc, SpeciesError};

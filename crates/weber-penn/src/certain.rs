@@ -28,6 +28,10 @@ pub(crate) struct Certain {
 
 /// The error of a tree that is certain to be too large.
 pub(crate) fn refusal(model: &Model, growth: &Growth<'_>) -> Option<GrowError> {
+    // A hull may leave nothing of a tree.
+    if growth.hull().is_some() {
+        return None;
+    }
     let certain = Certain::new(model);
     let limits = growth.limits;
     let deepest = model.level_count - 1;

@@ -20,6 +20,13 @@ pub(crate) struct GrowContext<'a> {
     pub(crate) prunes_trunks: bool,
 }
 
+impl GrowContext<'_> {
+    /// Whether stems may be pruned.
+    pub(crate) fn prunes(&self) -> bool {
+        self.model.prune_ratio > 0.0 || self.growth.hull().is_some()
+    }
+}
+
 /// The tree being grown and the stacks that growing it needs.
 pub(crate) struct Buffers<'a> {
     pub(crate) tree: &'a mut Tree,

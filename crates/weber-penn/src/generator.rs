@@ -70,6 +70,10 @@ impl Generator for WeberPenn {
         spreads(&Model::read(values))
     }
 
+    fn hull_height(&self, values: &[f64]) -> Option<f64> {
+        Some(Model::read(values).g_scale)
+    }
+
     fn shows_size_jitter(&self, values: &[f64]) -> bool {
         // No two trunks of a tree are of one size.
         Model::read(values).trunks() > 1

@@ -61,7 +61,7 @@ pub(crate) fn grow(
     let context = GrowContext { model, surroundings, course, growth, prunes_trunks: true };
     let root = Key::root(growth.seed);
 
-    let budget = Budget::new(growth.limits, model.prune_ratio > 0.0);
+    let budget = Budget::new(growth.limits, context.prunes());
     let mut buffers = Buffers { tree, path, forked_stems, children, budget };
     if let Err(exceeded) = context.tree(&mut buffers, root, sites) {
         return Err(blame::error(exceeded, model, &buffers.budget, buffers.tree, buffers.children));
@@ -116,7 +116,7 @@ impl GrowContext<'_> {
     fn branches(&self, buffers: &mut Buffers<'_>) -> Result<(), Exceeded> {
         let all = buffers.children.len();
         buffers.children.reverse();
-        let mut counts_ahead = self.growth.counts_ahead && self.model.prune_ratio <= 0.0;
+        let mut counts_ahead = self.growth.counts_ahead && !self.prunes();
         while let Some(branch) = buffers.children.pop() {
             self.branch(buffers, branch)?;
             let left = buffers.children.len();
@@ -226,9 +226,15 @@ impl GrowContext<'_> {
         let first_point = buffers.path.len();
         let first_fork = buffers.forked_stems.len();
         let first_child = buffers.children.len();
+        let hull = self.growth.hull().filter(|_| stem.level > 0);
+        // The hull says how long it is.
+        if hull.is_some() && stem.level == 1 && stem.forked.is_none() {
+            stem.length *= prune::STRETCH;
+        }
         let is_pruned = model.prune_ratio > 0.0
             && stem.forked.is_none_or(|_| level.split_angle_v < 0.0)
             && (stem.level > 0 || self.prunes_trunks);
+        let is_pruned = is_pruned || hull.is_some();
         if is_pruned {
             let carry_before = *carry;
             self.walk(buffers, &stem, child_length, carry);
@@ -297,6 +303,17 @@ impl GrowContext<'_> {
         first: usize,
     ) -> Result<Option<f64>, Exceeded> {
         let Self { model, surroundings, course, .. } = *self;
+        if let Some(hull) = self.growth.hull() {
+            let steps = TRIAL_STEPS * u64::from(stem.points(model));
+            return prune::pruned_length(1.0, stem.length, |length| {
+                buffers.budget.work(Cause::Pruning, stem.level, steps)?;
+                stretch(model, stem, length, buffers.path, first);
+                let points = &buffers.path[first + 1..];
+                let outer = (points.len() as f64 * prune::OUTER).ceil() as usize;
+                let outer = &points[points.len() - outer..];
+                Ok(outer.iter().rev().all(|p| prune::is_in(hull, (course, model.g_scale), p.point)))
+            });
+        }
         let solids = surroundings.inside.as_ref().map_or(0, Vec::len) + surroundings.obstacles.len();
         let points = u64::from(stem.points(model));
         let judged = if stem.level == 0 { 1 } else { points };

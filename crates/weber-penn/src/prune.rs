@@ -4,11 +4,23 @@ use crate::course::Course;
 use crate::model::Model;
 use crate::solid::Surroundings;
 use glam::DVec3;
+use pleach_tree::Hull;
 
 /// Below this part of its first length a stem is given up.
 const MIN_PART: f64 = 0.15;
 /// Each trial is this part of the one before.
 const SHRINK: f64 = 0.9;
+
+/// How much longer than its own numbers say a branch of the trunk may be that grows into a hull.
+pub(crate) const STRETCH: f64 = 1.6;
+/// The outer part of a stem that has to be in a hull: what comes before may pass through a gap of the crown.
+pub(crate) const OUTER: f64 = 1.0 / 3.0;
+
+/// Whether `point` of an upright tree, of nominal height `height`, is in `hull`.
+pub(crate) fn is_in(hull: &Hull, (course, height): (Option<Course>, f64), point: DVec3) -> bool {
+    let place = course.map_or(point, |course| course.place(point));
+    hull.density(place / height) > 0.0
+}
 
 /// Whether `point` of an upright tree of scale `scale` is inside the envelope (or one of the solids that stand for it)
 /// and clear of all obstacles. The envelope leans with the tree on its `course`; solids do not.

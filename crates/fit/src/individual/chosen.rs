@@ -1,8 +1,9 @@
 //! The draws that were chosen so far.
 
-use pleach_tree::{Draw, Individual, StemPath};
+use pleach_tree::{Draw, Hull, Individual, StemPath};
 use std::collections::BTreeMap;
 use std::ops::Bound;
+use std::sync::Arc;
 
 /// An individual, with price and gain of each of its draws.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +22,13 @@ struct Change {
 }
 
 impl Chosen {
+    /// The same with `hull`, which has no price.
+    pub(super) fn with_hull(&self, hull: Hull) -> Self {
+        let mut chosen = self.clone();
+        chosen.individual.set_hull(Some(Arc::new(hull)));
+        chosen
+    }
+
     /// Number of stems with draws of their own.
     pub(super) fn len(&self) -> usize {
         self.changes.len()

@@ -8,11 +8,17 @@
 //! stem with its descendants is a [layer](pleach_silhouette::Layer) of the picture, so that a trial takes one
 //! layer out and puts another in, whatever the number of other stems.
 //!
+//! Where crowns can grow into a hull ([`pleach_tree::Generator::hull_height`]), the hull of the goals comes first: which
+//! sides of a crown are full and where its gaps are is not a matter of single stems.
+//!
 //! The objective is overlap, pixel by pixel and in coarser cells, of trees that are as like the goal as two trees of
 //! a species are at best. Draws far from a stem's own have a price, so that stems that the picture does not show stay
 //! as the species would have them.
 
+mod cells;
 mod chosen;
+mod fill;
+mod hull;
 mod individuals;
 mod plan;
 mod search;

@@ -1,11 +1,12 @@
 //! The search for an individual.
 
 use super::chosen::Chosen;
+use super::fill::filled;
 use super::plan::{self, BATCH, Stage};
 use super::state::{MIN_GAIN, Proposal, State};
 use super::task::{FoundIndividual, IndividualProgress, Task};
 use super::units::Units;
-use super::worker::{Scene, Worker};
+use super::worker::{Scene, Worker, Workers};
 use crate::control::Clock;
 use crate::error::FitError;
 use crate::evaluator::{Evaluator, SilhouetteGoal};
@@ -15,11 +16,12 @@ use pleach_tree::Trial;
 use pleach_tree::{Draw, Spread};
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
-use std::sync::{Mutex, PoisonError};
 
 /// One of this many parts of the allowed stems with draws of their own may be kept beyond the bound for a while:
 /// dropping many at once costs one tree.
 const ON_TRIAL: usize = 4;
+/// The used share of the budget until which hulls are tried.
+const HULL_SHARE: f64 = 0.4;
 /// The used share of the budget from which none are.
 const LAST: f64 = 0.9;
 
@@ -61,7 +63,22 @@ pub(super) fn search(
         share(passed() + longest / 2.0, settings.time.map(|time| time.as_secs_f64()))
             .max(share(trees as f64, settings.trees.map(|all| all as f64)))
     };
-    let generations = workers.with(&scene, |worker| plan::generations(&worker.tree));
+    if let Some(height) = generator.hull_height(&genome.values) {
+        state = filled(&scene, &workers, state, height, |count, best| {
+            let (iou, likeness, share) = (best.iou, best.likeness, used(trees, 0.0).min(1.0));
+            notify(&IndividualProgress { number: which, trees, trials, iou, likeness, used: share });
+            trees += count;
+            used(trees, 0.0) < HULL_SHARE && !stop.load(Ordering::Relaxed)
+        });
+        if stop.load(Ordering::Relaxed) {
+            return Err(FitError::Interrupted);
+        }
+    }
+    let generations = workers.with(&scene, |worker| {
+        // It has grown before.
+        worker.grow(&scene, &state.chosen.individual.draws());
+        plan::generations(&worker.tree)
+    });
     'stages: for stage in plan::stages(&generations) {
         if state.generation != stage.generation {
             let chosen = state.chosen.clone();
@@ -226,20 +243,5 @@ impl Batch<'_> {
             }
         });
         found
-    }
-}
-
-/// A pool of memory for threads.
-#[derive(Default)]
-struct Workers(Mutex<Vec<Worker>>);
-
-impl Workers {
-    fn with<T>(&self, scene: &Scene<'_>, work: impl FnOnce(&mut Worker) -> T) -> T {
-        let pool = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let taken = pool().pop();
-        let mut worker = taken.unwrap_or_else(|| Worker::new(scene));
-        let result = work(&mut worker);
-        pool().push(worker);
-        result
     }
 }

@@ -110,6 +110,11 @@ impl State {
         (self.cost, self.iou, self.likeness) = (loss.cost, loss.iou, loss.likeness);
     }
 
+    /// The tree's pictures, view by view.
+    pub(super) fn pictures(&self) -> impl Iterator<Item = &Bitmap> {
+        self.views.iter().map(|view| &view.picture)
+    }
+
     /// Paths of the units.
     pub(super) fn paths(&self) -> &[StemPath] {
         &self.paths

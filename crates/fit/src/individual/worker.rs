@@ -7,6 +7,7 @@ use crate::problem::{Objective, Terms};
 use pleach_silhouette::{Bitmap, Detail, Frame, Layer, LayerPainter, Stack, View};
 use pleach_tree::math;
 use pleach_tree::{CheckedParams, Draws, Growth, StemKind, Tree, Workspace};
+use std::sync::{Mutex, PoisonError};
 
 /// The goals, and everything else that all workers share.
 pub(super) struct Scene<'a> {
@@ -108,5 +109,20 @@ impl Worker {
     pub(super) fn show(&mut self, scene: &Scene<'_>, view: usize, stack: &Stack, old: &Layer) {
         let parts = scene.task.problem.foliage.into();
         self.painters[view].exchanged(&self.part, parts, stack, old, &mut self.picture);
+    }
+}
+
+/// A pool of memory for threads.
+#[derive(Default)]
+pub(super) struct Workers(Mutex<Vec<Worker>>);
+
+impl Workers {
+    pub(super) fn with<T>(&self, scene: &Scene<'_>, work: impl FnOnce(&mut Worker) -> T) -> T {
+        let pool = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let taken = pool().pop();
+        let mut worker = taken.unwrap_or_else(|| Worker::new(scene));
+        let result = work(&mut worker);
+        pool().push(worker);
+        result
     }
 }

@@ -1,7 +1,8 @@
 //! The draws of all stems, as a generator asks for them.
 
-use super::{Address, Draw, Spread};
+use super::{Address, Draw, Hull, Spread};
 use crate::random::Key;
+use std::sync::Arc;
 
 /// The draws of an individual, and of a trial beside them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -9,6 +10,7 @@ pub struct Draws {
     /// By the bits of the address, ascending.
     stems: Vec<(u64, Draw)>,
     trial: Option<Trial>,
+    hull: Option<Arc<Hull>>,
 }
 
 /// Other draws for all stems of one generation at once, so that one tree has a new candidate for each of them.
@@ -52,13 +54,25 @@ impl Draws {
         let mut stems: Vec<(u64, Draw)> =
             stems.into_iter().map(|(address, draw)| (address.bits(), draw)).collect();
         stems.sort_unstable_by_key(|&(bits, _)| bits);
-        Self { stems, trial: None }
+        Self { stems, trial: None, hull: None }
     }
 
     /// The same with another draw for each stem of a generation.
     #[must_use]
     pub fn with_trial(self, trial: Trial) -> Self {
         Self { trial: Some(trial), ..self }
+    }
+
+    /// The same with another hull, or none.
+    #[must_use]
+    pub fn with_hull(self, hull: Option<Arc<Hull>>) -> Self {
+        Self { hull, ..self }
+    }
+
+    /// What the crown grows into.
+    #[must_use]
+    pub fn hull(&self) -> Option<&Hull> {
+        self.hull.as_deref()
     }
 
     /// The draw of the stem at `address`, of `level`.

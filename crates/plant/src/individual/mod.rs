@@ -1,4 +1,4 @@
-//! One particular tree of a species: stems with draws of their own.
+//! One particular tree of a species: stems with draws of their own, and a crown that grows into a hull.
 //!
 //! Randomness is addressed, so the draws of one stem can be changed and every other stem stays as it
 //! is. An [`Individual`] says of some stems of the tree of one seed which draws they have instead: it is
@@ -10,26 +10,48 @@
 //! | [`Address`] | the same while a tree grows: a few bytes, made from the parent's |
 //! | [`Draw`] | draws of one stem that replace its own |
 //! | [`Spread`] | how far draws of a level may lie from a stem's own |
+//! | [`Hull`] | where pictures show the crown |
 //! | [`Draws`] | what a generator asks, stem by stem |
-//! | [`Individual`] | all draws of a tree, as they stand in a file |
+//! | [`Individual`] | the hull and all draws of a tree, as they stand in a file |
 
 mod address;
 mod draw;
 mod draws;
+mod hull;
 
 pub use address::{Address, BadStemPath, StemPath, Step};
 pub use draw::{Draw, Spread};
 pub use draws::{Draws, Trial};
+pub use hull::{DENSEST, Hull, HullView};
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-/// The draws that make one tree of a species the one that it is.
+/// What makes one tree of a species the one that it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Individual {
     stems: BTreeMap<StemPath, Draw>,
+    hull: Option<Arc<Hull>>,
 }
 
 impl Individual {
+    /// The tree that grows into `hull`, without draws of its own.
+    #[must_use]
+    pub fn with_hull(hull: Arc<Hull>) -> Self {
+        Self { hull: Some(hull), ..Self::default() }
+    }
+
+    /// Gives its crown another hull, or none.
+    pub fn set_hull(&mut self, hull: Option<Arc<Hull>>) {
+        self.hull = hull;
+    }
+
+    /// What its crown grows into, if pictures say so; families that cannot do that pass over it.
+    #[must_use]
+    pub fn hull(&self) -> Option<&Arc<Hull>> {
+        self.hull.as_ref()
+    }
+
     /// The stems with draws of their own, those from the ground first.
     pub fn stems(&self) -> impl Iterator<Item = (&StemPath, &Draw)> {
         self.stems.iter()
@@ -44,7 +66,7 @@ impl Individual {
     /// Whether it is the tree that its seed grows.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.stems.is_empty()
+        self.stems.is_empty() && self.hull.is_none()
     }
 
     /// The draw that replaces `stem`'s own, if there is one.
@@ -71,6 +93,7 @@ impl Individual {
     /// The same for a generator.
     #[must_use]
     pub fn draws(&self) -> Draws {
-        Draws::new(self.stems.iter().map(|(path, draw)| (path.address(), *draw)))
+        let stems = self.stems.iter().map(|(path, draw)| (path.address(), *draw));
+        Draws::new(stems).with_hull(self.hull.clone())
     }
 }

@@ -92,9 +92,40 @@ struct Known {
     shape: Outline,
     /// Logarithms of the size in tenths.
     steps: [f32; 2],
+    /// Sizes that surely have these logarithms, from and to: a comparison is faster than a logarithm.
+    surely: [[f32; 2]; 2],
     corners: Vec<[f32; 2]>,
+    half_width: f32,
+    lowest: f32,
+    highest: f32,
 }
 
+impl Known {
+    fn new(shape: &Outline, steps: [f32; 2]) -> Self {
+        let scale = steps.map(|s| math::expf(s / 10.0));
+        let least = (shape.width() * scale[0]).min(scale[1]);
+        let mut corners = Vec::new();
+        simplify(shape, scale, TOLERANCE.min(RELATIVE_TOLERANCE * least), &mut corners);
+        let (half_width, lowest, highest) = corners.iter().fold((0.0, 0.0, 0.0), |(w, l, h), p| {
+            (f32::max(w, p[0].abs()), f32::min(l, p[1]), f32::max(h, p[1]))
+        });
+        let surely = steps.map(|s| [s - HALF_STEP, s + HALF_STEP].map(|s| math::expf(s / 10.0)));
+        Self { shape: shape.clone(), steps, surely, corners, half_width, lowest, highest }
+    }
+
+    /// Whether leaves of `scale` surely have its logarithms.
+    fn is_near(&self, scale: [f32; 2]) -> bool {
+        let [[from, to], [low, high]] = self.surely;
+        from < scale[0] && scale[0] < to && low < scale[1] && scale[1] < high
+    }
+}
+
+/// Half of the distance between two logarithms in tenths, without what rounding may change.
+const HALF_STEP: f32 = 0.499;
+
+/// The smallest and the largest size that is told from others.
+const MIN_SCALE: f32 = 1e-4;
+const MAX_SCALE: f32 = 1e6;
 /// Outlines that are kept: more than the shapes and sizes of most trees.
 const MAX_KNOWN: usize = 32;
 
@@ -103,25 +134,18 @@ impl Outlines {
     ///
     /// Sizes within a tenth share an outline, so that a search over leaf sizes seldom makes one.
     pub(crate) fn get(&mut self, shape: &Outline, scale: [f32; 2]) -> Blade<'_> {
-        let steps = scale.map(|s| (math::lnf(s.clamp(1e-4, 1e6)) * 10.0).round());
-        let known = self.known.iter().position(|known| known.steps == steps && known.shape == *shape);
-        let known = match known {
-            Some(known) => known,
-            None => self.add(shape, steps),
-        };
-        let known = &self.known[known];
-        let (half_width, lowest, highest) = known.corners.iter().fold((0.0, 0.0, 0.0), |(w, l, h), p| {
-            (f32::max(w, p[0].abs()), f32::min(l, p[1]), f32::max(h, p[1]))
+        let near = self.known.iter().position(|known| known.is_near(scale) && known.shape == *shape);
+        let known = near.unwrap_or_else(|| {
+            let steps = scale.map(|s| (math::lnf(s.clamp(MIN_SCALE, MAX_SCALE)) * 10.0).round());
+            let known = self.known.iter().position(|known| known.steps == steps && known.shape == *shape);
+            known.unwrap_or_else(|| self.add(shape, steps))
         });
-        Blade { outline: &known.corners, half_width, lowest, highest }
+        let Known { corners, half_width, lowest, highest, .. } = &self.known[known];
+        Blade { outline: corners, half_width: *half_width, lowest: *lowest, highest: *highest }
     }
 
     fn add(&mut self, shape: &Outline, steps: [f32; 2]) -> usize {
-        let scale = steps.map(|s| math::expf(s / 10.0));
-        let least = (shape.width() * scale[0]).min(scale[1]);
-        let mut corners = Vec::new();
-        simplify(shape, scale, TOLERANCE.min(RELATIVE_TOLERANCE * least), &mut corners);
-        let known = Known { shape: shape.clone(), steps, corners };
+        let known = Known::new(shape, steps);
         if self.known.len() < MAX_KNOWN {
             self.known.push(known);
             return self.known.len() - 1;
@@ -171,6 +195,21 @@ mod tests {
         assert!(look_alike(&leaf(0.3, 0.1, 0), &leaf(0.3, 2.0, 0)));
         assert!(!look_alike(&leaf(0.3, 0.1, 0), &leaf(0.3, 0.1, 1)));
         assert!(!look_alike(&leaf(0.3, 0.1, 0), &leaf(0.31, 0.1, 0)));
+    }
+
+    #[test]
+    fn what_is_known_changes_no_outline() {
+        let shape = LeafShape::Maple.outline();
+        let (mut warm, mut shortcuts) = (Outlines::default(), 0);
+        for i in 0..4000 {
+            // Many lie at the edge between two logarithms.
+            let size =
+                [0, 1].map(|axis| math::expf((i * (axis + 3) % 61) as f32 / 20.0 + 1e-6 * (i % 7) as f32));
+            shortcuts += usize::from(warm.known.iter().any(|known| known.is_near(size)));
+            let mut fresh = Outlines::default();
+            assert_eq!(warm.get(shape, size).outline, fresh.get(shape, size).outline, "{size:?}");
+        }
+        assert!(shortcuts > 100, "{shortcuts}");
     }
 
     #[test]

@@ -14,6 +14,7 @@
 mod files;
 mod golden;
 mod growth;
+mod hulls;
 mod individuals;
 mod numbers;
 
@@ -26,6 +27,7 @@ pub use growth::{
     limits_are_errors, stems_do_not_depend_on_leaves, the_same_seed_is_the_same_tree, trees_are_well_formed,
     values_of_another_space_are_refused,
 };
+pub use hulls::crowns_grow_into_hulls;
 pub use individuals::{draws_of_a_stem_are_its_own, individuals_are_read_back};
 pub use numbers::{
     at_ends_or_between, conflicts_are_told_before_growing, declarations_are_consistent,
@@ -56,6 +58,7 @@ macro_rules! conformance {
             limits_are_errors,
             draws_of_a_stem_are_its_own,
             individuals_are_read_back,
+            crowns_grow_into_hulls,
             values_of_another_space_are_refused,
             declarations_are_consistent,
             inactive_numbers_change_nothing,

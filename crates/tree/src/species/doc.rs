@@ -177,6 +177,18 @@ impl SpeciesDoc {
         }
     }
 
+    /// The number in `node`, which has to lie in `min..=max`.
+    ///
+    /// # Errors
+    /// If it is not a number, or lies outside.
+    pub fn number_within(&self, name: &str, node: &Node, min: f64, max: f64) -> Result<f64, Issue> {
+        let value = self.number_of(name, node)?;
+        if (min..=max).contains(&value) {
+            return Ok(value);
+        }
+        Err(self.issue(node.span.clone(), name, Problem::OutOfRange { value, min, max }))
+    }
+
     /// Three finite numbers in `node`, such as a position in metres.
     ///
     /// # Errors

@@ -43,6 +43,10 @@ pub enum Form {
     Table(&'static [Key]),
     /// An array of stems, each with its draws.
     Stems,
+    /// An array of pictures of a hull.
+    Pictures,
+    /// An array of pairs of numbers over the height.
+    Course,
     /// An array of tables. The `shape` of each is one of these and says which keys it has.
     Shapes(&'static [Shape]),
 }
@@ -70,6 +74,8 @@ impl Form {
             Self::Point => "point",
             Self::Table(_) => "table",
             Self::Stems => "array of stems",
+            Self::Pictures => "array of pictures",
+            Self::Course => "array of points",
             Self::Shapes(_) => "array of tables",
         }
     }
@@ -96,6 +102,8 @@ impl Form {
             Self::Length { max } => format!("0 to {max} m"),
             Self::Point => "[x, y, z] in m".to_owned(),
             Self::Stems => "[[\"0/12\", 7, 12.5, -3.1, 1.04], …]".to_owned(),
+            Self::Pictures => "[[0.0, 0.02, -0.4, [\"0289…\", …]], …]".to_owned(),
+            Self::Course => "[[0.0, 0.0], [0.01, 0.1], …]".to_owned(),
             Self::Table(keys) => keys.iter().map(|key| key.name).collect::<Vec<_>>().join(", "),
             Self::Shapes(shapes) => shapes.iter().map(|shape| shape.name).collect::<Vec<_>>().join(", "),
         }

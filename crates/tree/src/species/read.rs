@@ -50,11 +50,16 @@ impl SpeciesDoc {
             let (name, description) = (text(name), text(description));
             let kind = Species { name, description, generator, params, tree_seed, foliage, appearance };
             let Some(seed) = tree_seed.filter(|_| !individual.is_empty()) else { return Ok(kind) };
-            if !kind.generator.spreads(kind.params.values()).is_empty() {
+            let (generator, values) = (&kind.generator, kind.params.values());
+            let lacks_hull = individual.hull().is_some() && generator.hull_height(values).is_none();
+            let family = generator.family();
+            let message = if lacks_hull {
+                format!("has a crown to fill, which trees of {family} do not")
+            } else if generator.spreads(values).is_empty() {
+                format!("needs stems with addresses, which trees of {family} have not")
+            } else {
                 return Ok(kind.with_individual(seed, individual));
-            }
-            let message =
-                format!("needs stems with addresses, which trees of {} have not", kind.generator.family());
+            };
             let span = self.get("individual").map_or(0..0, |node| node.span.clone());
             issues.push(self.issue(span, "individual", Problem::Conflict { message }));
         }

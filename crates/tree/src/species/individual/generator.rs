@@ -51,6 +51,10 @@ impl Generator for WithIndividual {
         self.kind.spreads(values)
     }
 
+    fn hull_height(&self, values: &[f64]) -> Option<f64> {
+        self.kind.hull_height(values)
+    }
+
     fn structure(&self) -> String {
         format!("{}{}", self.kind.structure(), to_toml(&self.individual))
     }

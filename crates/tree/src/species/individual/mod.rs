@@ -1,6 +1,8 @@
 //! Species one of whose trees is an individual.
 
+mod crown;
 mod generator;
+mod stems;
 mod table;
 
 pub(super) use table::{KEYS, read};

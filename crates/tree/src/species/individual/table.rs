@@ -2,6 +2,20 @@
 //!
 //! ```toml
 //! [individual]
+//! # the crown in pictures: degrees around the tree, side of a cell and left edge over the height,
+//! # rows of cells from the top down to the ground (0: nothing, 9: dense)
+//! crown = [
+//!   [0.0, 0.25, -0.5, [
+//!     "0250",
+//!     "2994",
+//!     "0391",
+//!     "0000",
+//!   ]],
+//! ]
+//! # the trunk in the first picture: to the right, and up
+//! trunk = [[0.0, 0.0], [0.02, 0.25]]
+//! # seed of the draws by which the crown fills them
+//! crown_seed = 3
 //! # stem, seed of its draws, azimuth and pitch in degrees, factor of its length
 //! stems = [
 //!   ["0/12", 7, 12.5, -3.1, 1.04],
@@ -9,111 +23,91 @@
 //! ]
 //! ```
 
+use super::{crown, stems};
 use crate::param::{Problem, nearest};
-use crate::species::doc::{Node, SpeciesDoc, Value};
+use crate::species::doc::{SpeciesDoc, Value};
 use crate::species::error::Issue;
 use crate::species::key::{Form, Key};
-use pleach_plant::{BadStemPath, Draw, Individual, StemPath};
-use std::fmt::Write as _;
+use pleach_plant::{Hull, Individual};
+use std::sync::Arc;
 
 /// The keys of the table.
-pub(crate) const KEYS: [Key; 1] = [Key {
-    name: "stems",
-    form: Form::Stems,
-    default: "none",
-    doc: "stems with other draws: where each is from the trunk up, their seed, degrees about and away, factor of length",
-}];
+pub(crate) const KEYS: [Key; 4] = [
+    Key {
+        name: "crown",
+        form: Form::Pictures,
+        default: "none",
+        doc: "what the crown fills, in pictures: degrees around the tree, side of a cell, left edge, cells from the top",
+    },
+    Key {
+        name: "trunk",
+        form: Form::Course,
+        default: "none",
+        doc: "where the first of these pictures shows the trunk: to the right, and up",
+    },
+    Key {
+        name: "crown_seed",
+        form: Form::Seed,
+        default: "0",
+        doc: "seed of the draws by which the crown fills them, below 2^32; 0: the tree's own",
+    },
+    Key {
+        name: "stems",
+        form: Form::Stems,
+        default: "none",
+        doc: "stems with other draws: where each is from the trunk up, their seed, degrees about and away, factor of length",
+    },
+];
 
-/// Most stems of an individual: more than any fit writes.
-const MAX_STEMS: usize = 100_000;
-
-/// The table of `individual`; empty where no stem has draws of its own.
+/// The table of `individual`; empty where it is the tree of its seed.
 pub(super) fn to_toml(individual: &Individual) -> String {
     if individual.is_empty() {
         return String::new();
     }
-    let mut text =
-        "\n[individual]\n# stem, seed of its draws, azimuth and pitch in degrees, factor of its length\n\
-                    stems = [\n"
-            .to_owned();
-    for (path, draw) in individual.stems() {
-        let Draw { seed, length, .. } = draw;
-        let (azimuth, pitch) = draw.degrees();
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "  [\"{path}\", {seed}, {azimuth:?}, {pitch:?}, {length:?}],");
+    let mut text = "\n[individual]\n".to_owned();
+    if let Some(hull) = individual.hull() {
+        text += &crown::to_toml(hull);
     }
-    text + "]\n"
+    text + &stems::to_toml(individual)
 }
 
 /// The individual of `doc`, empty where it has none; what is wrong joins `issues`.
 pub(crate) fn read(doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Individual {
-    let mut individual = Individual::default();
-    let Some(node) = doc.get("individual") else { return individual };
+    let Some(node) = doc.get("individual") else { return Individual::default() };
     let Value::Table(entries) = &node.value else {
         issues.push(doc.wrong_type("individual", node, "a table", &node.value));
-        return individual;
+        return Individual::default();
     };
+    let mut hull = Hull::default();
+    let mut rows = None;
     for entry in entries {
         let name = format!("individual.{}", entry.key);
-        match &entry.node.value {
-            _ if entry.key != KEYS[0].name => {
-                let nearest = nearest(&entry.key, KEYS.iter().map(|key| key.name));
-                issues.push(doc.issue(entry.span.clone(), &name, Problem::UnknownName { nearest }));
+        let found = match entry.key.as_str() {
+            "crown" => crown::views(doc, &name, &entry.node).map(|views| hull.views = views),
+            "trunk" => crown::trunk(doc, &name, &entry.node).map(|trunk| hull.trunk = trunk),
+            "crown_seed" => crown::seed(doc, &name, &entry.node).map(|seed| hull.seed = seed),
+            "stems" => {
+                rows = Some((name, entry));
+                Ok(())
             }
-            Value::List(rows) if rows.len() > MAX_STEMS => {
-                let message = format!("has {} stems, expected at most {MAX_STEMS}", rows.len());
-                issues.push(doc.issue(entry.span.clone(), &name, Problem::Conflict { message }));
+            key => {
+                let nearest = nearest(key, KEYS.iter().map(|key| key.name));
+                Err(doc.issue(entry.span.clone(), &name, Problem::UnknownName { nearest }))
             }
-            Value::List(rows) => {
-                for node in rows {
-                    match row(doc, &name, node, &individual) {
-                        Ok((path, draw)) => individual.set(path, draw),
-                        Err(issue) => issues.push(issue),
-                    }
-                }
-            }
-            other => issues.push(doc.wrong_type(&name, &entry.node, "an array of stems", other)),
+        };
+        issues.extend(found.err());
+    }
+    let mut individual = match hull.views[..] {
+        [] if hull == Hull::default() => Individual::default(),
+        [] => {
+            let message = "has no crown, and trunk and crown_seed are nothing without one".to_owned();
+            issues.push(doc.issue(node.span.clone(), "individual", Problem::Conflict { message }));
+            Individual::default()
         }
+        _ => Individual::with_hull(Arc::new(hull)),
+    };
+    if let Some((name, entry)) = rows {
+        stems::read(doc, (&name, entry), &mut individual, issues);
     }
     individual
-}
-
-/// One stem and its draws.
-fn row(doc: &SpeciesDoc, name: &str, node: &Node, before: &Individual) -> Result<(StemPath, Draw), Issue> {
-    const EXPECTED: &str = "a stem, such as [\"0/12\", 7, 12.5, -3.1, 1.04]";
-    let Value::List(cells) = &node.value else {
-        return Err(doc.wrong_type(name, node, EXPECTED, &node.value));
-    };
-    let [path, seed, azimuth, pitch, length] = &cells[..] else {
-        let problem = Problem::WrongLength { expected: 5, found: cells.len() };
-        return Err(doc.issue(node.span.clone(), name, problem));
-    };
-    let conflict =
-        |node: &Node, message: String| doc.issue(node.span.clone(), name, Problem::Conflict { message });
-    let stem: StemPath = doc
-        .text_of(name, path)?
-        .parse()
-        .map_err(|error: BadStemPath| conflict(path, format!("names no stem: {error}")))?;
-    if before.get(&stem).is_some() {
-        return Err(conflict(path, format!("has the stem {stem} twice")));
-    }
-    let within = |node: &Node, min: f64, max: f64| {
-        let value = doc.number_of(name, node)?;
-        if (min..=max).contains(&value) {
-            Ok(value)
-        } else {
-            Err(doc.issue(node.span.clone(), name, Problem::OutOfRange { value, min, max }))
-        }
-    };
-    let seed_read = within(seed, 0.0, f64::from(u32::MAX))?;
-    if seed_read.fract() != 0.0 {
-        return Err(conflict(seed, "has a seed with a fraction, expected a whole number".to_owned()));
-    }
-    let draw = Draw {
-        seed: seed_read as u32,
-        azimuth: within(azimuth, -180.0, 180.0)?.to_radians(),
-        pitch: within(pitch, -180.0, 180.0)?.to_radians(),
-        length: within(length, 0.1, 10.0)?,
-    };
-    Ok((stem, draw))
 }
