@@ -51,6 +51,9 @@ impl std::fmt::Display for GeneratorChoice {
 }
 
 impl GeneratorChoice {
+    /// For drawings in flat colours: trees of few, smooth volumes.
+    pub const DRAWINGS: Self = Self::Family("stylised");
+
     /// Its name: `auto`, `trees`, or the family's.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -85,6 +88,7 @@ mod tests {
     #[test]
     fn generators_are_named_and_others_are_told_which_there_are() {
         assert_eq!("all".parse(), Ok(GeneratorChoice::Auto));
+        assert_eq!("stylised".parse(), Ok(GeneratorChoice::DRAWINGS));
         for name in ["auto", "trees"].into_iter().chain(crate::family_names()) {
             assert_eq!(name.parse::<GeneratorChoice>().unwrap().to_string(), name);
         }

@@ -122,6 +122,8 @@ impl Colors {
             color("bark", self.bark, self.bark_confidence),
             color("blossom", self.blossom, self.blossom_confidence),
             self.season.map(|season| ("season", season.name().to_owned(), self.season_confidence)),
+            // Drawings and photographs are far apart.
+            self.is_drawn().then(|| ("picture", "a drawing in flat colors".to_owned(), 1.0)),
         ];
         lines.into_iter().flatten().collect()
     }

@@ -137,16 +137,18 @@ impl FitOptions {
         Ok(prepared.with_result_cost(DRAWING, DRAWING))
     }
 
-    /// The same with the usual generators of a goal that was read so: a picture in colour is mostly of a real tree.
+    /// The same with the usual generators of a goal that was read so: a picture in colour is mostly of a real tree, unless
+    /// it is drawn in flat colours, as icons are.
     fn for_picture(&self, reading: &GoalReading) -> Cow<'_, Self> {
         let is_open = self.generator.is_none()
             && self.from == StartFrom::Auto
             && self.volume_from.is_none()
             && !self.evolve_rules;
-        if is_open && reading.colors.as_ref().is_some_and(|colors| colors.leaves.is_some()) {
-            return Cow::Owned(Self { generator: Some(GeneratorChoice::Trees), ..self.clone() });
-        }
-        Cow::Borrowed(self)
+        let colors = reading.colors.as_ref().filter(|colors| is_open && colors.leaves.is_some());
+        let Some(colors) = colors else { return Cow::Borrowed(self) };
+        let is_drawn = colors.is_drawn();
+        let generator = if is_drawn { GeneratorChoice::DRAWINGS } else { GeneratorChoice::Trees };
+        Cow::Owned(Self { generator: Some(generator), ..self.clone() })
     }
 
     /// The goal's picture.

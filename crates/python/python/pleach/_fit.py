@@ -249,7 +249,8 @@ def fit(
 
     The fit begins at ``start``: ``"auto"``, the species that the goal looks like; ``"random"``; or a species.
     ``generator`` is the family that the species is of: its name, ``"auto"`` for all, ``"trees"`` for ``weber-penn`` and
-    ``space-colonization``; by default that of ``start``, ``weber-penn``, or ``"trees"`` for a picture in colour.
+    ``space-colonization``; by default that of ``start``, or ``"trees"`` for a photograph, ``"stylised"`` for a drawing in
+    flat colours, and ``"weber-penn"`` for a silhouette.
     ``volume_from`` starts from a tree of paths in the outline of the ``"goal"`` or of a file. ``leaves`` says whether the
     tree has some; None looks for them. ``appearance`` says where the colours of the result come from: the ``"picture"``
     where it has some, or the ``"species"``. ``optimizer`` is a name, or a name and settings such as

@@ -18,6 +18,7 @@
 
 mod appearance;
 mod evidence;
+mod flat;
 mod grid;
 mod layers;
 mod lines;
@@ -107,9 +108,22 @@ pub struct Colors {
     pub foliage: Bitmap,
     /// Confidence in the two layers.
     pub layers_confidence: f64,
+    /// Part of the tree's pixels that have the colour of their right and lower neighbours, 0..=1: below 0.1 in
+    /// photographs, near 1 in drawings of flat colours; `None` where no pixel has such neighbours.
+    pub flat_share: Option<f64>,
 }
 
+/// From this part of pixels of one colour with their neighbours on, a picture is a drawing. Of 41 cut-outs of photographs
+/// none has more than 0.06; an icon has 0.87.
+const DRAWN: f64 = 0.5;
+
 impl Colors {
+    /// Whether it is a drawing in flat colours and no photograph.
+    #[must_use]
+    pub fn is_drawn(&self) -> bool {
+        self.flat_share.is_some_and(|share| share >= DRAWN)
+    }
+
     /// Reads the part of `photo` that is `tree`; both are of one size. Pixels less than half opaque have no colour.
     ///
     /// # Errors
@@ -122,10 +136,14 @@ impl Colors {
         let mut colors = Self {
             wood: Bitmap::new(tree.width(), tree.height()),
             foliage: Bitmap::new(tree.width(), tree.height()),
+            flat_share: flat::flat_share(photo, tree),
             ..Self::default()
         };
-        let Some(grid) = Grid::new(photo, tree) else { return Ok(colors) };
-        let Some(layers) = Layers::new(&grid) else { return Ok(colors) };
+        let layers = Grid::new(photo, tree).and_then(|grid| Layers::new(&grid).map(|layers| (grid, layers)));
+        let Some((grid, layers)) = layers else {
+            colors.round();
+            return Ok(colors);
+        };
         colors.wood = grid.layer(tree, |at| layers.kinds[at] == Kind::Wood);
         colors.foliage = grid.layer(tree, |at| layers.kinds[at] == Kind::Foliage);
         colors.read_wood(&grid, &layers);
@@ -137,7 +155,7 @@ impl Colors {
     /// To thousandths: more would be noise, and these come back from JSON as they were.
     fn round(&mut self) {
         let thousandths = |value: &mut f64| *value = (1000.0 * *value).round() / 1000.0;
-        self.leaf_spread.iter_mut().for_each(thousandths);
+        self.leaf_spread.iter_mut().chain(&mut self.flat_share).for_each(thousandths);
         for confidence in [
             &mut self.leaf_confidence,
             &mut self.bark_confidence,
