@@ -1,11 +1,13 @@
-//! Draws docs/photographs.png: a photograph of a tree, what is masked and what is read. The photograph is drawn, too.
+//! Draws docs/photographs.png: a photograph of a tree, what is masked, what is read, and the tree that a fit found. The
+//! photograph is drawn, too.
 //!
 //! ```sh
 //! cargo run --release -p pleach-experiments --example photograph -- draw oak.png
 //! pleach mask oak.png --box 80,40,560,662 -o mask.png --overlay look.png
 //! pleach read oak.png --box 80,40,560,662 -o oak/
+//! pleach fit oak.png --box 80,40,560,662 --height 14 --timeout 60s
 //! cargo run --release -p pleach-experiments --example photograph -- \
-//!     sheet docs/photographs.png oak.png look.png oak/reading.png
+//!     sheet docs/photographs.png oak.png look.png oak/reading.png runs/oak/individual-render.png
 //! ```
 
 #![allow(clippy::print_stdout, reason = "an example says what it has done")]
