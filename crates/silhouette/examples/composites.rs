@@ -8,12 +8,12 @@
 //! and other trees of the same kind; `FIRST` and `COUNT` choose the pictures. Each is masked by `auto`, from a box
 //! that is a few percent off on each side, as a hand drags it, and from one where the picture cuts off the crown. Prints quantiles of IoU by scenery, how many of the
 //! masks of about a confidence are good, and with `table` a line per mask: way, scenery, whether sky is behind most
-//! of the crown, IoU, confidence. Confidence was fitted to pictures 0 to 37; judge by others.
+//! of the crown, IoU, confidence, what it was made by. Confidence was fitted to pictures 0 to 37; judge by others.
 
 #![allow(clippy::print_stdout, reason = "an example's output")]
 
 use pleach_plant::Parts;
-use pleach_silhouette::mask::{Mask, MaskOptions, Photo, PixelBox};
+use pleach_silhouette::mask::{Mask, MaskOptions, Photo, PixelBox, Segmentation};
 use pleach_silhouette::{Bitmap, Frame, Rasterizer, View};
 use std::error::Error;
 
@@ -280,6 +280,16 @@ fn iou(a: &Bitmap, b: &Bitmap) -> f64 {
     both as f64 / (a.ink() + b.ink() - both).max(1) as f64
 }
 
+/// What a mask was made by.
+const fn means(segmentation: Segmentation) -> &'static str {
+    match segmentation {
+        Segmentation::Opacity | Segmentation::TwoTones => "given",
+        Segmentation::Color { .. } => "background",
+        Segmentation::Colors => "colors",
+        Segmentation::Cut { .. } => "cut",
+    }
+}
+
 fn quantile(values: &mut [f64], part: f64) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(((values.len().max(1) - 1) as f64 * part).round() as usize).copied().unwrap_or(f64::NAN)
@@ -306,8 +316,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             let name = WAYS[way];
             if wanted == Some("table") {
                 let open = OPEN.contains(&scene.scenery);
+                let means = made.as_ref().map_or("none", |mask| means(mask.segmentation));
                 println!(
-                    "{salt} {name} {} {open} {found:.4} {confidence:.4}",
+                    "{salt} {name} {} {open} {found:.4} {confidence:.4} {means}",
                     SCENERY[scene.scenery].replace(' ', "-")
                 );
             }

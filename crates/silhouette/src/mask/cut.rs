@@ -222,6 +222,8 @@ struct Level<'a> {
     /// How far out of the middle of the box, squared: 1 at the ellipse that touches it.
     out: Vec<f32>,
     is_sky: Vec<bool>,
+    /// Cost of a cut between each cell and its neighbours at the steps of [`FORWARD`]; the same in each round.
+    edges: Vec<[i32; FORWARD.len()]>,
 }
 
 impl<'a> Level<'a> {
@@ -253,7 +255,7 @@ impl<'a> Level<'a> {
                 seeds.iter_mut().zip(cells).filter(|(_, is)| *is).for_each(|(s, _)| *s = seed);
             }
         }
-        Self { small, seeds, features, prior, out: outs, is_sky: skies }
+        Self { small, seeds, features, prior, out: outs, is_sky: skies, edges: edges(small) }
     }
 
     /// A first guess: an ellipse without the sky, and without what looks as the outside of the box, and its corners,
@@ -303,7 +305,6 @@ impl<'a> Level<'a> {
     fn cut(&self, colors: &Colors) -> Option<Vec<bool>> {
         let (width, height) = (self.small.width, self.small.height);
         let mut graph = GridGraph::new(width, height);
-        let sharpness = self.sharpness();
         for y in 0..height {
             for x in 0..width {
                 let i = self.small.index(x, y);
@@ -313,17 +314,8 @@ impl<'a> Level<'a> {
                     Seed::Unknown => ((colors.for_tree(self.features[i]) + self.prior[i]) * UNIT) as i32,
                 };
                 graph.set_terminal(x, y, terminal);
-                for (step, (dx, dy)) in FORWARD {
-                    let (Some(a), Some(b)) = (x.checked_add_signed(dx), y.checked_add_signed(dy)) else {
-                        continue;
-                    };
-                    if a >= width || b >= height {
-                        continue;
-                    }
-                    let difference = apart(self.small.colors[i], self.small.colors[self.small.index(a, b)]);
-                    let far = if dx != 0 && dy != 0 { std::f32::consts::FRAC_1_SQRT_2 } else { 1.0 };
-                    let cost = EDGE * far * math::expf(-sharpness * difference * difference);
-                    graph.set_edge(x, y, step, ((cost * UNIT) as i32).min(MAX_EDGE));
+                for ((step, _), cost) in FORWARD.into_iter().zip(self.edges[i]) {
+                    graph.set_edge(x, y, step, cost);
                 }
             }
         }
@@ -341,18 +333,35 @@ impl<'a> Level<'a> {
         (tree.ink() >= MIN_TREE || marked.ink() > 0)
             .then(|| (0..self.seeds.len()).map(|i| tree.get(i as u32 % width, i as u32 / width)).collect())
     }
+}
 
-    /// What squares of differences of colours are multiplied by: half of one over their mean.
-    fn sharpness(&self) -> f32 {
-        let (mut sum, mut count) = (0.0_f64, 0_u32);
-        for y in 0..self.small.height {
-            for x in 1..self.small.width {
-                let i = self.small.index(x, y);
-                let difference = f64::from(apart(self.small.colors[i], self.small.colors[i - 1]));
-                sum += difference * difference;
-                count += 1;
-            }
+/// Cost of a cut between each cell and its neighbours at the steps of [`FORWARD`]: less where colours differ more.
+fn edges(small: &Reduced) -> Vec<[i32; FORWARD.len()]> {
+    let sharpness = sharpness(small);
+    let cost = |x: u32, y: u32, (dx, dy): (i32, i32)| {
+        let (a, b) = (x.checked_add_signed(dx)?, y.checked_add_signed(dy)?);
+        if a >= small.width || b >= small.height {
+            return None;
         }
-        (0.5 / (sum / f64::from(count.max(1))).max(1e-6)) as f32
+        let difference = apart(small.colors[small.index(x, y)], small.colors[small.index(a, b)]);
+        let far = if dx != 0 && dy != 0 { std::f32::consts::FRAC_1_SQRT_2 } else { 1.0 };
+        let cost = EDGE * far * math::expf(-sharpness * difference * difference);
+        Some(((cost * UNIT) as i32).min(MAX_EDGE))
+    };
+    let places = (0..small.height).flat_map(|y| (0..small.width).map(move |x| (x, y)));
+    places.map(|(x, y)| FORWARD.map(|(_, step)| cost(x, y, step).unwrap_or(0))).collect()
+}
+
+/// What squares of differences of colours are multiplied by: half of one over their mean.
+fn sharpness(small: &Reduced) -> f32 {
+    let (mut sum, mut count) = (0.0_f64, 0_u32);
+    for y in 0..small.height {
+        for x in 1..small.width {
+            let i = small.index(x, y);
+            let difference = f64::from(apart(small.colors[i], small.colors[i - 1]));
+            sum += difference * difference;
+            count += 1;
+        }
     }
+    (0.5 / (sum / f64::from(count.max(1))).max(1e-6)) as f32
 }

@@ -30,19 +30,25 @@ enum Side {
     Sink,
 }
 
+/// What is known of a node; side by side in memory, since a path asks for all of it.
+#[derive(Clone, Copy)]
+struct Node {
+    /// What is left of the capacity from the source, or to the sink if negative.
+    terminal: i32,
+    /// Distance to the terminal, and when it was last known to be right.
+    distance: u32,
+    seen: u32,
+    side: Side,
+    parent: u8,
+}
+
 /// A picture's graph. Nodes have a rim of one pixel that no edge leads to, so that each has eight neighbours.
 pub(super) struct GridGraph {
     stride: usize,
     steps: [isize; 8],
     /// What is left of the capacities towards the neighbours.
     edges: Vec<[i32; 8]>,
-    /// What is left of the capacity from the source, or to the sink if negative.
-    terminals: Vec<i32>,
-    side: Vec<Side>,
-    parent: Vec<u8>,
-    /// Distance to the terminal, and when it was last known to be right.
-    distance: Vec<u32>,
-    seen: Vec<u32>,
+    nodes: Vec<Node>,
     now: u32,
     active: VecDeque<u32>,
     orphans: VecDeque<u32>,
@@ -57,11 +63,7 @@ impl GridGraph {
             stride,
             steps: STEPS.map(|(dx, dy)| dy as isize * stride as isize + dx as isize),
             edges: vec![[0; 8]; count],
-            terminals: vec![0; count],
-            side: vec![Side::Free; count],
-            parent: vec![NONE; count],
-            distance: vec![0; count],
-            seen: vec![0; count],
+            nodes: vec![Node { terminal: 0, distance: 0, seen: 0, side: Side::Free, parent: NONE }; count],
             now: 0,
             active: VecDeque::new(),
             orphans: VecDeque::new(),
@@ -79,7 +81,7 @@ impl GridGraph {
     /// Costs this if the pixel is on the sink's side, or −`for_source` if it is on the source's.
     pub(super) fn set_terminal(&mut self, x: u32, y: u32, for_source: i32) {
         let node = self.node(x, y);
-        self.terminals[node] = for_source.clamp(-UNCUTTABLE, UNCUTTABLE);
+        self.nodes[node].terminal = for_source.clamp(-UNCUTTABLE, UNCUTTABLE);
     }
 
     /// Costs this if the pixel and its neighbour at a step of [`FORWARD`] are on different sides.
@@ -93,23 +95,20 @@ impl GridGraph {
 
     /// Whether a pixel is on the source's side, after [`GridGraph::cut`].
     pub(super) fn is_source(&self, x: u32, y: u32) -> bool {
-        self.side[self.node(x, y)] == Side::Source
+        self.nodes[self.node(x, y)].side == Side::Source
     }
 
     /// Finds the cheapest cut.
     pub(super) fn cut(&mut self) {
-        for node in 0..self.terminals.len() {
-            if self.terminals[node] != 0 {
-                self.side[node] = if self.terminals[node] > 0 { Side::Source } else { Side::Sink };
-                self.parent[node] = TERMINAL;
-                self.distance[node] = 1;
-                self.active.push_back(node as u32);
-            }
+        for (i, node) in self.nodes.iter_mut().enumerate().filter(|(_, node)| node.terminal != 0) {
+            node.side = if node.terminal > 0 { Side::Source } else { Side::Sink };
+            (node.parent, node.distance) = (TERMINAL, 1);
+            self.active.push_back(i as u32);
         }
         while let Some(node) = self.active.pop_front() {
             let node = node as usize;
             // A node stays active until all that it can reach is in its tree.
-            while self.side[node] != Side::Free {
+            while self.nodes[node].side != Side::Free {
                 let Some((source, step)) = self.grow(node) else { break };
                 self.now += 1;
                 self.augment(source, step);
@@ -123,7 +122,7 @@ impl GridGraph {
     /// Adds the free neighbours of a node to its tree. Returns the edge to the other tree if there is one, as the
     /// node on the source's side and the step from there.
     fn grow(&mut self, node: usize) -> Option<(usize, usize)> {
-        let side = self.side[node];
+        let side = self.nodes[node].side;
         for step in 0..8 {
             let other = self.neighbor(node, step);
             let left =
@@ -131,19 +130,21 @@ impl GridGraph {
             if left == 0 {
                 continue;
             }
-            if self.side[other] == Side::Free {
-                self.side[other] = side;
-                self.parent[other] = (step ^ 1) as u8;
-                self.distance[other] = self.distance[node] + 1;
-                self.seen[other] = self.seen[node];
+            if self.nodes[other].side == Side::Free {
+                self.nodes[other].side = side;
+                self.nodes[other].parent = (step ^ 1) as u8;
+                self.nodes[other].distance = self.nodes[node].distance + 1;
+                self.nodes[other].seen = self.nodes[node].seen;
                 self.active.push_back(other as u32);
-            } else if self.side[other] != side {
+            } else if self.nodes[other].side != side {
                 return Some(if side == Side::Source { (node, step) } else { (other, step ^ 1) });
-            } else if self.seen[other] <= self.seen[node] && self.distance[other] > self.distance[node] + 1 {
+            } else if self.nodes[other].seen <= self.nodes[node].seen
+                && self.nodes[other].distance > self.nodes[node].distance + 1
+            {
                 // A shorter way to the terminal.
-                self.parent[other] = (step ^ 1) as u8;
-                self.distance[other] = self.distance[node] + 1;
-                self.seen[other] = self.seen[node];
+                self.nodes[other].parent = (step ^ 1) as u8;
+                self.nodes[other].distance = self.nodes[node].distance + 1;
+                self.nodes[other].seen = self.nodes[node].seen;
             }
         }
         None
@@ -155,34 +156,34 @@ impl GridGraph {
         let mut most = self.edges[source][step];
         for (start, is_source) in [(source, true), (sink, false)] {
             let mut node = start;
-            while self.parent[node] != TERMINAL {
-                let up = usize::from(self.parent[node]);
+            while self.nodes[node].parent != TERMINAL {
+                let up = usize::from(self.nodes[node].parent);
                 let next = self.neighbor(node, up);
                 most = most.min(if is_source { self.edges[next][up ^ 1] } else { self.edges[node][up] });
                 node = next;
             }
-            most = most.min(self.terminals[node].abs());
+            most = most.min(self.nodes[node].terminal.abs());
         }
         self.edges[source][step] -= most;
         self.edges[sink][step ^ 1] += most;
         for (start, is_source) in [(source, true), (sink, false)] {
             let mut node = start;
-            while self.parent[node] != TERMINAL {
-                let up = usize::from(self.parent[node]);
+            while self.nodes[node].parent != TERMINAL {
+                let up = usize::from(self.nodes[node].parent);
                 let next = self.neighbor(node, up);
                 let (from, to) =
                     if is_source { ((next, up ^ 1), (node, up)) } else { ((node, up), (next, up ^ 1)) };
                 self.edges[from.0][from.1] -= most;
                 self.edges[to.0][to.1] += most;
                 if self.edges[from.0][from.1] == 0 {
-                    self.parent[node] = ORPHAN;
+                    self.nodes[node].parent = ORPHAN;
                     self.orphans.push_back(node as u32);
                 }
                 node = next;
             }
-            self.terminals[node] -= if is_source { most } else { -most };
-            if self.terminals[node] == 0 {
-                self.parent[node] = ORPHAN;
+            self.nodes[node].terminal -= if is_source { most } else { -most };
+            if self.nodes[node].terminal == 0 {
+                self.nodes[node].parent = ORPHAN;
                 self.orphans.push_back(node as u32);
             }
         }
@@ -190,14 +191,14 @@ impl GridGraph {
 
     /// Finds another parent of a node, or sets it free with all that hang on it.
     fn adopt(&mut self, node: usize) {
-        let side = self.side[node];
+        let side = self.nodes[node].side;
         let mut best: Option<(u32, usize)> = None;
         for step in 0..8 {
             let other = self.neighbor(node, step);
             let left =
                 if side == Side::Source { self.edges[other][step ^ 1] } else { self.edges[node][step] };
             if left > 0
-                && self.side[other] == side
+                && self.nodes[other].side == side
                 && let Some(distance) = self.find_distance(other)
                 && best.is_none_or(|(least, _)| distance < least)
             {
@@ -205,14 +206,14 @@ impl GridGraph {
             }
         }
         if let Some((distance, step)) = best {
-            self.parent[node] = step as u8;
-            self.distance[node] = distance + 1;
-            self.seen[node] = self.now;
+            self.nodes[node].parent = step as u8;
+            self.nodes[node].distance = distance + 1;
+            self.nodes[node].seen = self.now;
             return;
         }
         for step in 0..8 {
             let other = self.neighbor(node, step);
-            if self.side[other] != side {
+            if self.nodes[other].side != side {
                 continue;
             }
             let left =
@@ -220,26 +221,26 @@ impl GridGraph {
             if left > 0 {
                 self.active.push_back(other as u32);
             }
-            if usize::from(self.parent[other]) == step ^ 1 {
-                self.parent[other] = ORPHAN;
+            if usize::from(self.nodes[other].parent) == step ^ 1 {
+                self.nodes[other].parent = ORPHAN;
                 self.orphans.push_back(other as u32);
             }
         }
-        self.side[node] = Side::Free;
-        self.parent[node] = NONE;
+        self.nodes[node].side = Side::Free;
+        self.nodes[node].parent = NONE;
     }
 
     /// Steps from a node to its terminal; `None` if it hangs on an orphan. Marks the way, so that it is walked once.
     fn find_distance(&mut self, start: usize) -> Option<u32> {
         let (mut node, mut steps) = (start, 0);
         let known = loop {
-            if self.seen[node] == self.now {
-                break self.distance[node];
+            if self.nodes[node].seen == self.now {
+                break self.nodes[node].distance;
             }
-            match self.parent[node] {
+            match self.nodes[node].parent {
                 TERMINAL => {
-                    self.seen[node] = self.now;
-                    self.distance[node] = 1;
+                    self.nodes[node].seen = self.now;
+                    self.nodes[node].distance = 1;
                     break 1;
                 }
                 ORPHAN | NONE => return None,
@@ -249,11 +250,11 @@ impl GridGraph {
         };
         let whole = known + steps;
         let (mut node, mut distance) = (start, whole);
-        while self.seen[node] != self.now {
-            self.seen[node] = self.now;
-            self.distance[node] = distance;
+        while self.nodes[node].seen != self.now {
+            self.nodes[node].seen = self.now;
+            self.nodes[node].distance = distance;
             distance -= 1;
-            node = self.neighbor(node, usize::from(self.parent[node]));
+            node = self.neighbor(node, usize::from(self.nodes[node].parent));
         }
         Some(whole)
     }
@@ -337,7 +338,7 @@ mod tests {
             for y in 0..47 {
                 for x in 0..61 {
                     let (node, i) = (graph.node(x, y), (y * 61 + x) as usize);
-                    let (left, whole) = (graph.terminals[node], problem.terminals[i]);
+                    let (left, whole) = (graph.nodes[node].terminal, problem.terminals[i]);
                     if whole > 0 {
                         flow += whole - left;
                     }
@@ -346,7 +347,7 @@ mod tests {
                     assert!(!source || left >= 0, "{x}, {y} reaches the sink");
                     for step in 0..8 {
                         let other = graph.neighbor(node, step);
-                        let over = source && graph.side[other] != Side::Source;
+                        let over = source && graph.nodes[other].side != Side::Source;
                         assert!(!over || graph.edges[node][step] == 0, "{x}, {y}, {step}");
                     }
                 }

@@ -25,6 +25,7 @@ mod colors;
 mod confidence;
 mod cut;
 mod error;
+mod ground;
 mod guess;
 mod horizon;
 mod max_flow;

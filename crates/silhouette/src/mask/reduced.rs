@@ -127,16 +127,48 @@ impl Reduced {
     pub(super) fn row(&self, y: u32) -> Between {
         Between::new(y, self.height, self.part.height)
     }
+}
 
-    /// A field at a pixel, between the four cells around it.
-    pub(super) fn at(&self, values: &[f32], column: &Between, row: &Between) -> f32 {
-        let width = self.width as usize;
-        let along = |start: usize| {
-            let (a, b) = (values[start + column.first], values[start + column.second]);
-            a + column.share * (b - a)
-        };
-        let (above, below) = (along(row.first * width), along(row.second * width));
-        above + row.share * (below - above)
+/// A field at the size of the photograph, a row at a time: between the four cells around each pixel.
+pub(super) struct Stretched<'a> {
+    field: &'a [f32],
+    columns: &'a [Between],
+    width: usize,
+    /// The rows of cells above and below, and their values at all columns.
+    sources: [(Option<usize>, Vec<f32>); 2],
+    values: Vec<f32>,
+}
+
+impl<'a> Stretched<'a> {
+    pub(super) fn new(small: &Reduced, field: &'a [f32], columns: &'a [Between]) -> Self {
+        let empty = || vec![0.0; columns.len()];
+        Self {
+            field,
+            columns,
+            width: small.width as usize,
+            sources: [(None, empty()), (None, empty())],
+            values: empty(),
+        }
+    }
+
+    /// The field along a row of the part of the photograph.
+    pub(super) fn row(&mut self, row: &Between) -> &[f32] {
+        for ((source, values), wanted) in self.sources.iter_mut().zip([row.first, row.second]) {
+            // Several rows of pixels lie between the same rows of cells.
+            if *source != Some(wanted) {
+                let cells = &self.field[wanted * self.width..];
+                for (value, column) in values.iter_mut().zip(self.columns) {
+                    let (a, b) = (cells[column.first], cells[column.second]);
+                    *value = a + column.share * (b - a);
+                }
+                *source = Some(wanted);
+            }
+        }
+        let [(_, above), (_, below)] = &self.sources;
+        for ((value, above), below) in self.values.iter_mut().zip(above).zip(below) {
+            *value = above + row.share * (below - above);
+        }
+        &self.values
     }
 }
 

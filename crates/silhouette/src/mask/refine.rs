@@ -3,13 +3,18 @@
 //! Where the sky is behind, a pixel is tree if it is farther from the sky's colour than half of what is usual for the
 //! tree around, as in [`super::score`]: that keeps twigs of a pixel and opens gaps of one. Elsewhere its own colour and
 //! the small picture's answer decide together.
+//!
+//! A shadow that the cut took for tree is then taken away again, as in [`super::score`]; what a person marked stays.
 
 use super::Segmentation;
 use super::clear_sky::ClearSky;
 use super::cut::{Cut, Seed, Seeds};
+use super::ground::Ground;
 use super::oklab::Converter;
 use super::photo::Photo;
+use super::reduced::Stretched;
 use super::score::{Foreground, MIN_DISTANCE};
+use super::shadow;
 use crate::bitmap::Bitmap;
 
 /// Twigs reach beyond the small picture's tree by this part of its longer side.
@@ -85,27 +90,30 @@ pub(super) fn refined(photo: &Photo, converter: &Converter, cut: &Cut, given: &S
 
     let (width, height) = (photo.width(), photo.height());
     let new = || Bitmap::new(width, height);
-    let (mut ink, mut firm, mut loose) = (new(), new(), new());
+    let (mut ink, mut firm, mut loose, mut shade) = (new(), new(), new(), new());
+    let ground = Ground::new(cut, &region);
     let columns = small.columns();
+    let mut fields =
+        [&near, &around, &is_before_sky, &least].map(|field| Stretched::new(small, field, &columns));
     for y in region.y..region.y + region.height {
         let row = small.row(y - small.part.y);
+        let [near, around, is_before_sky, least] = fields.each_mut().map(|field| field.row(&row));
         for x in region.x..region.x + region.width {
-            let column = &columns[(x - small.part.x) as usize];
-            let at = |field: &[f32]| small.at(field, column, &row);
+            let at = (x - small.part.x) as usize;
             let is_marked = |strokes: Option<&Bitmap>| strokes.is_some_and(|ink| ink.get(x, y));
             if is_marked(given.include) {
                 [&mut ink, &mut firm, &mut loose].into_iter().for_each(|map| map.set(x, y, true));
                 continue;
             }
-            if at(&near) <= 0.0 || is_marked(given.exclude) {
+            if near[at] <= 0.0 || is_marked(given.exclude) {
                 continue;
             }
             let color = converter.oklab(photo.rgb(x, y));
-            let inside = 2.0 * at(&around) - 1.0;
+            let inside = 2.0 * around[at] - 1.0;
             let away = cut.sky.distance(small, (x, y), color);
-            let (for_tree, margin) = if at(&is_before_sky) > BEFORE_SKY && inside < DEEP {
+            let (for_tree, margin) = if is_before_sky[at] > BEFORE_SKY && inside < DEEP {
                 // As a logarithm of ratios, so that both kinds of margin are sums.
-                ((away / at(&least)).min(9.0) - 1.0, FIRM - 1.0)
+                ((away / least[at]).min(9.0) - 1.0, FIRM - 1.0)
             } else {
                 let by_color = cut.by_color(y, color);
                 let sky = if ClearSky::is_sky(away) { NEIGHBORS } else { 0.0 };
@@ -113,8 +121,14 @@ pub(super) fn refined(photo: &Photo, converter: &Converter, cut: &Cut, given: &S
             };
             ink.set(x, y, for_tree > 0.0);
             firm.set(x, y, for_tree > margin);
-            loose.set(x, y, for_tree > -margin.min(1.0 - 1.0 / FIRM));
+            let is_loose = for_tree > -margin.min(1.0 - 1.0 / FIRM);
+            loose.set(x, y, is_loose);
+            if is_loose && let Some(ground) = &ground {
+                shade.set(x, y, ground.is_shade((x, y), color));
+            }
         }
     }
+    let shadow = shadow::on_ground(&ink, &shade);
+    [&mut ink, &mut firm, &mut loose].into_iter().for_each(|map| map.subtract(&shadow));
     Foreground { ink, horizon: None, segmentation: Segmentation::Cut { region }, firm, loose }
 }

@@ -158,7 +158,8 @@ mod tests {
         assert!(!is(ground) && !is(darker(0.3)) && !is(darker(1.2)) && !is([0.5, 0.05, 0.08]));
     }
 
-    /// Trees before a wall with a floor, and on a lawn, that throw a shadow on it.
+    /// Trees before a wall with a floor, and on a lawn, that throw a shadow on it; by themselves, from a box close around
+    /// the tree, and from one around the shadow, too.
     #[test]
     fn a_shadow_on_the_ground_is_not_tree() {
         for species in ["quaking_aspen", "acer", "silver_birch"] {
@@ -172,7 +173,11 @@ mod tests {
                 let drawn = scene(species, 3.0, shaded);
                 let (left, top, right, bottom) = drawn.truth.ink_box().unwrap();
                 let region = PixelBox { x: left, y: top, width: right + 1 - left, height: bottom + 1 - top };
-                for region in [None, Some(region)] {
+                // All of the shadow, too.
+                let (end, foot) = (SIDE - 2, (0.95 * f64::from(SIDE)) as u32);
+                let wide =
+                    PixelBox { x: left - 4, y: top - 4, width: end + 4 - left, height: foot + 4 - top };
+                for region in [None, Some(region), Some(wide)] {
                     let options = MaskOptions { region, ..MaskOptions::default() };
                     let mask = Mask::from_photo(&drawn.photo, &options).unwrap();
                     let found = iou(&mask.bitmap, &drawn.truth);
