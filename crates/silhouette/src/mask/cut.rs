@@ -69,6 +69,8 @@ pub(super) struct Seeds<'a> {
     pub(super) region: PixelBox,
     pub(super) include: Option<&'a Bitmap>,
     pub(super) exclude: Option<&'a Bitmap>,
+    /// Whether a person showed it. What a guess takes for a shadow may as well be a hedge or a hill.
+    pub(super) is_shown: bool,
     pub(super) reach: Reach,
 }
 
@@ -109,7 +111,7 @@ const CUT_OFF: f32 = 1.4;
 impl<'a> Seeds<'a> {
     /// Where nobody shows anything: a guess at the box.
     pub(super) fn guessed(region: PixelBox, photo: &Photo) -> Self {
-        Self { reach: Reach::new(&region, photo), region, include: None, exclude: None }
+        Self { reach: Reach::new(&region, photo), region, include: None, exclude: None, is_shown: false }
     }
 
     pub(super) fn shown(shown: &'a Shown, photo: &Photo) -> Self {
@@ -118,6 +120,7 @@ impl<'a> Seeds<'a> {
             region: shown.region,
             include: shown.include.as_ref(),
             exclude: shown.exclude.as_ref(),
+            is_shown: true,
         }
     }
 }

@@ -4,7 +4,8 @@
 //! tree around, as in [`super::score`]: that keeps twigs of a pixel and opens gaps of one. Elsewhere its own colour and
 //! the small picture's answer decide together.
 //!
-//! A shadow that the cut took for tree is then taken away again, as in [`super::score`]; what a person marked stays.
+//! In a box that a person showed, a shadow that the cut took for tree is then taken away again, as in
+//! [`super::score`]; what was marked stays.
 
 use super::Segmentation;
 use super::clear_sky::ClearSky;
@@ -91,7 +92,7 @@ pub(super) fn refined(photo: &Photo, converter: &Converter, cut: &Cut, given: &S
     let (width, height) = (photo.width(), photo.height());
     let new = || Bitmap::new(width, height);
     let (mut ink, mut firm, mut loose, mut shade) = (new(), new(), new(), new());
-    let ground = Ground::new(cut, &region);
+    let ground = given.is_shown.then(|| Ground::new(cut, &region)).flatten();
     let columns = small.columns();
     let mut fields =
         [&near, &around, &is_before_sky, &least].map(|field| Stretched::new(small, field, &columns));
