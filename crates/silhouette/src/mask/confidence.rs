@@ -65,9 +65,9 @@ impl Evidence {
         Self { foot: 0.0, dropped: 0.0, spans: false, ..self }
     }
 
-    /// The same of a tree in a box that a person dragged: where that ends with the picture, the tree is known to.
-    pub(super) const fn of_a_box(self) -> Self {
-        Self { edge: 0.0, foot: 0.0, spans: false, ..self }
+    /// The part that stays if the threshold is higher.
+    pub(super) const fn firm(self) -> f64 {
+        self.firm
     }
 
     /// All of it in one number, in 0..=1.

@@ -132,7 +132,7 @@ pub(super) struct Cut {
     pub(super) seeds: Vec<Seed>,
     pub(super) is_tree: Vec<bool>,
     colors: Colors,
-    region: PixelBox,
+    pub(super) region: PixelBox,
 }
 
 /// What tree and rest look like.
