@@ -9,7 +9,7 @@
 //! that is a few percent off on each side, as a hand drags it, and from one where the picture cuts off the crown. Prints quantiles of IoU by scenery, how many of the
 //! masks of about a confidence are good, and with `table` a line per mask: way, scenery, whether sky is behind most
 //! of the crown, IoU, confidence, what it was made by. Confidence was fitted to some of the
-//! pictures 1000 to 1119; judge by others.
+//! pictures 1000 to 1112; judge by others.
 
 #![allow(clippy::print_stdout, reason = "an example's output")]
 
