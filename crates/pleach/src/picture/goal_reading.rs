@@ -28,6 +28,11 @@ impl GoalReading {
         mask: Option<&Mask>,
         warnings: Vec<GoalWarning>,
     ) -> Self {
+        // Brown leaves have the colour of wood, and a fine winter crown the silhouette of a leafy one.
+        let disagreement = match colors.as_ref().and_then(|colors| colors.leaves) {
+            Some(leaves) if leaves != measures.leaves => measures.leaves_confidence,
+            _ => 0.0,
+        };
         if let Some(colors) = &colors
             && let Some(leaves) = colors.leaves
             && colors.leaves_confidence > measures.leaves_confidence
@@ -38,7 +43,7 @@ impl GoalReading {
             let (foliage, wood) = (colors.foliage.ink() as f64, colors.wood.ink() as f64);
             if foliage + wood > 0.0 {
                 measures.foliage_share = Some(foliage / (foliage + wood));
-                measures.foliage_share_confidence = colors.layers_confidence;
+                measures.foliage_share_confidence = colors.layers_confidence * (1.0 - disagreement);
             }
         }
         Self { measures, colors, mask_confidence: mask.map(|mask| mask.confidence), warnings }
@@ -49,5 +54,29 @@ impl GoalReading {
         let Reading { foliage_share, foliage_share_confidence, .. } = self.measures;
         let Reading { leaves, leaves_confidence, .. } = self.measures;
         Reading { foliage_share, foliage_share_confidence, leaves, leaves_confidence, ..measures }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pleach_silhouette::Bitmap;
+
+    #[test]
+    fn foliage_is_doubtful_where_colors_and_silhouette_disagree_about_leaves() {
+        let colors = Colors {
+            leaves: Some(false),
+            leaves_confidence: 0.625,
+            layers_confidence: 0.5,
+            wood: Bitmap::from_fn(4, 4, |_, _| true),
+            foliage: Bitmap::new(4, 4),
+            ..Colors::default()
+        };
+        let confidence = |leaves| {
+            let measures = Reading { leaves, leaves_confidence: 0.5, ..Reading::default() };
+            let reading = GoalReading::new(measures, Some(colors.clone()), None, Vec::new());
+            reading.measures.foliage_share_confidence
+        };
+        assert_eq!((confidence(false), confidence(true)), (0.5, 0.25));
     }
 }
