@@ -175,6 +175,22 @@ fn mistakes_are_told_with_their_places() {
         let _ = dir.file("bad.toml", format!("{head}{line}\n"));
         dir.run(["grow", "bad.toml", "-o", "x.ply"]).fails(1, words);
     }
+    let head = "generator = \"space-colonization\"\ntree_seed = 1\n[individual]\n";
+    let cases: [(&str, &[&str]); 9] = [
+        ("crown = 3", &["4:9", "an array of pictures"]),
+        ("crown = [[0, 0.1, 0]]", &["4:10", "expected 4"]),
+        ("crown = [[0, 0.1, 0, [\"00\"]]]", &["nothing in it"]),
+        ("crown = [[0, 0.1, 0, [\"0a9\"]]]", &["digits", "256"]),
+        ("crown = [[0, 0, 0, [\"9\"]]]", &["0.002"]),
+        ("trunk = [[0, 1]]", &["has no crown"]),
+        ("crown = [[0, 0.1, 0, [\"9\"]]]\ntrunk = [[0, 1], [0, 0.5]]", &["5:20", "allowed is 1 to 10"]),
+        ("crown_seed = 1.5", &["fraction"]),
+        ("crwn = []", &["did you mean `crown`"]),
+    ];
+    for (line, words) in cases {
+        let _ = dir.file("bad.toml", format!("{head}{line}\n"));
+        dir.run(["grow", "bad.toml", "-o", "x.ply"]).fails(1, words);
+    }
     let _ = dir.file("bad.toml", "[individual]\nstems = [[\"0/1\", 1, 0, 0, 1]]\n");
     dir.run(["grow", "bad.toml", "-o", "x.ply"]).fails(1, &["tree_seed"]);
     let _ = dir.file(
