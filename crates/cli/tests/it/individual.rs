@@ -183,7 +183,7 @@ fn mistakes_are_told_with_their_places() {
         ("crown = [[0, 0.1, 0, [\"0a9\"]]]", &["digits", "256"]),
         ("crown = [[0, 0, 0, [\"9\"]]]", &["0.002"]),
         ("trunk = [[0, 1]]", &["has no crown"]),
-        ("crown = [[0, 0.1, 0, [\"9\"]]]\ntrunk = [[0, 1], [0, 0.5]]", &["5:20", "allowed is 1 to 10"]),
+        ("crown = [[0, 0.1, 0, [\"9\"]]]\ntrunk = [[0, 1], [0, 0.5]]", &["5:22", "allowed is 1 to 10"]),
         ("crown_seed = 1.5", &["fraction"]),
         ("crwn = []", &["did you mean `crown`"]),
     ];

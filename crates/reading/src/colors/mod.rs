@@ -109,7 +109,7 @@ pub struct Colors {
     /// Confidence in the two layers.
     pub layers_confidence: f64,
     /// Part of the tree's pixels that have the colour of their right and lower neighbours, 0..=1: below 0.1 in
-    /// photographs, near 1 in drawings of flat colours; `None` where no pixel has such neighbours.
+    /// photographs, near 1 in drawings of flat colours; `None` of a picture without colours.
     pub flat_share: Option<f64>,
 }
 
@@ -136,14 +136,11 @@ impl Colors {
         let mut colors = Self {
             wood: Bitmap::new(tree.width(), tree.height()),
             foliage: Bitmap::new(tree.width(), tree.height()),
-            flat_share: flat::flat_share(photo, tree),
             ..Self::default()
         };
-        let layers = Grid::new(photo, tree).and_then(|grid| Layers::new(&grid).map(|layers| (grid, layers)));
-        let Some((grid, layers)) = layers else {
-            colors.round();
-            return Ok(colors);
-        };
+        let Some(grid) = Grid::new(photo, tree) else { return Ok(colors) };
+        let Some(layers) = Layers::new(&grid) else { return Ok(colors) };
+        colors.flat_share = flat::flat_share(photo, tree);
         colors.wood = grid.layer(tree, |at| layers.kinds[at] == Kind::Wood);
         colors.foliage = grid.layer(tree, |at| layers.kinds[at] == Kind::Foliage);
         colors.read_wood(&grid, &layers);
