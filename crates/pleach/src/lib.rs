@@ -107,9 +107,9 @@ pub use pleach_silhouette::{
 pub use pleach_tree::leaf_shape::{BlossomShape, LeafShape, Outline, OutlineError};
 pub use pleach_tree::{
     Address, Appearance, Blame, Blob, Bounds, CheckedParams, Color, Conflict, Draw, Draws, Family, Foliage,
-    Generator, GrowError, Growth, Individual, Key, Knot, Leaf, Limits, MalformedTree, ModelId, Param,
-    ParamSpace, Parts, Season, Slot, Species, SpeciesDoc, SpeciesError, Spread, Stem, StemKind, Tree,
-    TreeStats, Variation, Workspace,
+    Generator, GrowError, Growth, Hull, HullView, Individual, Key, Knot, Leaf, Limits, MalformedTree,
+    ModelId, Param, ParamSpace, Parts, Season, Slot, Species, SpeciesDoc, SpeciesError, Spread, Stem,
+    StemKind, Tree, TreeStats, Variation, Workspace,
 };
 /// What generators of your own are made of; `docs/a-generator.md` shows how.
 pub use pleach_tree::{param, parameters, random, species};

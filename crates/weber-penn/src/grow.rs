@@ -303,7 +303,8 @@ impl GrowContext<'_> {
         first: usize,
     ) -> Result<Option<f64>, Exceeded> {
         let Self { model, surroundings, course, .. } = *self;
-        if let Some(hull) = self.growth.hull() {
+        // The trunk stands as ever: a hull is that of a crown.
+        if let Some(hull) = self.growth.hull().filter(|_| stem.level > 0) {
             let steps = TRIAL_STEPS * u64::from(stem.points(model));
             return prune::pruned_length(1.0, stem.length, |length| {
                 buffers.budget.work(Cause::Pruning, stem.level, steps)?;
@@ -311,7 +312,9 @@ impl GrowContext<'_> {
                 let points = &buffers.path[first + 1..];
                 let outer = (points.len() as f64 * prune::OUTER).ceil() as usize;
                 let outer = &points[points.len() - outer..];
-                Ok(outer.iter().rev().all(|p| prune::is_in(hull, (course, model.g_scale), p.point)))
+                let is_in =
+                    |p: &PathPoint| prune::is_in(hull, surroundings, (course, model.g_scale), p.point);
+                Ok(outer.iter().rev().all(is_in))
             });
         }
         let solids = surroundings.inside.as_ref().map_or(0, Vec::len) + surroundings.obstacles.len();

@@ -16,10 +16,16 @@ pub(crate) const STRETCH: f64 = 1.6;
 /// The outer part of a stem that has to be in a hull: what comes before may pass through a gap of the crown.
 pub(crate) const OUTER: f64 = 1.0 / 3.0;
 
-/// Whether `point` of an upright tree, of nominal height `height`, is in `hull`.
-pub(crate) fn is_in(hull: &Hull, (course, height): (Option<Course>, f64), point: DVec3) -> bool {
+/// Whether `point` of an upright tree, of nominal height `height`, is in `hull`, which stands for the envelope, and clear
+/// of all obstacles.
+pub(crate) fn is_in(
+    hull: &Hull,
+    surroundings: &Surroundings,
+    (course, height): (Option<Course>, f64),
+    point: DVec3,
+) -> bool {
     let place = course.map_or(point, |course| course.place(point));
-    hull.density(place / height) > 0.0
+    hull.density(place / height) > 0.0 && !surroundings.obstacles.iter().any(|s| s.contains(place))
 }
 
 /// Whether `point` of an upright tree of scale `scale` is inside the envelope (or one of the solids that stand for it)

@@ -44,9 +44,12 @@ impl Cells {
         if view.elevation.abs() > LEVEL {
             return None;
         }
-        let azimuth = rounded(view.azimuth.to_degrees()).to_radians();
-        let mut cells =
-            Self { azimuth, ink: Vec::new(), dense: 1.0, is_trunk: vec![false; COLUMNS * MAX_REACH] };
+        let mut cells = Self {
+            azimuth: view.azimuth,
+            ink: Vec::new(),
+            dense: 1.0,
+            is_trunk: vec![false; COLUMNS * MAX_REACH],
+        };
         for &[across, z, width] in trunk {
             let (row, half) = ((z * CELLS) as usize, width / 2.0 + 1.0 / CELLS);
             for column in 0..COLUMNS {
@@ -149,8 +152,7 @@ impl Cells {
             row.truncate(last + 1);
             row.drain(..first.min(row.len()));
         }
-        // As a file has it.
-        let left = rounded((first as f64 - MAX_REACH as f64) / CELLS);
+        let left = (first as f64 - MAX_REACH as f64) / CELLS;
         HullView { azimuth: self.azimuth, cell: 1.0 / CELLS, left, rows }
     }
 }
@@ -186,11 +188,6 @@ fn blurred(ink: &[f64]) -> Vec<f64> {
             (across(-step) + 2.0 * across(0) + across(step)) / 4.0
         })
         .collect()
-}
-
-/// `value` to the places that files write.
-pub(super) fn rounded(value: f64) -> f64 {
-    (value * 1e4).round() / 1e4
 }
 
 #[cfg(test)]

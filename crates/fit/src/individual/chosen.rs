@@ -3,7 +3,6 @@
 use pleach_tree::{Draw, Hull, Individual, StemPath};
 use std::collections::BTreeMap;
 use std::ops::Bound;
-use std::sync::Arc;
 
 /// An individual, with price and gain of each of its draws.
 #[derive(Clone, Debug, Default)]
@@ -25,7 +24,7 @@ impl Chosen {
     /// The same with `hull`, which has no price.
     pub(super) fn with_hull(&self, hull: Hull) -> Self {
         let mut chosen = self.clone();
-        chosen.individual.set_hull(Some(Arc::new(hull)));
+        chosen.individual.set_hull(Some(hull));
         chosen
     }
 

@@ -31,13 +31,14 @@ struct Candidate {
     seed: u32,
 }
 
-/// The tree of `own`, or the best of those that grow into hulls of the goals. `go_on` is told how many trees were grown
+/// The tree of `own`, or the best of those that grow into hulls of the goals. Scaffolds are drawn by `first_seed` and those after
+/// it. `go_on` is told how many trees were grown
 /// and the best so far, and says whether there is budget for more.
 pub(super) fn filled(
     scene: &Scene<'_>,
     workers: &Workers,
     own: State,
-    height: f64,
+    (height, first_seed): (f64, u32),
     mut go_on: impl FnMut(u64, &State) -> bool,
 ) -> State {
     let Some(crown) = Crown::new(scene, height) else { return own };
@@ -60,11 +61,12 @@ pub(super) fn filled(
         (is_better, go_on(count, best.as_ref().map_or(&own, |(best, _)| best)))
     };
     let margins = MARGINS.flat_map(|margin| [true, false].map(|is_even| (margin, is_even)));
-    let first = margins.map(|(margin, is_even)| Candidate { levels: crown.levels(margin, is_even), seed: 0 });
+    let first = margins
+        .map(|(margin, is_even)| Candidate { levels: crown.levels(margin, is_even), seed: first_seed });
     let (_, mut goes_on) = try_all(first.collect(), &mut best);
     let is_hopeless = |(best, _): &(State, Candidate)| best.cost > own.cost + HOPELESS;
     goes_on &= !best.as_ref().is_some_and(is_hopeless);
-    let (mut failures, mut next_seed) = (0, 1);
+    let (mut failures, mut next_seed) = (0, first_seed + 1);
     for _ in 0..ROUNDS {
         let Some((state, base)) = best.as_ref().filter(|_| goes_on && failures < PATIENCE) else { break };
         let lacking = crown.lacking(scene, state, height);

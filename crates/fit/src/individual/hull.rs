@@ -1,6 +1,6 @@
 //! The hulls of a goal, and the course of its trunk, for trees whose crowns can grow into a hull.
 
-use super::cells::{CELLS, Cells, rounded};
+use super::cells::{CELLS, Cells};
 use super::state::State;
 use super::worker::Scene;
 use crate::problem::GoalView;
@@ -24,7 +24,7 @@ impl Crown {
         let cells = cells.map(|((goal, placed), trunk)| Cells::new(&goal.goal, placed, height, trunk));
         let cells = cells.collect::<Option<_>>()?;
         let points = trunks.first()?.iter();
-        Some(Self { cells, trunk: points.map(|point| [rounded(point[0]), rounded(point[1])]).collect() })
+        Some(Self { cells, trunk: points.map(|point| [point[0], point[1]]).collect() })
     }
 
     /// Densities of a hull, view by view; see [`Cells::levels`].

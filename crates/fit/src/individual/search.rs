@@ -64,7 +64,7 @@ pub(super) fn search(
             .max(share(trees as f64, settings.trees.map(|all| all as f64)))
     };
     if let Some(height) = generator.hull_height(&genome.values) {
-        state = filled(&scene, &workers, state, height, |count, best| {
+        state = filled(&scene, &workers, state, (height, u32::from(which) * NUMBERS), |count, best| {
             let (iou, likeness, share) = (best.iou, best.likeness, used(trees, 0.0).min(1.0));
             notify(&IndividualProgress { number: which, trees, trials, iou, likeness, used: share });
             trees += count;

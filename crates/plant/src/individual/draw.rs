@@ -10,7 +10,7 @@ const RESEED: Purpose = Purpose::MAX;
 const PLACES: f64 = 1e4;
 
 /// `value` to the places that files write.
-fn rounded(value: f64) -> f64 {
+pub(super) fn rounded(value: f64) -> f64 {
     (value * PLACES).round() / PLACES
 }
 

@@ -4,6 +4,7 @@
 //! concept for silhouette-based image understanding*). Pictures are coarse here, and their cells say how dense the ink
 //! is, so that a crown that grows into a hull has the gaps of its pictures, too.
 
+use super::draw::rounded;
 use crate::math;
 use glam::{DVec2, DVec3};
 
@@ -24,6 +25,18 @@ pub struct HullView {
 }
 
 impl HullView {
+    /// The azimuth in degrees, to the places that files write.
+    #[must_use]
+    pub fn degrees(&self) -> f64 {
+        rounded(self.azimuth.to_degrees())
+    }
+
+    /// The same with numbers as short as a file has them.
+    fn rounded(self) -> Self {
+        let azimuth = self.degrees().to_radians();
+        Self { azimuth, cell: rounded(self.cell), left: rounded(self.left), ..self }
+    }
+
     /// Towards the right of the picture.
     #[must_use]
     pub fn right(&self) -> DVec2 {
@@ -85,6 +98,14 @@ impl Hull {
     pub const MAX_VIEWS: usize = 16;
     /// Most points of a trunk.
     pub const MAX_POINTS: usize = 256;
+
+    /// The same with numbers as short as a file has them, so that a tree is the one that its file grows.
+    #[must_use]
+    pub fn rounded(self) -> Self {
+        let views = self.views.into_iter().map(HullView::rounded).collect();
+        let trunk = self.trunk.into_iter().map(|point| point.map(rounded)).collect();
+        Self { views, trunk, ..self }
+    }
 
     /// Density at a place, 0..=1: the least of all pictures.
     #[must_use]

@@ -35,21 +35,23 @@ pub struct Individual {
 }
 
 impl Individual {
-    /// The tree that grows into `hull`, without draws of its own.
+    /// The tree that grows into `hull`, [rounded](Hull::rounded), without draws of its own.
     #[must_use]
-    pub fn with_hull(hull: Arc<Hull>) -> Self {
-        Self { hull: Some(hull), ..Self::default() }
+    pub fn with_hull(hull: Hull) -> Self {
+        let mut individual = Self::default();
+        individual.set_hull(Some(hull));
+        individual
     }
 
-    /// Gives its crown another hull, or none.
-    pub fn set_hull(&mut self, hull: Option<Arc<Hull>>) {
-        self.hull = hull;
+    /// Gives its crown another hull, [rounded](Hull::rounded), or none.
+    pub fn set_hull(&mut self, hull: Option<Hull>) {
+        self.hull = hull.map(|hull| Arc::new(hull.rounded()));
     }
 
     /// What its crown grows into, if pictures say so; families that cannot do that pass over it.
     #[must_use]
-    pub fn hull(&self) -> Option<&Arc<Hull>> {
-        self.hull.as_ref()
+    pub fn hull(&self) -> Option<&Hull> {
+        self.hull.as_deref()
     }
 
     /// The stems with draws of their own, those from the ground first.

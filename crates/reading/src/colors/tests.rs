@@ -219,8 +219,12 @@ fn drawings_in_flat_colors_are_told_from_photographs() {
     let tree =
         |photo: &Photo| Bitmap::from_fn(SIZE, SIZE, |x, y| photo.pixels()[(y * SIZE + x) as usize][3] > 0);
     let read = |photo: Photo| Colors::read(&photo, &tree(&photo)).unwrap();
-    let photograph = read(round(GREEN, 0.0, GREEN));
-    assert!(!photograph.is_drawn() && photograph.flat_share.unwrap() < 0.4, "{:?}", photograph.flat_share);
+    let photograph = read(Photo::from_fn(SIZE, SIZE, |x, y| match (in_crown(x, y), in_trunk(x, y)) {
+        (true, _) => lit(GREEN, 0.6 + 0.55 * noise(x, y)),
+        (_, true) => lit(BARK, 0.9 + 0.2 * noise(x, y)),
+        _ => [0; 4],
+    }));
+    assert!(!photograph.is_drawn() && photograph.flat_share.unwrap() < 0.1, "{:?}", photograph.flat_share);
     let icon = read(Photo::from_fn(SIZE, SIZE, |x, y| match (in_crown(x, y), in_trunk(x, y)) {
         (true, _) => lit(GREEN, 1.0),
         (_, true) => lit(BARK, 1.0),

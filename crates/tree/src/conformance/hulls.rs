@@ -5,14 +5,13 @@ use crate::growth::Growth;
 use crate::param::Problem;
 use crate::species::{Family, Species, SpeciesDoc};
 use pleach_plant::{DENSEST, Hull, HullView, Individual, Tree};
-use std::sync::Arc;
 
 /// A hull to the right of the trunk, seen a little from aside.
-fn aside() -> Arc<Hull> {
+fn aside() -> Hull {
     let row = |is_in: bool| vec![if is_in { DENSEST } else { 0 }; 8];
     let rows = (0..20).map(|row_number| row((7..18).contains(&row_number))).collect();
     let view = HullView { azimuth: 20.0_f64.to_radians(), cell: 0.05, left: 0.0, rows };
-    Arc::new(Hull { views: vec![view], trunk: vec![[0.0, 0.0], [0.01, 0.1], [0.05, 0.3]], seed: 5 })
+    Hull { views: vec![view], trunk: vec![[0.0, 0.0], [0.01, 0.1], [0.05, 0.3]], seed: 5 }
 }
 
 fn grown(species: &Species, growth: &Growth<'_>) -> Tree {
@@ -39,7 +38,7 @@ fn outside(tree: &Tree, hull: &Hull, height: f64) -> f64 {
 pub fn crowns_grow_into_hulls(family: &dyn Family) {
     for species in all(family) {
         let (name, hull) = (&species.name, aside());
-        let one = species.with_individual(SEED, Individual::with_hull(Arc::clone(&hull)));
+        let one = species.with_individual(SEED, Individual::with_hull(hull.clone()));
         let text = one.to_toml(&[]);
         let Some(height) = species.generator.hull_height(species.params.values()) else {
             let error = SpeciesDoc::parse("again.toml", &text).and_then(|doc| doc.species(family));

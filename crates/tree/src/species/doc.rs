@@ -189,6 +189,19 @@ impl SpeciesDoc {
         Err(self.issue(node.span.clone(), name, Problem::OutOfRange { value, min, max }))
     }
 
+    /// The seed of draws in `node`: a whole number below 2³².
+    ///
+    /// # Errors
+    /// If it is none.
+    pub fn small_seed(&self, name: &str, node: &Node) -> Result<u32, Issue> {
+        let seed = self.number_within(name, node, 0.0, f64::from(u32::MAX))?;
+        if seed.fract() == 0.0 {
+            return Ok(seed as u32);
+        }
+        let message = "has a seed with a fraction, expected a whole number".to_owned();
+        Err(self.issue(node.span.clone(), name, Problem::Conflict { message }))
+    }
+
     /// Three finite numbers in `node`, such as a position in metres.
     ///
     /// # Errors

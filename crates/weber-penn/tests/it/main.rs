@@ -5,5 +5,6 @@
 mod behaviour;
 mod census;
 mod conformance;
+mod hulls;
 mod leafless;
 mod stature;

@@ -20,7 +20,7 @@ pub(super) fn to_toml(hull: &Hull) -> String {
             .to_owned();
     // Writing to a string cannot fail.
     for view in &hull.views {
-        let _ = writeln!(text, "  [{:?}, {:?}, {:?}, [", degrees(view.azimuth), view.cell, view.left);
+        let _ = writeln!(text, "  [{:?}, {:?}, {:?}, [", view.degrees(), view.cell, view.left);
         for row in view.rows.iter().rev() {
             let digits: String = row.iter().map(|&cell| char::from(b'0' + cell)).collect();
             let _ = writeln!(text, "    \"{digits}\",");
@@ -39,10 +39,6 @@ pub(super) fn to_toml(hull: &Hull) -> String {
             writeln!(text, "# seed of the draws by which the crown fills them\ncrown_seed = {}", hull.seed);
     }
     text
-}
-
-fn degrees(radians: f64) -> f64 {
-    (radians.to_degrees() * 1e4).round() / 1e4
 }
 
 /// The pictures in `node`.
@@ -108,16 +104,6 @@ pub(super) fn trunk(doc: &SpeciesDoc, name: &str, node: &Node) -> Result<Vec<[f6
         ]);
     }
     Ok(course)
-}
-
-/// The seed in `node`.
-pub(super) fn seed(doc: &SpeciesDoc, name: &str, node: &Node) -> Result<u32, Issue> {
-    let seed = doc.number_within(name, node, 0.0, f64::from(u32::MAX))?;
-    if seed.fract() != 0.0 {
-        let message = "has a fraction, expected a whole number".to_owned();
-        return Err(doc.issue(node.span.clone(), name, Problem::Conflict { message }));
-    }
-    Ok(seed as u32)
 }
 
 /// The parts of an array of at most `most`.

@@ -70,12 +70,8 @@ fn row(doc: &SpeciesDoc, name: &str, node: &Node, before: &Individual) -> Result
         return Err(conflict(path, format!("has the stem {stem} twice")));
     }
     let within = |node: &Node, min: f64, max: f64| doc.number_within(name, node, min, max);
-    let seed_read = within(seed, 0.0, f64::from(u32::MAX))?;
-    if seed_read.fract() != 0.0 {
-        return Err(conflict(seed, "has a seed with a fraction, expected a whole number".to_owned()));
-    }
     let draw = Draw {
-        seed: seed_read as u32,
+        seed: doc.small_seed(name, seed)?,
         azimuth: within(azimuth, -180.0, 180.0)?.to_radians(),
         pitch: within(pitch, -180.0, 180.0)?.to_radians(),
         length: within(length, 0.1, 10.0)?,

@@ -29,7 +29,6 @@ use crate::species::doc::{SpeciesDoc, Value};
 use crate::species::error::Issue;
 use crate::species::key::{Form, Key};
 use pleach_plant::{Hull, Individual};
-use std::sync::Arc;
 
 /// The keys of the table.
 pub(crate) const KEYS: [Key; 4] = [
@@ -85,7 +84,7 @@ pub(crate) fn read(doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Individual {
         let found = match entry.key.as_str() {
             "crown" => crown::views(doc, &name, &entry.node).map(|views| hull.views = views),
             "trunk" => crown::trunk(doc, &name, &entry.node).map(|trunk| hull.trunk = trunk),
-            "crown_seed" => crown::seed(doc, &name, &entry.node).map(|seed| hull.seed = seed),
+            "crown_seed" => doc.small_seed(&name, &entry.node).map(|seed| hull.seed = seed),
             "stems" => {
                 rows = Some((name, entry));
                 Ok(())
@@ -104,7 +103,7 @@ pub(crate) fn read(doc: &SpeciesDoc, issues: &mut Vec<Issue>) -> Individual {
             issues.push(doc.issue(node.span.clone(), "individual", Problem::Conflict { message }));
             Individual::default()
         }
-        _ => Individual::with_hull(Arc::new(hull)),
+        _ => Individual::with_hull(hull),
     };
     if let Some((name, entry)) = rows {
         stems::read(doc, (&name, entry), &mut individual, issues);
