@@ -30,6 +30,7 @@
 //! | --- | --- |
 //! | [`Tree`], [`Stem`], [`Knot`], [`Leaf`], [`Blob`] | flat arrays, metres, z up, right-handed |
 //! | [`leaf_shape`] | outlines of ten leaves and faces of three blossoms |
+//! | [`push_leaflets`] | compound leaves |
 //! | [`Appearance`], [`Color`], [`Season`] | colours and season |
 //! | [`spline`] | one cubic Bézier piece: evaluate, differentiate, flatten by tolerance |
 //! | [`turtle`] | a position with two axes that walks and turns |
@@ -52,6 +53,7 @@ mod dendrometry;
 mod fnv;
 mod individual;
 pub mod leaf_shape;
+mod leaflets;
 pub mod math;
 pub mod random;
 pub mod spline;
@@ -67,6 +69,7 @@ pub use glam;
 pub use individual::{
     Address, BadStemPath, DENSEST, Draw, Draws, Hull, HullView, Individual, Spread, StemPath, Step, Trial,
 };
+pub use leaflets::{leaflet_size, push_leaflets};
 pub use random::Key;
 pub use stats::{Bounds, TreeStats};
 pub use tree::{Blob, Foliage, Knot, Leaf, MalformedTree, Parts, Stem, StemKind, Tree, piece};

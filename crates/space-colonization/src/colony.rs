@@ -125,7 +125,7 @@ impl Colony {
         nodes: &mut Nodes,
         budget: &mut Budget,
     ) -> Result<(), GrowError> {
-        let given = nodes.all.len();
+        let given = nodes.note_given();
         let mut rules = *rules;
         for _ in 0..WIDENINGS {
             self.start(points, &rules, nodes, budget)?;

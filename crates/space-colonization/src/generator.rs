@@ -3,6 +3,7 @@
 use crate::adapt::adapt;
 use crate::budget::Budget;
 use crate::colony::{Colony, Rules};
+use crate::finer_leaves::finer_leaves;
 use crate::nodes::Nodes;
 use crate::params::Numbers;
 use crate::pipes::Pipes;
@@ -110,6 +111,10 @@ impl Generator for SpaceColonization {
 
     fn trunks(&self, values: &[f64]) -> Option<u32> {
         Some(Numbers::read(values).trunks)
+    }
+
+    fn finer_leaves(&self, values: &[f64]) -> Vec<Vec<f64>> {
+        finer_leaves(values)
     }
 
     fn adapt(&self, values: &mut [f64], wanted: &Stature, grown: &Stature) {

@@ -7,7 +7,7 @@ use crate::params::{Id, Numbers};
 use crate::purpose::LEAF;
 use glam::DVec3;
 use pleach_tree::trig::sin_cos;
-use pleach_tree::{Foliage, GrowError, Key, Leaf, Tree, piece};
+use pleach_tree::{Foliage, GrowError, Key, Leaf, Tree, piece, push_leaflets};
 use std::f64::consts::TAU;
 
 /// Cosine and sine of the golden angle: the turn from a leaf to the next.
@@ -46,9 +46,10 @@ impl<'a> Leaves<'a> {
         if count == 0 {
             return Ok(());
         }
-        budget.work(u64::from(count), Id::leaf_number)?;
-        budget.leaves(tree, count as usize)?;
         let n = self.n;
+        let leaves = u64::from(count) * u64::from(n.leaflets);
+        budget.work(leaves, Id::leaf_number)?;
+        budget.leaves(tree, leaves as usize)?;
         let knots = tree.stems[index as usize].knots();
         let pieces = knots.len() - 1;
         let (sin, cos) = sin_cos(TAU * key.unit(LEAF, u32::MAX - 1));
@@ -78,13 +79,14 @@ impl<'a> Leaves<'a> {
             let rolled = own + normal * (LEAF_V.2 * draw(21));
             let across = rolled.lerp(level, n.leaf_level).try_normalize().unwrap_or(own);
             let size = n.leaf_length * (1.0 + LEAF_V.1 * draw(42));
-            tree.leaves.push(Leaf {
+            let leaf = Leaf {
                 position: curve.at(t).as_vec3(),
                 along: (direction * size).as_vec3(),
                 across: (across * (size * n.leaf_width)).as_vec3(),
                 stem: index,
                 shape: 0,
-            });
+            };
+            push_leaflets(leaf, n.leaflets, &mut tree.leaves);
             (x, y) = (x * GOLDEN.0 - y * GOLDEN.1, x * GOLDEN.1 + y * GOLDEN.0);
         }
         Ok(())

@@ -31,7 +31,9 @@
 mod adapt;
 mod budget;
 mod colony;
+mod courses;
 mod family;
+mod finer_leaves;
 mod generator;
 mod grid;
 mod leaves;

@@ -34,6 +34,8 @@ pub(crate) struct Axis {
     pub(crate) credit: f64,
     /// Direction of its first step, or of a limb's last one.
     pub(crate) start: DVec3,
+    /// Whether it is a trunk's.
+    pub(crate) is_trunk: bool,
     /// Whether it has come to its end: then its last node bears side shoots.
     pub(crate) has_ended: bool,
 }
@@ -43,18 +45,41 @@ pub(crate) struct Axis {
 pub(crate) struct Nodes {
     pub(crate) all: Vec<Node>,
     pub(crate) axes: Vec<Axis>,
+    /// For each of the first nodes, which stand before points are colonised, whether it is a trunk's.
+    given: Vec<bool>,
 }
 
 impl Nodes {
     pub(crate) fn clear(&mut self) {
         self.all.clear();
         self.axes.clear();
+        self.given.clear();
     }
 
     /// Begins an axis towards `start`.
     pub(crate) fn axis(&mut self, vigor: f64, start: DVec3) -> u32 {
-        self.axes.push(Axis { vigor, credit: 0.0, start, has_ended: false });
+        self.axes.push(Axis { vigor, credit: 0.0, start, is_trunk: false, has_ended: false });
         self.axes.len() as u32 - 1
+    }
+
+    /// Begins the axis of a trunk.
+    pub(crate) fn trunk(&mut self) -> u32 {
+        let axis = self.axis(1.0, DVec3::Z);
+        self.axes[axis as usize].is_trunk = true;
+        axis
+    }
+
+    /// Notes which nodes stand before points are colonised. Returns how many there are.
+    pub(crate) fn note_given(&mut self) -> usize {
+        let Self { all, axes, given } = self;
+        given.clear();
+        given.extend(all.iter().map(|node| axes[node.axis as usize].is_trunk));
+        all.len()
+    }
+
+    /// Whether the node of `index` has a course of its own: trunks stand as their numbers say.
+    pub(crate) fn is_given(&self, index: usize) -> bool {
+        self.given.get(index).is_some_and(|&of_trunk| of_trunk)
     }
 
     /// Adds a node of `axis` after `parent`, or a trunk's foot.

@@ -9,6 +9,8 @@ use pleach_tree::{Kind, Param, Unit};
 pub(crate) const STATIONS: usize = 6;
 /// Largest number of attraction points.
 pub(crate) const MAX_POINTS: i64 = 6000;
+/// Largest number of leaflets of a leaf.
+const MAX_LEAFLETS: i64 = 25;
 /// Largest number of clumps.
 pub(crate) const MAX_CLUMPS: i64 = 200;
 
@@ -158,6 +160,10 @@ pleach_tree::parameters! {
         bud_spacing: u32, when always =>
             count((0, 12), (0.0, 6.0), 2.0).neutral(0.0).group("growth").source(FATES)
                 .doc("steps along a stem from one side shoot to the next, at least");
+        straightness: f64, when always =>
+            real((0.0, 1.0), (0.3, 0.9), 0.5).neutral(0.0).group("growth")
+                .source("ours, after Runions and others 2007, §3 (relocation of nodes)")
+                .doc("0: branches as they grew; 1: straight from foot to tip");
 
         thickness: f64, when always =>
             real((0.001, 0.25), (0.006, 0.06), 0.02).scale([Scale::Log]).group("wood")
@@ -212,6 +218,9 @@ pleach_tree::parameters! {
         leaf_width: f64, when Numbers::has_leaves =>
             real((0.02, 4.0), (0.2, 1.6), 1.0).scale([Scale::Log]).group("leaves").source(LEAVES)
                 .doc("width of a leaf over that of its outline");
+        leaflets: u32, when Numbers::has_leaves =>
+            count((1, MAX_LEAFLETS), (1.0, 11.0), 1.0).neutral(1.0).group("leaves").opt_in()
+                .doc("leaflets of a leaf, in pairs along its middle; 1: leaves are simple");
         leaf_angle: f64 [f64::to_radians], when Numbers::has_leaves =>
             degrees((0.0, 180.0), (20.0, 90.0), 50.0).group("leaves").source(LEAVES)
                 .doc("angle between a leaf and its twig");
@@ -238,7 +247,7 @@ impl Numbers {
         self.twigs > 0.0
     }
 
-    fn has_leaves(&self) -> bool {
+    pub(crate) fn has_leaves(&self) -> bool {
         self.has_twigs() && self.leaf_number > 0.0
     }
 }
@@ -272,7 +281,7 @@ mod tests {
         use Id::{
             clump_flatness, clump_size, clumping, clumps, crown_azimuth, crown_depth, first_fork, fork_angle,
             fork_rise, fork_spread, leaf_angle, leaf_length, leaf_level, leaf_number, leaf_shape, leaf_width,
-            lean, lean_azimuth, limbs, side, side_azimuth, trunk_spread, trunks,
+            leaflets, lean, lean_azimuth, limbs, side, side_azimuth, trunk_spread, trunks,
         };
         let whole = [(crown_depth, 0.5), (side, 0.5), (clumping, 0.5), (trunks, 2.0), (lean, 5.0)];
         let without = |set: &[(Id, f64)]| inactive(&[&whole[..], set].concat());
@@ -281,9 +290,9 @@ mod tests {
         assert_eq!(without(&[(clumping, 0.0)]), [clumps, clump_size, clump_flatness]);
         assert_eq!(without(&[(trunks, 1.0), (lean, 0.0)]), [trunk_spread, lean_azimuth]);
         assert_eq!(without(&[(limbs, 1.0)]), [first_fork, fork_spread, fork_angle, fork_rise]);
-        let of_leaves = [leaf_shape, leaf_length, leaf_width, leaf_angle, leaf_level];
+        let of_leaves = [leaf_shape, leaf_length, leaf_width, leaflets, leaf_angle, leaf_level];
         assert_eq!(without(&[(leaf_number, 0.0)]), of_leaves);
         let bare = without(&[(Id::twigs, 0.0)]);
-        assert!(bare.contains(&leaf_number) && bare.contains(&Id::twig_lift) && bare.len() == 14, "{bare:?}");
+        assert!(bare.contains(&leaf_number) && bare.contains(&Id::twig_lift) && bare.len() == 15, "{bare:?}");
     }
 }

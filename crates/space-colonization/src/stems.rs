@@ -1,6 +1,7 @@
 //! From nodes to stems: each goes on along the thickest that it bears, so that a tree has few and smooth stems.
 
 use crate::budget::Budget;
+use crate::courses::Courses;
 use crate::nodes::{NONE, Nodes};
 use crate::params::{Id, Numbers};
 use crate::pipes::Pipes;
@@ -9,9 +10,6 @@ use crate::purpose::{STEM, TWIGS};
 use glam::DVec3;
 use pleach_tree::{Address, GrowError, Growth, Key, Knot, Stem, StemKind, Tree, piece};
 
-/// How often nodes are moved towards the middle of their neighbours, and by which part of the way.
-const SMOOTHINGS: u32 = 2;
-const SMOOTHING: f64 = 0.5;
 /// How much of a side stem's first direction is its parent's.
 const CROTCH: f64 = 0.5;
 /// How much of a trunk's first direction is upright.
@@ -59,7 +57,7 @@ pub(crate) struct Source {
 /// Memory that is kept from tree to tree.
 #[derive(Debug, Default)]
 pub(crate) struct Stems {
-    smooth: Vec<DVec3>,
+    courses: Courses,
     waiting: Vec<Waiting>,
     chain: Vec<u32>,
     sides: Vec<(u32, u32)>,
@@ -78,7 +76,7 @@ impl Stems {
         budget: &mut Budget,
         bear: &mut dyn FnMut(&Limb, Source, &mut Tree, &mut Budget) -> Result<(), GrowError>,
     ) -> Result<(), GrowError> {
-        self.smooth(nodes, pipes);
+        self.courses.lay(n.straightness, nodes, pipes);
         self.sort_sides(nodes, pipes);
         self.waiting.clear();
         let root = Key::root(growth.seed);
@@ -105,22 +103,6 @@ impl Stems {
             bear(&self.limb, Source { address: waiting.address, key: waiting.key }, tree, budget)?;
         }
         Ok(())
-    }
-
-    /// Moves nodes between their neighbours: the tips and the feet stay. Runions and others 2007, §3, move them half-way
-    /// to their parent, which makes branching angles smaller in the same way.
-    fn smooth(&mut self, nodes: &Nodes, pipes: &Pipes) {
-        self.smooth.clear();
-        self.smooth.extend(nodes.all.iter().map(|node| node.place));
-        for _ in 0..SMOOTHINGS {
-            for (index, node) in nodes.all.iter().enumerate() {
-                let main = pipes.main[index];
-                if node.parent != NONE && main != NONE {
-                    let middle = (self.smooth[node.parent as usize] + self.smooth[main as usize]) / 2.0;
-                    self.smooth[index] = self.smooth[index].lerp(middle, SMOOTHING);
-                }
-            }
-        }
     }
 
     /// Collects the side stems of each node, in order.
@@ -174,7 +156,7 @@ impl Stems {
         let pose = &waiting.pose;
         self.limb.sites.clear();
         for (at, &node) in self.chain.iter().enumerate() {
-            let place = self.smooth[node as usize];
+            let place = self.courses.places[node as usize];
             let knots = tree.knots.len() - first_knot;
             // Every second node of a run without side stems is left out.
             let was_left_out = self.limb.sites.last().is_some_and(|site| site.1 > 0.0);
@@ -227,7 +209,7 @@ impl Stems {
         from_tip.resize(self.chain.len(), 0.0);
         for at in (0..self.chain.len() - 1).rev() {
             let (one, next) = (self.chain[at] as usize, self.chain[at + 1] as usize);
-            from_tip[at] = from_tip[at + 1] + self.smooth[one].distance(self.smooth[next]);
+            from_tip[at] = from_tip[at + 1] + self.courses.places[one].distance(self.courses.places[next]);
         }
     }
 
@@ -252,10 +234,11 @@ impl Stems {
             let address = waiting.address.child(number);
             let draw = growth.draw(address, usize::from(waiting.level) + 1);
             let from = self.chain[at];
-            let foot = self.smooth[from as usize];
-            let before = if at > 0 { self.smooth[self.chain[at - 1] as usize] } else { foot - DVec3::Z };
+            let foot = self.courses.places[from as usize];
+            let before =
+                if at > 0 { self.courses.places[self.chain[at - 1] as usize] } else { foot - DVec3::Z };
             let parent = (foot - before).normalize_or(DVec3::Z);
-            let along = (self.smooth[side as usize] - foot).normalize_or(DVec3::X);
+            let along = (self.courses.places[side as usize] - foot).normalize_or(DVec3::X);
             self.waiting.push(Waiting {
                 first: side,
                 from,

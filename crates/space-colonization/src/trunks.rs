@@ -59,7 +59,7 @@ impl<'a> Trunk<'a> {
 
     fn grow(&self, nodes: &mut Nodes) {
         let n = self.n;
-        let axis = nodes.axis(1.0, DVec3::Z);
+        let axis = nodes.trunk();
         // Several trunks stand around a stool as wide as they are thick.
         let foot = (self.away * (1.3 * n.thickness * f64::from(n.trunks).sqrt())).extend(0.0);
         let mut node = nodes.push(foot, self.direction(0.0), NONE, axis);

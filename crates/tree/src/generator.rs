@@ -125,6 +125,13 @@ pub trait Generator: Send + Sync + fmt::Debug {
         let _ = (values, wanted, grown);
     }
 
+    /// Lists of values whose trees are those of `values` with more and smaller leaves, and of about the same
+    /// silhouettes, the finest first. Empty where leaves are small already, or where the generator cannot.
+    fn finer_leaves(&self, values: &[f64]) -> Vec<Vec<f64>> {
+        let _ = values;
+        Vec::new()
+    }
+
     /// Checks what no declaration of a single parameter can say: rules between the numbers.
     ///
     /// # Errors

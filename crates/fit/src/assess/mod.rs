@@ -2,6 +2,7 @@
 
 mod assessor;
 mod best_kind;
+mod finer_leaves;
 mod fresh;
 mod profile;
 mod substitutes;
@@ -10,6 +11,7 @@ mod verdict;
 pub(crate) use assessor::Assessor;
 pub use assessor::{Assessment, AssessmentSettings};
 pub(crate) use best_kind::best_kind;
+pub(crate) use finer_leaves::finer_leaves;
 pub use fresh::{FreshSeeds, Spread, fresh_seeds};
 pub use profile::{Identifiability, PROFILE_STEPS, Profile, profile, reset_unidentified};
 pub use verdict::{KindVerdict, MIN_VERDICT_SPAN, Mismatch, Verdict};

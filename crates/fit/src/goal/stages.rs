@@ -2,7 +2,7 @@
 
 use super::deadline::TimeLeft;
 use super::settings::{Fitted, GoalSettings, Guessing};
-use crate::assess::{AssessmentSettings, Assessor, best_kind};
+use crate::assess::{AssessmentSettings, Assessor, best_kind, finer_leaves};
 use crate::control::{Control, Outcome, PreparedSearch, StopReason, Until};
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
@@ -55,6 +55,12 @@ pub(crate) fn conclude(
         let until = Until::from(control.stop).or_late(control.clock, late);
         match best_kind(&prepared.problem, prepared.settings.objective, &finalists, until) {
             Ok(kind) => best = finalists.swap_remove(kind),
+            Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
+            Err(error) => return Err(error),
+        }
+        let search = &prepared.settings;
+        match finer_leaves(&prepared.problem, search.objective, &search.freedom, best.clone(), until) {
+            Ok(finer) => best = finer,
             Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
             Err(error) => return Err(error),
         }

@@ -54,6 +54,20 @@ pub fn check_freedom(params: &ParamSpace, freedom: &Freedom, tree_seed: TreeSeed
     if is_any_free || tree_seed == TreeSeed::Any { Ok(()) } else { Err(SpaceError::NothingFree) }
 }
 
+/// Whether `freedom` lets all numbers change that differ between `from` and `to`, opt-in ones included.
+///
+/// # Errors
+/// As [`check_freedom`], but for nothing being free.
+pub(crate) fn may_change(
+    params: &ParamSpace,
+    freedom: &Freedom,
+    from: &[f64],
+    to: &[f64],
+) -> Result<bool, SpaceError> {
+    let is_free = free_slots(params, freedom)?;
+    Ok(from.iter().zip(to).zip(is_free).all(|((from, to), is_free)| is_free || from == to))
+}
+
 /// For each slot whether it is free.
 pub(super) fn free_slots(params: &ParamSpace, freedom: &Freedom) -> Result<Vec<bool>, SpaceError> {
     let mut is_free = vec![freedom.free.is_empty(); params.len()];

@@ -7,6 +7,7 @@ mod stream;
 mod unknown;
 
 use freedom::free_slots;
+pub(crate) use freedom::may_change;
 pub use freedom::{Freedom, SpaceError, TreeSeed, check_freedom};
 pub use gene::{Gene, Place};
 pub use prior::PRIOR;

@@ -12,8 +12,8 @@ use super::report_parts::{
 use super::sides::{Sides, SidesReport};
 use crate::place_at_full_size;
 use pleach_fit::{
-    Azimuth, Fitted, FoundIndividual, FreshSeeds, Placement, References, Runner, StopReason, Verdict,
-    placements,
+    Azimuth, Fitted, FoundIndividual, FreshSeeds, Objective, Placement, References, Runner, StopReason,
+    Verdict, placements,
 };
 use pleach_silhouette::goal::GoalWarning;
 use pleach_silhouette::score::{ScoreCard, SizeMismatch};
@@ -220,6 +220,17 @@ impl Prepared {
         let judged = fitted.assessment.as_ref();
         let (full, working) = (&self.goal.full, &self.goal.working);
         let frame = full.original_frame(&drawing.frame());
+        let is_measured =
+            fitted.problem.goals[0].evidence.is_some() && settings.objective == Objective::Balance;
+        let verdict = fitted.verdict(&kind.scores).map(|verdict| {
+            let fresh = judged.and_then(|judged| judged.held_out.as_ref());
+            let fresh = fresh.map_or(best.score.cost, |fresh| fresh.cost.mean);
+            if is_measured {
+                readings.judge_colored(verdict, fresh, best.score.cost)
+            } else {
+                readings.bound(verdict)
+            }
+        });
         let seconds = outcome.elapsed.as_secs_f64();
         let first_guess_seconds = outcome.before_search.as_secs_f64();
         Ok(FitReport {
@@ -232,7 +243,7 @@ impl Prepared {
             individual,
             individuals,
             references: fitted.references().cloned(),
-            verdict: fitted.verdict(&kind.scores).map(|verdict| readings.bound(verdict)),
+            verdict,
             readings,
             determined: judged.map(IdentifiabilityCounts::new),
             parameters: parameters(&fitted, &kind.species),

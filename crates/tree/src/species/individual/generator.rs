@@ -75,6 +75,10 @@ impl Generator for WithIndividual {
         self.kind.adapt(values, wanted, grown);
     }
 
+    fn finer_leaves(&self, values: &[f64]) -> Vec<Vec<f64>> {
+        self.kind.finer_leaves(values)
+    }
+
     fn check(&self, values: &[f64]) -> Result<(), Conflict> {
         self.kind.check(values)
     }
