@@ -46,6 +46,10 @@ impl GoalReading {
                 measures.foliage_share_confidence = colors.layers_confidence * (1.0 - disagreement);
             }
         }
+        let colors = colors.map(|colors| match colors.leaves {
+            Some(false) if measures.leaves => colors.in_brown_leaf(measures.leaves_confidence),
+            _ => colors,
+        });
         Self { measures, colors, mask_confidence: mask.map(|mask| mask.confidence), warnings }
     }
 
@@ -61,6 +65,7 @@ impl GoalReading {
 mod tests {
     use super::*;
     use pleach_silhouette::Bitmap;
+    use pleach_tree::Season;
 
     #[test]
     fn foliage_is_doubtful_where_colors_and_silhouette_disagree_about_leaves() {
@@ -78,5 +83,13 @@ mod tests {
             reading.measures.foliage_share_confidence
         };
         assert_eq!((confidence(false), confidence(true)), (0.5, 0.25));
+        // Where the silhouette is surer, brown leaves are leaves: no winter crown is drawn.
+        let bark = pleach_tree::Color([0x4e, 0x42, 0x38]);
+        let brown = Colors { bark: Some(bark), season: Some(Season::Winter), ..colors };
+        let measures = Reading { leaves: true, leaves_confidence: 0.7, ..Reading::default() };
+        let reading = GoalReading::new(measures, Some(brown), None, Vec::new());
+        let found = reading.colors.unwrap();
+        assert_eq!((found.season, found.leaf, found.leaves), (Some(Season::Autumn), Some(bark), Some(true)));
+        assert!(reading.measures.leaves);
     }
 }

