@@ -1,4 +1,6 @@
-//! Compound leaves.
+//! Compound leaves: small ones in the place of a large one, as on ashes and mesquites.
+//!
+//! Ours: no paper that pleach follows has them.
 
 use crate::tree::Leaf;
 
@@ -17,7 +19,7 @@ const FOLD: (f32, f32) = (0.939_692_6, 0.342_020_1);
 /// Part of a leaf, from its base, without leaflets.
 const BARE: f32 = 0.05;
 
-/// Length and width of each of `count` leaflets over those of their leaf.
+/// Length and width of each of `count` leaflets over those of their leaf: a ratio in 0..=1, and 1 for fewer than two.
 #[must_use]
 pub fn leaflet_size(count: u32) -> f64 {
     f64::from(size(count))

@@ -30,8 +30,8 @@ impl Courses {
         if straightness > 0.0 {
             // Parents come before their children.
             for (index, node) in nodes.all.iter().enumerate() {
-                let begins = |parent: usize| nodes.is_given(parent) || pipes.main[parent] != index as u32;
-                if node.parent != NONE && !nodes.is_given(index) && begins(node.parent as usize) {
+                let begins = |parent: usize| nodes.keeps_place(parent) || pipes.main[parent] != index as u32;
+                if node.parent != NONE && !nodes.keeps_place(index) && begins(node.parent as usize) {
                     self.straighten(straightness, index as u32, nodes, pipes);
                 }
             }

@@ -45,15 +45,15 @@ pub(crate) struct Axis {
 pub(crate) struct Nodes {
     pub(crate) all: Vec<Node>,
     pub(crate) axes: Vec<Axis>,
-    /// For each of the first nodes, which stand before points are colonised, whether it is a trunk's.
-    given: Vec<bool>,
+    /// How many of the first nodes stand before points are colonised: those of trunks and limbs.
+    given: usize,
 }
 
 impl Nodes {
     pub(crate) fn clear(&mut self) {
         self.all.clear();
         self.axes.clear();
-        self.given.clear();
+        self.given = 0;
     }
 
     /// Begins an axis towards `start`.
@@ -69,17 +69,15 @@ impl Nodes {
         axis
     }
 
-    /// Notes which nodes stand before points are colonised. Returns how many there are.
+    /// Notes that the nodes so far stand before points are colonised. Returns how many there are.
     pub(crate) fn note_given(&mut self) -> usize {
-        let Self { all, axes, given } = self;
-        given.clear();
-        given.extend(all.iter().map(|node| axes[node.axis as usize].is_trunk));
-        all.len()
+        self.given = self.all.len();
+        self.given
     }
 
-    /// Whether the node of `index` has a course of its own: trunks stand as their numbers say.
-    pub(crate) fn is_given(&self, index: usize) -> bool {
-        self.given.get(index).is_some_and(|&of_trunk| of_trunk)
+    /// Whether the node of `index` keeps its place: trunks stand as their numbers say.
+    pub(crate) fn keeps_place(&self, index: usize) -> bool {
+        index < self.given && self.axes[self.all[index].axis as usize].is_trunk
     }
 
     /// Adds a node of `axis` after `parent`, or a trunk's foot.

@@ -65,7 +65,8 @@ pub(crate) fn finer_leaves(
         .collect();
     let least = costs.iter().skip(1).copied().fold(f64::INFINITY, f64::min);
     let most = (least + NOISE).min(costs[0] + MAX_LOSS);
-    if let Some(finest) = (1..costs.len()).find(|&one| costs[one] <= most) {
+    let is_good = |one: &usize| costs[*one].is_finite() && costs[*one] <= most;
+    if let Some(finest) = (1..costs.len()).find(is_good) {
         let genome = Genome { values: lists.swap_remove(finest), ..best.genome.clone() };
         let score = evaluator.evaluate_with_likeness(&genome);
         if score.cost.is_finite() {

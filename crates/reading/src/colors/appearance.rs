@@ -12,8 +12,8 @@ const YOUNG: f32 = 0.45;
 const PALE: u32 = 330;
 
 impl Colors {
-    /// The same of a tree in leaf whose leaves have the colours of wood, as its silhouette shows with `confidence`: it
-    /// is autumn.
+    /// The same of a tree in leaf whose leaves have the colours of wood, as its silhouette shows with `confidence` (0..=1):
+    /// it is autumn.
     #[must_use]
     pub fn in_brown_leaf(self, confidence: f64) -> Self {
         Self {
