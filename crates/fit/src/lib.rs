@@ -14,6 +14,7 @@
 //! | the cost of an individual | [`Objective`], [`Evaluator`]: grow, draw, score, without allocating; by other evidence than silhouettes: [`Evidence`] |
 //! | optimisers | [`Optimizer`], [`Method`], [`Search`]; with argmin: [`ArgminSolver`] |
 //! | this very tree | [`individuals`]: draws of single stems, [`IndividualSettings`], [`FoundIndividual`] |
+//! | which trees there are, and what a picture says about the numbers of its tree | [`Prior`], [`PosteriorModel`] |
 //! | assessment of a result | [`Assessment`], [`fresh_seeds`], [`profile()`], [`Verdict`] |
 //! | watching and stopping | [`Observer`], [`Budget`], [`StopReason`], [`Clock`]; ending on time: [`Deadline`], [`Reserve`] |
 //!
@@ -41,6 +42,8 @@ mod guess;
 mod individual;
 /// The optimisers: which individuals to try next.
 mod method;
+/// Answers with intervals: what a picture says about the numbers of its tree.
+mod posterior;
 /// What is fitted: pictures of a tree, and what is unknown of them.
 mod problem;
 /// The place of a tree in its picture, to a small part of a pixel: before the search, and for its result.
@@ -83,6 +86,7 @@ pub use method::{
     MethodSettings, Optimizer, Random, RandomSettings, Rules, RulesSettings, SETTINGS, Setting, SettingKind,
     Shade, ShadeSettings, Start, UnknownOptimizer,
 };
+pub use posterior::{Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings, Prior};
 pub use problem::{
     Accuracy, Agreement, AnyEvidence, Azimuth, Evidence, FitProblem, Genome, GoalView, MAX_OFFSET, MAX_SCALE,
     Nuisance, Objective, PlacedTree, Placement, ProblemError, ROUGH_AZIMUTH, Score, Scored, Size, Terms,

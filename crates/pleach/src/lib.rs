@@ -127,10 +127,11 @@ pub use pleach_fit::{
     Accuracy, Assessment, AssessmentSettings, Budget, COLUMNS, Candidate, Contradictions, Control, CostModel,
     Deadline, Drawings, DrawingsError, EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem,
     FitSettings, Fitted, FoundIndividual, Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary,
-    GuessSettings, Guessing, Identifiability, IndividualProgress, IndividualSettings, Objective, Observer,
-    ObserverError, Optimizer, Outcome, Placement, PreparedSearch, Profile, Progress, Reserve, Row,
-    RulesSettings, Score, Scored, SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed, Unknown,
-    Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
+    GuessSettings, Guessing, Identifiability, IndividualProgress, IndividualSettings, Interval, Objective,
+    Observer, ObserverError, Optimizer, Outcome, Placement, Posterior, PosteriorModel, PosteriorNumber,
+    PosteriorSettings, PreparedSearch, Prior, Profile, Progress, Reserve, Row, RulesSettings, Score, Scored,
+    SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed, Unknown, Verdict, evaluator, fit, fit_goal,
+    fit_goal_with, individuals,
 };
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
@@ -149,10 +150,11 @@ mod picture;
 pub use picture::{
     AppearanceFrom, Corrections, Direction, Effort, FitDrawing, FitOptions, FitReport, FitSource, FitStart,
     FittedTree, FurtherPicture, FurtherView, GoalPair, GoalReading, IdentifiabilityCounts, IndividualReport,
-    KnownFrame, Leaves, LooksLike, MaskFrom, MaskHints, ParameterReport, PictureError, PictureReading,
-    PictureSource, PrepareError, Prepared, Readings, ReportError, RulesReport, SearchReport, SettingError,
-    SideTree, SidesReport, Spent, StartFrom, TIME_KEYS, Tone, ViewReport, VolumeFrom, best_of_each_family,
-    fit_picture, optimizer_with, parse_duration, read_picture, settings_of,
+    KnownFrame, Leaves, LooksLike, MaskFrom, MaskHints, NumberReport, ParameterReport, PictureError,
+    PictureReading, PictureSource, PosteriorReport, PrepareError, Prepared, Readings, ReportError,
+    RulesReport, SearchReport, SettingError, SideTree, SidesReport, Spent, StartFrom, TIME_KEYS, Tone,
+    ViewReport, VolumeFrom, best_of_each_family, fit_picture, optimizer_with, parse_duration, read_picture,
+    settings_of,
 };
 
 #[cfg(feature = "fit")]

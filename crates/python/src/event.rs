@@ -18,6 +18,8 @@ pub(crate) enum Event {
     Judging,
     /// This very tree.
     Individual { trees: u64, trials: u64, iou: f64, likeness: f64, used: f64 },
+    /// Trees of the prior that are grown, and all of them.
+    Learning(usize, usize),
 }
 
 impl Event {
@@ -25,8 +27,9 @@ impl Event {
     pub(crate) fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
         match self {
-            Self::Guessing(done, all) => {
-                dict.set_item("stage", "guess")?;
+            Self::Guessing(done, all) | Self::Learning(done, all) => {
+                let is_guess = matches!(self, Self::Guessing(..));
+                dict.set_item("stage", if is_guess { "guess" } else { "posterior" })?;
                 dict.set_item("done", done)?;
                 dict.set_item("all", all)?;
                 dict.set_item("used", *done as f64 / (*all).max(1) as f64)?;
@@ -88,5 +91,9 @@ impl Observer for EventSender {
     fn individual(&mut self, progress: &IndividualProgress) {
         let IndividualProgress { trees, trials, iou, likeness, used, .. } = *progress;
         let _ = self.0.send(Event::Individual { trees, trials, iou, likeness, used });
+    }
+
+    fn learning(&mut self, done: usize, all: usize) {
+        let _ = self.0.send(Event::Learning(done, all));
     }
 }

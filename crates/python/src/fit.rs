@@ -144,6 +144,8 @@ fn found<'py>(py: Python<'py>, report: &FitReport) -> PyResult<Bound<'py, PyDict
         individuals.append(tree(py, one)?)?;
     }
     dict.set_item("individuals", individuals)?;
+    let samples = report.posterior.iter().flat_map(|posterior| &posterior.samples);
+    dict.set_item("samples", samples.map(|species| species.clone().into()).collect::<Vec<Species>>())?;
     let history = PyDict::new(py);
     for column in COLUMNS {
         let values = report.fitted.outcome.history.iter().map(column.value).collect();

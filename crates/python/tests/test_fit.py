@@ -278,3 +278,21 @@ def test_a_known_frame_is_checked_and_taken() -> None:
         pleach.fit(goal, frame=(0.05, 48.0, 960.0), **options)
     problem = pleach.Problem(goal, "palm", frame=(0.05, 48.0, 96.0), size=96)
     assert np.isfinite(problem.evaluate(problem.start[None, :])).all()
+
+
+def test_a_posterior_has_intervals_and_trees() -> None:
+    goal = pleach.species("palm").grow(5).silhouette(64)
+    events = []
+    found = pleach.fit(
+        goal, start="palm", evaluations=16, size=64, individual=False, posterior=150, progress=events.append
+    )
+    known = found.posterior
+    assert known is not None and known.species == "palm" and known.is_familiar
+    assert any(event["stage"] == "posterior" and event["done"] == 150 for event in events)
+    ratio = known.numbers["ratio"]
+    assert ratio.posterior.low < ratio.posterior.median < ratio.posterior.high
+    assert 0 < ratio.shrunk < 1 and ratio.prior.high - ratio.prior.low > ratio.posterior.high - ratio.posterior.low
+    assert len(known.samples) == 8 and known.samples[0].grow().silhouette(32).any()
+    assert pleach.fit(goal, start="palm", evaluations=16, size=64, individual=False).posterior is None
+    with pytest.raises(pleach.FitError, match="posterior"):
+        pleach.fit(goal, start="palm", evaluations=16, posterior=5)

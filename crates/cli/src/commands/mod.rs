@@ -20,7 +20,9 @@ mod mask;
 mod params;
 mod read;
 mod render;
+mod sample;
 mod score;
+mod sheet;
 mod silhouette;
 mod species;
 mod studio;
@@ -55,6 +57,7 @@ enum Command {
     Mask(mask::MaskCommand),
     Read(read::Read),
     Blend(Box<blend::BlendCommand>),
+    Sample(sample::Sample),
     Species(species::SpeciesCommand),
     Params(params::Params),
     Grammar(grammar::GrammarCommand),
@@ -95,6 +98,7 @@ impl Arguments {
             Command::Mask(command) => command.run(),
             Command::Read(command) => command.run(),
             Command::Blend(command) => command.run(),
+            Command::Sample(command) => command.run(),
             Command::Species(command) => command.run(),
             Command::Params(command) => command.run(),
             Command::Grammar(command) => command.run(),

@@ -67,8 +67,13 @@ pub trait Observer {
     /// After the search, before its result is assessed, which takes some seconds.
     fn assessing(&mut self) {}
 
-    /// During the search for this very tree, which is the last stage.
+    /// During the search for this very tree.
     fn individual(&mut self, progress: &IndividualProgress) {
         let _ = progress;
+    }
+
+    /// While a posterior is learnt, which is the last stage: `done` of `all` trees of the prior are grown.
+    fn learning(&mut self, done: usize, all: usize) {
+        let _ = (done, all);
     }
 }

@@ -287,6 +287,25 @@ impl Evaluator {
         })
     }
 
+    /// Grows `genome`'s own tree at the goal's height, calls `look` with it as it stands in each goal, and returns its
+    /// values at that height; `None` if it does not grow.
+    pub(crate) fn pictures(
+        &self,
+        genome: &Genome,
+        mut look: impl FnMut(&PlacedTree<'_>),
+    ) -> Option<Vec<f64>> {
+        self.with_memory(|memory| {
+            let growth = self.growth(genome.tree_seed, self.foliage, Size::ANY);
+            let Matched { magnified, .. } = self.grow_matched(&*self.generator, genome, &growth, memory)?;
+            for goal in &*self.goals {
+                let (view, mut frame) = goal.viewpoint.placed(&genome.nuisances);
+                frame.meters_per_pixel /= magnified;
+                look(&PlacedTree { tree: &memory.tree, view, frame, parts: self.foliage.into() });
+            }
+            Some(memory.values.clone())
+        })
+    }
+
     /// The factor that brings a tree of `height` metres to the goal's height; `None` within the tolerance.
     pub(crate) fn factor_for(&self, height: f64) -> Option<f64> {
         self.height?.factor(height)

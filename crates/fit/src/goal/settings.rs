@@ -5,6 +5,7 @@ use crate::assess::{Assessment, AssessmentSettings, Verdict};
 use crate::control::Outcome;
 use crate::guess::{Candidate, FirstGuess, GuessSettings, References};
 use crate::individual::{FoundIndividual, IndividualSettings};
+use crate::posterior::{Posterior, PosteriorSettings};
 use crate::problem::{FitProblem, Scored};
 use crate::run::FitSettings;
 use pleach_silhouette::score::ScoreCard;
@@ -28,7 +29,10 @@ pub struct GoalSettings {
     pub assessment: Option<AssessmentSettings>,
     /// How this very tree is searched among the trees of the kind, after the search; `None`: not at all.
     pub individual: Option<IndividualSettings>,
-    /// Deadline of the whole fit; `None`: no deadline. The stages after the search share the time that is left; the
+    /// What is learnt, in the end, about how surely the goal determines each number; `None`: nothing. The prior is around
+    /// the species that the search started from.
+    pub posterior: Option<PosteriorSettings>,
+    /// Deadline of the whole fit, without the posterior, which takes the time that its trees take; `None`: no deadline. The stages after the search share the time that is left; the
     /// last one has all of it: individuals where they take the rest, assessment where there are none.
     pub deadline: Option<Deadline>,
 }
@@ -57,6 +61,7 @@ impl GoalSettings {
             validates: true,
             assessment: Some(AssessmentSettings::default()),
             individual: None,
+            posterior: None,
             deadline: None,
         }
     }
@@ -83,6 +88,9 @@ pub struct Fitted {
     /// This very tree, or several that all lie on the goal, the best first. Empty if none was asked for, the fit was
     /// interrupted, or stems of the generator have no addresses.
     pub individuals: Vec<FoundIndividual>,
+    /// What the goal says about the numbers of its tree; `None` if it was not asked for, or the fit was interrupted
+    /// before there were enough trees.
+    pub posterior: Option<Posterior>,
 }
 
 impl Fitted {

@@ -8,6 +8,7 @@ use crate::error::FitError;
 use crate::evaluator::Evaluator;
 use crate::guess::GuessLibrary;
 use crate::individual::{IndividualSettings, individuals};
+use crate::posterior::{Posterior, PosteriorModel, PosteriorSettings, Prior};
 use crate::problem::FitProblem;
 use crate::registration::{Closeness, with_registered_frames};
 use crate::run::{FitSettings, evaluator_in, search_space};
@@ -98,8 +99,33 @@ pub(crate) fn conclude(
             Err(error) => return Err(error),
         }
     }
+    let mut posterior = None;
+    if let Some(how) = settings.posterior.filter(|_| !control.stop.load(Ordering::Relaxed)) {
+        match learnt(&prepared, how, &mut control) {
+            Ok(learnt) => posterior = learnt,
+            Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
+            Err(error) => return Err(error),
+        }
+    }
     let PreparedSearch { problem, settings, guess } = prepared;
-    Ok(Fitted { problem, settings, guess, outcome, best, assessment, individuals: found })
+    Ok(Fitted { problem, settings, guess, outcome, best, assessment, individuals: found, posterior })
+}
+
+/// What the goals say about the numbers of their tree; `None` where too few trees of the prior grow.
+fn learnt(
+    prepared: &PreparedSearch,
+    settings: PosteriorSettings,
+    control: &mut Control<'_>,
+) -> Result<Option<Posterior>, FitError> {
+    let PreparedSearch { problem, settings: search, .. } = prepared;
+    let prior = Prior::from_problem(problem, &search.freedom, settings.spread)?;
+    let (stop, observers) = (control.stop, &mut control.observers);
+    let notify = |done| observers.iter_mut().for_each(|observer| observer.learning(done, settings.trees));
+    match PosteriorModel::learn(problem, &prior, settings, Until::from(stop), notify) {
+        Ok(model) => Ok(Some(model.posterior(problem.goals.iter().map(|goal| &goal.goal)))),
+        Err(FitError::NothingGrew { .. }) => Ok(None),
+        Err(error) => Err(error),
+    }
 }
 
 /// Makes the first guess, registers the frames and lets the observers accept what the search begins with.

@@ -8,7 +8,9 @@ use super::json;
 use super::words::{AppearanceFrom, KnownFrame, Leaves, MaskFrom, StartFrom, Tone, VolumeFrom};
 use crate::option_error::OptionError;
 use crate::plan::USUAL_TIME;
-use pleach_fit::{Azimuth, IndividualSettings, Objective, Optimizer, RulesSettings, TreeSeed};
+use pleach_fit::{
+    Azimuth, IndividualSettings, Objective, Optimizer, PosteriorSettings, RulesSettings, TreeSeed,
+};
 use pleach_generators::GeneratorChoice;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroU32;
@@ -104,6 +106,9 @@ pub struct FitOptions {
     pub individual: Effort,
     /// How many trees are to lie on the goal in the end; they share the time of `individual`.
     pub individuals: u8,
+    /// Number of trees around the species that the search started from, 100 to 100 000, from which the fit learns, in the
+    /// end, how surely the goal determines each number; not part of `timeout`.
+    pub posterior: Option<u32>,
     /// Time for all of the fit, in JSON in seconds; above 0 and at most 10 000 000 s. A minute if neither this nor
     /// `evaluations` nor `generations` is given.
     #[serde(with = "json::seconds")]
@@ -150,6 +155,7 @@ impl Default for FitOptions {
             robust: NonZeroU32::MIN,
             individual: Effort::Share,
             individuals: 1,
+            posterior: None,
             timeout: None,
             evaluations: None,
             generations: None,
@@ -355,7 +361,22 @@ impl FitOptions {
         if self.individuals > 1 && self.individual == Effort::Off {
             return error("individuals", "asks for trees, and `individual` is off".to_owned());
         }
+        self.posterior_settings()?;
         self.effort_settings().map(|_| ())
+    }
+
+    /// How a posterior is learnt; `None` if it is not asked for.
+    pub(super) fn posterior_settings(&self) -> Result<Option<PosteriorSettings>, OptionError> {
+        let Some(trees) = self.posterior else { return Ok(None) };
+        let expected = PosteriorSettings::MIN_TREES..=PosteriorSettings::MAX_TREES;
+        let error = |problem: String| Err(OptionError::new("posterior", problem));
+        if !expected.contains(&(trees as usize)) {
+            return error(format!("is {trees}, expected {} to {} trees", expected.start(), expected.end()));
+        }
+        if self.evolve_rules {
+            return error("does not apply where rules are searched: they have no intervals".to_owned());
+        }
+        Ok(Some(PosteriorSettings { trees: trees as usize, seed: self.seed, ..PosteriorSettings::default() }))
     }
 
     /// How the goal's own tree is searched where the generator allows it; `None` if it is off.
@@ -387,7 +408,7 @@ mod tests {
         "holdout_views": ["45,2=corner.png"], "leaves": "on", "appearance": "species", "from": "acer", "generator": "fractal",
         "volume_from": "goal", "free": ["crown"], "fix": ["leaves"], "optimizer": { "cma": { "population": 20 } },
         "evolve_rules": true, "objective": "iou", "seed": 2, "tree_seed": "any", "robust": 3, "individual": "20s",
-        "individuals": 2, "timeout": 20.5, "evaluations": 30, "generations": 7, "target_iou": 0.5, "name": "oak"
+        "individuals": 2, "posterior": 300, "timeout": 20.5, "evaluations": 30, "generations": 7, "target_iou": 0.5, "name": "oak"
     }"#;
 
     #[test]
@@ -453,6 +474,9 @@ mod tests {
         assert_eq!(with(|o| o.evaluations = Some(0)), "evaluations");
         assert_eq!(with(|o| o.generations = Some(0)), "generations");
         assert_eq!(with(|o| o.target_iou = Some(1.5)), "target_iou");
+        assert_eq!(with(|o| o.posterior = Some(99)), "posterior");
+        assert_eq!(with(|o| o.posterior = Some(100_001)), "posterior");
+        assert_eq!(with(|o| (o.posterior, o.evolve_rules) = (Some(200), true)), "posterior");
         assert_eq!(with(|o| o.individuals = 0), "individuals");
         assert_eq!(with(|o| (o.individuals, o.individual) = (2, Effort::Off)), "individuals");
         assert_eq!(with(|o| o.individual = Effort::Time(Duration::from_secs(60))), "individual");

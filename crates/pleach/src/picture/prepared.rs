@@ -116,8 +116,8 @@ impl FitOptions {
         if let Some(volume) = &self.volume_from {
             let outlined = Outlined::new(volume, source, &problem.goals, height)?;
             problem.start = outlined.species.clone();
-            let individual = settings.individual;
-            settings = GoalSettings { individual, ..outlined.plan(settings.search)? };
+            let GoalSettings { individual, posterior, .. } = settings;
+            settings = GoalSettings { individual, posterior, ..outlined.plan(settings.search)? };
         }
         add(&mut settings, spent);
         let prepared = Prepared {

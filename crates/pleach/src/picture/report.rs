@@ -3,6 +3,7 @@
 use super::drawn::{FitDrawing, FittedTree};
 use super::optimizer::settings_of;
 use super::options::FitOptions;
+use super::posterior::PosteriorReport;
 use super::prepared::{FurtherPicture, Prepared};
 use super::readings::Readings;
 use super::report_parts::{
@@ -57,6 +58,9 @@ pub struct FitReport {
     pub determined: Option<IdentifiabilityCounts>,
     /// How well the goal determines each free parameter.
     pub parameters: Vec<ParameterReport>,
+    /// What the goal says about the numbers of its tree, with [`FitOptions::posterior`]; `None` if too few trees of the
+    /// prior grew.
+    pub posterior: Option<PosteriorReport>,
     /// Trees that the search has grown and scored.
     pub evaluations: u64,
     /// Generations of the search.
@@ -214,6 +218,8 @@ impl Prepared {
         let individual =
             fitted.individuals.first().zip(trees.first()).map(|(found, tree)| individual(found, tree));
 
+        let posterior =
+            fitted.posterior.as_ref().map(|found| PosteriorReport::new(found, &drawing)).transpose()?;
         let readings = Readings::new(&self.reading, &kind, trees.first());
         let outcome = &fitted.outcome;
         let settings = &fitted.settings;
@@ -247,6 +253,7 @@ impl Prepared {
             readings,
             determined: judged.map(IdentifiabilityCounts::new),
             parameters: parameters(&fitted, &kind.species),
+            posterior,
             evaluations: outcome.evaluations,
             generations: outcome.generations,
             seconds,

@@ -56,7 +56,7 @@ impl FitOptions {
             StartFrom::Auto | StartFrom::Random => Origin::Random,
         };
         let planned = plan(origin, generator, &species, search)?;
-        let settings = GoalSettings { individual, ..planned };
+        let settings = GoalSettings { individual, posterior: self.posterior_settings()?, ..planned };
         let foliage = if self.leaves == Leaves::Off { Foliage::None } else { Foliage::All };
         Ok(FitStart { generator, species, foliage, detects_leaves, settings, shares })
     }

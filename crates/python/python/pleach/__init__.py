@@ -14,7 +14,7 @@ numbers in both, on any number of threads.
 from __future__ import annotations
 
 from ._blend import Map, blend
-from ._fit import Fit, fit
+from ._fit import Fit, Interval, Posterior, PosteriorNumber, fit
 from ._native import (
     FitError,
     GoalError,
@@ -37,9 +37,12 @@ __all__ = [
     "FitError",
     "GoalError",
     "GrowError",
+    "Interval",
     "Map",
     "Mask",
     "PleachError",
+    "Posterior",
+    "PosteriorNumber",
     "Problem",
     "Reading",
     "Scores",

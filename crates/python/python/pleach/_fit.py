@@ -33,6 +33,45 @@ class Individual:
 
 
 @dataclass(frozen=True)
+class Interval:
+    """Ends between which nine in ten lie, and the middle."""
+
+    low: float
+    median: float
+    high: float
+
+
+@dataclass(frozen=True)
+class PosteriorNumber:
+    """What is known of one number of the goal's tree."""
+
+    prior: Interval
+    """Before the picture was seen."""
+    posterior: Interval
+    """Since."""
+    shrunk: float
+    """By how much the variance is smaller since, in 0..=1."""
+
+
+@dataclass(frozen=True)
+class Posterior:
+    """What a picture says about the numbers of its tree, learnt from trees around a species."""
+
+    species: str
+    """The species that the trees are around."""
+    trees: int
+    """How many of them grew."""
+    familiarity: float
+    """The share of those trees whose pictures are at least as strange among the others as the goal is, in 0..=1."""
+    is_familiar: bool
+    """Whether the goal is like a picture of such a tree; where it is not, intervals cannot be trusted."""
+    numbers: dict[str, PosteriorNumber] = field(repr=False)
+    """Every number that varies, by its slot, such as ``length[1]``."""
+    samples: list[_native.Species] = field(repr=False)
+    """Trees that the goal may be of, each with its own seed."""
+
+
+@dataclass(frozen=True)
 class Fit:
     """What a fit has found. It can be pickled."""
 
@@ -56,6 +95,8 @@ class Fit:
     """The goal, bool of shape (height, width)."""
     silhouette: npt.NDArray[np.bool_] = field(repr=False)
     """The kind's own tree over it."""
+    posterior: Optional[Posterior] = field(repr=False)
+    """What the goal says about the numbers of its tree, where it was asked for."""
 
     @property
     def fresh_likeness(self) -> Optional[tuple[float, float]]:
@@ -144,7 +185,8 @@ class _Bar:
         if event["stage"] != self._stage:
             self._stage = event["stage"]
             self._bar.reset()
-        words = {"guess": "first guess", "begun": "search", "search": "search", "judging": "judging", "individual": "this very tree"}
+        words = {"guess": "first guess", "begun": "search", "search": "search", "judging": "judging", "individual": "this very tree",
+                 "posterior": "how sure it is"}
         said = words[self._stage]
         if event.get("likeness") is not None:
             said += f", likeness {event['likeness']:.3f}"
@@ -229,6 +271,7 @@ def fit(
     target_iou: Optional[float] = None,
     individual: Union[bool, float, str] = True,
     individuals: int = 1,
+    posterior: Union[bool, int] = False,
     name: Optional[str] = None,
     threads: Optional[int] = None,
     progress: Union[bool, Progress] = False,
@@ -259,7 +302,9 @@ def fit(
 
     It ends after ``timeout`` seconds, ``evaluations`` or ``generations``, or once ``target_iou`` is reached; after a
     minute if nothing is said. ``individual`` is how long the goal's own tree is searched: True, a share of the budget;
-    seconds; a number of trees such as ``"400trees"``; or False, which ``"off"`` is too.
+    seconds; a number of trees such as ``"400trees"``; or False, which ``"off"`` is too. ``posterior`` is the number of trees,
+    100 to 100,000, from which the fit learns in the end how surely the goal determines each number; True is 2000. It is not
+    part of ``timeout``.
 
     ``progress`` is True, for a bar (with tqdm), or a function of a dict: ``stage`` and what it says of it. Fits
     bounded by evaluations are the same bits on any number of ``threads``. Ctrl-C ends the fit with what it has:
@@ -316,6 +361,7 @@ def fit(
         "robust": robust,
         "individual": _effort(individual),
         "individuals": individuals,
+        "posterior": (2000 if posterior is True else posterior) or None,
         "timeout": timeout,
         "evaluations": evaluations,
         "generations": generations,
@@ -344,4 +390,17 @@ def fit(
         Individual(species, card_of(card), silhouette, [card_of(one) for one in cards])
         for species, card, silhouette, cards in found["individuals"]
     ]
+    found["posterior"] = _posterior(found["report"]["posterior"], found.pop("samples"))
     return Fit(**found)
+
+
+def _posterior(report: Optional[dict[str, Any]], samples: list[_native.Species]) -> Optional[Posterior]:
+    if report is None:
+        return None
+    numbers = {
+        one["slot"]: PosteriorNumber(Interval(**one["prior"]), Interval(**one["posterior"]), one["shrunk"])
+        for one in report["numbers"]
+    }
+    return Posterior(
+        report["species"], report["trees"], report["familiarity"], report["is_familiar"], numbers, samples
+    )

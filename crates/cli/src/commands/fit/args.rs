@@ -61,6 +61,8 @@ pub(crate) struct Fit {
     #[command(flatten)]
     pub(super) individual: IndividualArgs,
     #[command(flatten)]
+    pub(super) posterior: PosteriorArgs,
+    #[command(flatten)]
     pub(super) budget: BudgetArgs,
 }
 
@@ -191,6 +193,17 @@ pub(super) struct IndividualArgs {
     #[arg(long, value_name = "N", default_value_t = 1,
           value_parser = clap::value_parser!(u8).range(1..=i64::from(IndividualSettings::MAX_COUNT)))]
     pub(super) individuals: u8,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "How sure it is")]
+pub(super) struct PosteriorArgs {
+    /// Learn from this many trees, 2000 by default, how surely the picture determines each number, and draw eight trees
+    /// that it may be of. The trees are around the species that the search started from; they are grown after all
+    /// else, and not within --timeout
+    #[arg(long, value_name = "TREES", num_args = 0..=1, default_missing_value = "2000",
+          value_parser = clap::value_parser!(u32).range(100..=100_000))]
+    pub(super) posterior: Option<u32>,
 }
 
 #[derive(Debug, clap::Args)]

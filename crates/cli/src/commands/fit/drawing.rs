@@ -1,10 +1,10 @@
 //! What is written of a tree that is found: a species file, its silhouette over the goal, a shaded picture.
 
+use crate::commands::sheet::render;
 use crate::files;
 use pleach::{FitDrawing, GoalPair, Reading, annotate};
 use pleach_fit::CostModel;
-use pleach_mesh::Palette;
-use pleach_render::{Preview, PreviewSettings, png_file};
+use pleach_render::png_file;
 use pleach_silhouette::{Bitmap, picture};
 use pleach_tree::Species;
 use std::path::Path;
@@ -71,10 +71,6 @@ pub(super) fn write_render(
     species: &Species,
     size: u32,
 ) -> anyhow::Result<()> {
-    let tree = drawing.grow(species)?;
-    let palette = Palette::new(&species.appearance, None);
-    let tree = palette.dressed(&tree);
-    let settings = PreviewSettings { width: size, height: size, ..PreviewSettings::default() };
-    let picture = Preview::new(&tree, &palette, size).picture(&settings);
+    let picture = render(&drawing.grow(species)?, species, size);
     files::write_whole(path, |file| Ok(png_file::write(file, &[picture], 0)?))
 }

@@ -11,6 +11,7 @@ pub(super) const EXAMPLES: &str = "Examples:
   pleach fit goal.png --evolve-rules --timeout 2m  a grammar from nothing
   pleach fit goal.png --individual 2m --timeout 3m  longer for this very tree, branch by branch
   pleach fit goal.png --individuals 8  eight trees on one goal: depth is free
+  pleach fit goal.png --posterior  an interval for each number, and eight trees from it
   pleach fit front.png --view 90=side.png --holdout-view 45=corner.png
   pleach fit goal.png --volume-from goal  a crown that follows the outline
   pleach fit front.png --view auto=other.png --free-frame  from who knows where
@@ -32,7 +33,9 @@ parameters.csv (how well the goal determines each parameter), reading.json and r
 with further views an overlay of each. That is the kind; individual.toml is this very tree, whose branches \
 were re-sampled one by one until they lie on the picture, with individual.png, overlay-individual.png and \
 individual-render.png. With --individuals there are individual-2.toml and so on, and individuals.png, a sheet of \
-all trees from the front and from the side. Most of them are written while the search runs, too. The file \
+all trees from the front and from the side. With --posterior there are posterior.csv, for each number of the prior \
+its interval before and since the picture was seen, and posterior.png, trees that the picture may be of, the species \
+files of which are posterior-1.toml and so on. Most of them are written while the search runs, too. The file \
 `checkpoint` is there while a fit is unfinished, `search-state` once it is finished, for --continue.
 
 A finished fit is replaced only by a fit of the same goal with the same options, or with --overwrite, and \

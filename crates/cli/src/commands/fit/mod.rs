@@ -17,6 +17,7 @@ pub(super) mod list;
 mod live;
 mod names;
 mod options;
+mod posterior;
 mod progress;
 mod report;
 pub(super) mod request;

@@ -54,6 +54,7 @@ impl Fit {
             robust: search.robust,
             individual: self.individual.individual.unwrap_or_default(),
             individuals: self.individual.individuals,
+            posterior: self.posterior.posterior,
             timeout: budget.timeout,
             evaluations: budget.evaluations,
             generations: budget.generations,

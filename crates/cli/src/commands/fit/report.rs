@@ -1,8 +1,8 @@
 //! What a fit says at its end.
 
 use super::names::RUNS;
-use super::run_folder::names::SHEET;
-use super::{individual, several, views};
+use super::run_folder::names::{POSTERIOR_SHEET, SHEET};
+use super::{individual, posterior, several, views};
 use pleach::{FitReport, IdentifiabilityCounts};
 use pleach_fit::{AssessmentSettings, KindVerdict, References};
 use std::path::Path;
@@ -55,12 +55,16 @@ pub(super) fn report(summary: &FitReport, goal: &Path, folder: &Path) -> String 
         individual += &several::line(sides);
         tree += &format!("trees    {}\n", folder.join(SHEET).display());
     }
+    let posterior = summary.posterior.as_ref().map_or_else(String::new, posterior::said);
+    if summary.posterior.is_some() {
+        tree += &format!("samples  {}\n", folder.join(POSTERIOR_SHEET).display());
+    }
     let rules = summary.rules.as_ref();
     let rules = rules.map_or_else(String::new, |rules| {
         format!("the grammar, of {} words and signs:\n\n{}\n", rules.grammar_length, rules.grammar)
     });
     format!(
-        "{rules}{}\n\n{}{judged}{individual}{}{}\n{}species  {}\n{tree}overlay  {}",
+        "{rules}{}\n\n{}{judged}{individual}{posterior}{}{}\n{}species  {}\n{tree}overlay  {}",
         crate::commands::score::card(&summary.scores),
         sizes(summary),
         work(summary),

@@ -248,6 +248,7 @@ mod tests {
         ("robust", "3"),
         ("individual", "off"),
         ("individuals", "2"),
+        ("posterior", "300"),
         ("timeout", "20s"),
         ("evaluations", "30"),
         ("generations", "7"),

@@ -6,9 +6,9 @@ use super::drawing::{
 use super::request::Request;
 use super::rows::{write_history, write_table};
 use super::run_folder::Claim;
-use super::run_folder::names::SUMMARY;
+use super::run_folder::names::{POSTERIOR, SUMMARY};
 use super::views::write_overlays;
-use super::{individual, judged, several};
+use super::{individual, judged, posterior, several};
 use crate::files;
 use pleach::{FitReport, Prepared};
 use serde::Serialize;
@@ -73,6 +73,10 @@ pub(super) fn write(
     }
     if let Some(sides) = &report.individuals {
         several::write(claim, &goal.working.bitmap, &report.trees, sides)?;
+    }
+    if let Some(found) = &report.posterior {
+        posterior::write(claim, drawing, found)?;
+        write_table(&claim.file(POSTERIOR), posterior::table(found))?;
     }
     write_overlays(claim, "overlay-view", &prepared.views, &report.views)?;
     write_overlays(claim, "overlay-holdout", &prepared.holdout_views, &report.holdout_views)?;

@@ -22,6 +22,7 @@ pub(super) struct Watch<'a> {
     search: Option<Search<'a>>,
     assessing: Option<ProgressBar>,
     individual: Option<ProgressBar>,
+    learning: Option<ProgressBar>,
 }
 
 /// What is shown of the search.
@@ -33,7 +34,16 @@ struct Search<'a> {
 
 impl<'a> Watch<'a> {
     pub(super) fn new(claim: &'a mut Claim, prepared: &'a Prepared, says: bool) -> Self {
-        Self { claim, prepared, says, guessing: None, search: None, assessing: None, individual: None }
+        Self {
+            claim,
+            prepared,
+            says,
+            guessing: None,
+            search: None,
+            assessing: None,
+            individual: None,
+            learning: None,
+        }
     }
 
     fn begin(&mut self, search: &PreparedSearch) -> anyhow::Result<()> {
@@ -56,15 +66,7 @@ impl<'a> Watch<'a> {
 
 impl Observer for Watch<'_> {
     fn guessing(&mut self, done: usize, all: usize) {
-        let bar = self.guessing.get_or_insert_with(|| {
-            let bar = if output::is_watched() { ProgressBar::new(1) } else { ProgressBar::hidden() };
-            match ProgressStyle::with_template("first guess {wide_bar} {pos} of {len} trees") {
-                Ok(style) => bar.with_style(style),
-                Err(_) => bar,
-            }
-        });
-        bar.set_length(all as u64);
-        bar.set_position(done as u64);
+        show_trees(&mut self.guessing, "first guess {wide_bar} {pos} of {len} trees", done, all);
     }
 
     fn prepared(&mut self, prepared: &PreparedSearch) -> Result<(), ObserverError> {
@@ -115,6 +117,26 @@ impl Observer for Watch<'_> {
         let which = if *number == 0 { String::new() } else { format!("tree {}: ", number + 1) };
         bar.set_message(format!("{which}likeness {likeness:.3}, IoU {iou:.3}; {trials} branches tried"));
     }
+
+    fn learning(&mut self, done: usize, all: usize) {
+        self.search = None;
+        end(&mut self.assessing);
+        end(&mut self.individual);
+        show_trees(&mut self.learning, "how sure it is {wide_bar} {pos} of {len} trees", done, all);
+    }
+}
+
+/// Shows how many trees are grown.
+fn show_trees(bar: &mut Option<ProgressBar>, template: &str, done: usize, all: usize) {
+    let bar = bar.get_or_insert_with(|| {
+        let bar = if output::is_watched() { ProgressBar::new(1) } else { ProgressBar::hidden() };
+        match ProgressStyle::with_template(template) {
+            Ok(style) => bar.with_style(style),
+            Err(_) => bar,
+        }
+    });
+    bar.set_length(all as u64);
+    bar.set_position(done as u64);
 }
 
 /// Takes a bar from the terminal.
@@ -129,5 +151,6 @@ impl Drop for Watch<'_> {
         end(&mut self.guessing);
         end(&mut self.assessing);
         end(&mut self.individual);
+        end(&mut self.learning);
     }
 }

@@ -143,6 +143,12 @@ impl Descriptor {
         }
     }
 
+    /// All amounts, mass, rim, strokes and gaps one after the other, each 0 or more.
+    pub fn amounts(&self) -> impl Iterator<Item = f32> {
+        let lists = [&self.mass[..], &self.rim, &self.strokes, &self.gaps];
+        lists.into_iter().flatten().copied()
+    }
+
     /// The likeness of the two pictures, which should have the same proportions.
     #[must_use]
     pub fn compare(&self, other: &Self) -> Likeness {

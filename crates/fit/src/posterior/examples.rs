@@ -1,0 +1,79 @@
+//! Trees of a prior and what their pictures show.
+
+use super::prior::Prior;
+use crate::control::Until;
+use crate::error::FitError;
+use crate::evaluator::Evaluator;
+use crate::problem::{FitProblem, Genome, Objective};
+use crate::run::FIT_LIMITS;
+use pleach_silhouette::score::likeness::{Descriptor, Scratch};
+use pleach_silhouette::{Bitmap, Detail, Rasterizer};
+
+/// A tree at the height of its picture.
+#[derive(Clone, Debug)]
+pub(super) struct Example {
+    /// Its genome, with the values that it has at that height.
+    pub(super) genome: Genome,
+    /// What its pictures show, one for each goal.
+    pub(super) shown: Vec<Descriptor>,
+}
+
+/// Grows trees and draws them as the goals of a problem are.
+#[derive(Debug)]
+pub(super) struct Drawer(Evaluator);
+
+impl Drawer {
+    /// # Errors
+    /// Problems that [`Evaluator::new`] refuses.
+    pub(super) fn new(problem: &FitProblem, prior: &Prior) -> Result<Self, FitError> {
+        let evaluator = Evaluator::new(problem, Objective::Balance, FIT_LIMITS)?;
+        Ok(Self(if prior.sizes_are_free() { evaluator.with_height_matching() } else { evaluator }))
+    }
+
+    /// The first `count` trees of `prior`, without those that do not grow and those for which it is too late. `notify` is
+    /// told how many were tried.
+    ///
+    /// # Errors
+    /// [`FitError::Interrupted`] once asked to stop.
+    pub(super) fn examples(
+        &self,
+        prior: &Prior,
+        (seed, count): (u64, usize),
+        until: Until<'_>,
+        mut notify: impl FnMut(usize),
+    ) -> Result<Vec<Example>, FitError> {
+        let numbers: Vec<u64> = (0..count as u64).collect();
+        let mut all = Vec::with_capacity(count);
+        let mut tried = 0;
+        for some in numbers.chunks(BATCH) {
+            let grown = until.map(some, |&number| self.example(prior.draw(seed, number)))?;
+            tried += grown.len();
+            all.extend(grown.into_iter().flatten());
+            notify(tried);
+            if until.is_late() {
+                break;
+            }
+        }
+        Ok(all)
+    }
+
+    /// The tree of `genome`; `None` if it does not grow.
+    pub(super) fn example(&self, mut genome: Genome) -> Option<Example> {
+        let mut rasterizer = Rasterizer::for_searches(Detail::Half);
+        let (mut picture, mut scratch) = (Bitmap::default(), Scratch::default());
+        let mut shown = Vec::new();
+        genome.values = self.0.pictures(&genome, |placed| {
+            rasterizer.draw(placed.tree, &placed.view, &placed.frame, placed.parts, &mut picture);
+            shown.push(Descriptor::new(&picture, &mut scratch));
+        })?;
+        Some(Example { genome, shown })
+    }
+}
+
+/// Trees between two reports.
+const BATCH: usize = 64;
+
+/// Pictures as a row of numbers: the amounts that likeness compares, as roots, so that few and many weigh alike.
+pub(super) fn features(shown: &[Descriptor]) -> Vec<f64> {
+    shown.iter().flat_map(Descriptor::amounts).map(|amount| f64::from(amount.max(0.0)).sqrt()).collect()
+}

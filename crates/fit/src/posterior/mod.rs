@@ -1,0 +1,12 @@
+//! Answers with intervals: what a picture says about the numbers of its tree, and what it leaves open.
+//!
+//! A [`Prior`] says which trees there are before a picture is seen; a
+//! [`PosteriorModel`] learns from trees of it.
+
+mod examples;
+mod model;
+mod prior;
+mod ridge;
+
+pub use model::{Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings};
+pub use prior::Prior;

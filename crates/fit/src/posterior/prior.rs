@@ -1,0 +1,175 @@
+//! Trees around a species, as nature would vary them.
+
+use crate::problem::{FitProblem, Genome, Nuisance};
+use crate::run::FIT_LIMITS;
+use crate::space::{Freedom, Gene, Place, SearchSpace, SpaceError, Stream, TreeSeed};
+use pleach_tree::{Growth, Species, Tree};
+use std::sync::Arc;
+
+/// Purpose of the draws of a prior, for [`Stream::at`].
+const DRAWS: u32 = 0x7072;
+/// Draws of one number beyond its range after which its end is taken.
+const TRIES: usize = 16;
+
+/// What is known of a tree before its picture is seen: it is one of those around a species.
+///
+/// Every free number is normal around that of the species, with a standard deviation of [`Prior::SPREAD`] of its
+/// plausible range ([`pleach_tree::Param::plausible`]; by ratio where the number is searched by ratio) and cut off at the
+/// ends of that range. A number whose sign is a switch keeps its sign, and a standard deviation of at most twice that
+/// part of itself. Features that the species does not have stay absent; choices, numbers that are not used, and variations
+/// of size that no single tree shows are those of the species too. Every seed of a tree is as likely as any other.
+#[derive(Clone, Debug)]
+pub struct Prior {
+    species: Species,
+    space: SearchSpace,
+    spread: f64,
+}
+
+impl Prior {
+    /// Default standard deviation of a number, as a part of its plausible range.
+    pub const SPREAD: f64 = 0.15;
+    /// Largest standard deviation that is accepted: nearly uniform.
+    pub const MAX_SPREAD: f64 = 10.0;
+
+    /// Trees around `species`, of which the numbers that `freedom` leaves free vary by `spread` of their plausible range.
+    ///
+    /// # Errors
+    /// Patterns that `species` does not know, and values that are not allowed.
+    pub fn new(species: &Species, freedom: &Freedom, spread: f64) -> Result<Self, SpaceError> {
+        let generator = Arc::clone(&species.generator);
+        let space = SearchSpace::new(generator, species.params.values(), freedom, TreeSeed::Any)?;
+        Ok(Self::in_space(species, space, spread))
+    }
+
+    /// The same around the start of `problem`, and with all that its views leave unknown.
+    ///
+    /// # Errors
+    /// As [`Prior::new`].
+    pub fn from_problem(problem: &FitProblem, freedom: &Freedom, spread: f64) -> Result<Self, SpaceError> {
+        let space = SearchSpace::from_problem(problem, freedom, TreeSeed::Any)?;
+        Ok(Self::in_space(&problem.start, space, spread))
+    }
+
+    fn in_space(species: &Species, space: SearchSpace, spread: f64) -> Self {
+        let space = space.plausible(species.params.values()).settling(true);
+        Self { species: species.clone(), space, spread: spread.clamp(0.0, Self::MAX_SPREAD) }
+    }
+
+    /// A tree that anyone could use: of some draws the first that grows within the limits of a search; `None` if none
+    /// does. Each `number` has draws of its own.
+    #[must_use]
+    pub fn sample(&self, seed: u64, number: u32) -> Option<(Species, Tree)> {
+        const DRAWS: u64 = 16;
+        (0..DRAWS).find_map(|draw| {
+            let genome = self.draw(seed, u64::from(number) * DRAWS + draw);
+            let params = self.species.params.space().check(genome.values).ok()?;
+            let species = Species { params, tree_seed: Some(genome.tree_seed), ..self.species.clone() };
+            let growth =
+                Growth { limits: FIT_LIMITS, foliage: species.foliage, ..Growth::seed(genome.tree_seed) };
+            let tree = species.grow_with(&growth).ok()?;
+            Some((species, tree))
+        })
+    }
+
+    /// Tree number `number` of the prior with this `seed`.
+    #[must_use]
+    pub fn draw(&self, seed: u64, number: u64) -> Genome {
+        let mut stream = Stream::at(seed, DRAWS, number, 0);
+        let base = self.space.base();
+        let mut genome = self.space.individual(base, SearchSpace::random_seed(&mut stream));
+        for gene in self.space.genes() {
+            let value = match gene.place {
+                Place::Nuisance { nuisance: Nuisance::Azimuth, .. } => gene.random(&mut stream),
+                // Whatever a number is, it takes draws of its own, so that those of others do not depend on it.
+                _ => self.near(gene, gene.get(&genome), &mut stream),
+            };
+            if self.varies(gene) {
+                gene.set(&mut genome, value);
+            }
+        }
+        self.space.settle(&mut genome);
+        genome
+    }
+
+    /// A draw around `center`.
+    fn near(&self, gene: &Gene, center: f64, stream: &mut Stream) -> f64 {
+        let ([mut low, mut high], mut spread) = ([0.0, 1.0], self.spread);
+        let unit = gene.to_unit(center);
+        if gene.can_flip() {
+            let zero = gene.to_unit(0.0);
+            spread = (2.0 * (unit - zero).abs()).min(1.0) * self.spread;
+            if center > 0.0 { low = zero } else { high = zero }
+        }
+        let draws: [f64; TRIES] = std::array::from_fn(|_| unit + spread * stream.normal());
+        let last = draws[TRIES - 1].clamp(low, high);
+        gene.from_unit(draws.into_iter().find(|draw| (low..=high).contains(draw)).unwrap_or(last))
+    }
+
+    fn varies(&self, gene: &Gene) -> bool {
+        let base = self.space.base();
+        let value = gene.slot().map(|slot| base[slot.index()]);
+        let is_absent = value.is_some() && gene.neutral() == value;
+        !gene.is_choice() && !is_absent && self.space.is_active(base, gene)
+    }
+
+    /// The numbers of parameters that vary, in the order of their slots.
+    pub fn genes(&self) -> impl Iterator<Item = &Gene> {
+        let hidden = self.space.hidden_jitters(self.space.base());
+        let is_seen = move |gene: &&Gene| gene.slot().is_some_and(|slot| !hidden.contains(&slot));
+        self.space.genes().iter().filter(|gene| self.varies(gene)).filter(is_seen)
+    }
+
+    /// Whether trees can be brought to the height of a picture.
+    pub(super) fn sizes_are_free(&self) -> bool {
+        self.space.sizes_are_free()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn prior(name: &str, spread: f64) -> (Species, Prior) {
+        let species = pleach_generators::preset(name).unwrap();
+        let prior = Prior::new(&species, &Freedom::default(), spread).unwrap();
+        (species, prior)
+    }
+
+    #[test]
+    fn numbers_are_normal_around_the_species_within_plausible_ranges() {
+        let (species, prior) = prior("quaking_aspen", Prior::SPREAD);
+        let draws: Vec<Genome> = (0..2000).map(|number| prior.draw(1, number)).collect();
+        let name = |gene: &Gene| species.params.space().slot_name(gene.slot().unwrap());
+        for gene in prior.genes() {
+            let units: Vec<f64> = draws.iter().map(|genome| gene.to_unit(gene.get(genome))).collect();
+            assert!(units.iter().all(|unit| (-1e-9..=1.0 + 1e-9).contains(unit)), "{}", name(gene));
+        }
+        let ratio = prior.genes().find(|gene| name(gene) == "ratio").unwrap();
+        let units: Vec<f64> = draws.iter().map(|genome| ratio.to_unit(ratio.get(genome))).collect();
+        let mean = units.iter().sum::<f64>() / units.len() as f64;
+        let deviation = (units.iter().map(|u| (u - mean).powi(2)).sum::<f64>() / units.len() as f64).sqrt();
+        assert!((0.1..=0.152).contains(&deviation), "cut off at one end: {deviation}");
+        let again = prior.draw(1, 7);
+        assert_eq!((&again.values, again.tree_seed), (&draws[7].values, draws[7].tree_seed));
+        assert_ne!(prior.draw(2, 7).values, draws[7].values);
+        // An aspen has leaves and one leader.
+        let of = |name: &str| species.params.space().select(name).unwrap()[0].index();
+        assert!(draws.iter().all(|genome| genome.values[of("leaf_blos_num")] > 0.0));
+        assert!(draws.iter().all(|genome| genome.values[of("seg_splits")] == 0.0));
+    }
+
+    #[test]
+    fn without_a_spread_it_is_the_species_and_what_is_fixed_stays() {
+        let (species, prior) = prior("quaking_aspen", 0.0);
+        assert_eq!(prior.draw(1, 5).values, prior.draw(9, 1).values);
+        let slot = species.params.space().select("ratio").unwrap()[0];
+        assert!(
+            (prior.draw(1, 5).values[slot.index()] - species.params.values()[slot.index()]).abs() < 1e-12
+        );
+        let freedom = Freedom { fix: vec!["ratio".to_owned()], ..Freedom::default() };
+        let fixed = Prior::new(&species, &freedom, 1.0).unwrap();
+        assert!(fixed.genes().all(|gene| gene.slot() != Some(slot)));
+        let value = species.params.values()[slot.index()];
+        assert!((0..20).all(|number| fixed.draw(1, number).values[slot.index()] == value));
+    }
+}
