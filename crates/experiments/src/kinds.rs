@@ -5,6 +5,7 @@ use super::individual::IndividualSpec;
 use super::likeness::LikenessSpec;
 use super::needle::NeedleSpec;
 use super::photographs::PhotographsSpec;
+use super::posterior::PosteriorSpec;
 use super::reading::ReadingSpec;
 use super::robustness::RobustnessSpec;
 use super::rules::RulesSpec;
@@ -30,6 +31,7 @@ pub(super) enum Spec {
     Stylised(StylisedSpec),
     Reading(ReadingSpec),
     Photographs(PhotographsSpec),
+    Posterior(PosteriorSpec),
 }
 
 impl Spec {
@@ -48,6 +50,7 @@ impl Spec {
             Kind::Rules => Self::Rules(source.parse::<RulesSpec>()?.checked(source)?),
             Kind::Yao => Self::Yao(source.parse::<YaoSpec>()?.checked(source)?),
             Kind::Photographs => Self::Photographs(source.parse::<PhotographsSpec>()?.checked(source)?),
+            Kind::Posterior => Self::Posterior(source.parse::<PosteriorSpec>()?.checked(source)?),
             Kind::Reading => Self::Reading(source.parse::<ReadingSpec>()?.checked(source)?),
             Kind::Stylised => Self::Stylised(source.parse::<StylisedSpec>()?.checked(source)?),
         })

@@ -19,10 +19,12 @@ mod part;
 mod photographs;
 mod pictured;
 mod plot;
+mod posterior;
 mod reading;
 mod record;
 mod robustness;
 mod rules;
+mod spearman;
 mod spec;
 mod stop;
 mod stylised;
@@ -63,6 +65,7 @@ impl Spec {
             Self::Stylised(spec) => spec,
             Self::Reading(spec) => spec,
             Self::Photographs(spec) => spec,
+            Self::Posterior(spec) => spec,
         }
     }
 }

@@ -44,6 +44,8 @@ pub(super) enum Kind {
     Reading,
     /// Whole fits of pictures of real trees.
     Photographs,
+    /// What one picture says about the numbers of its tree.
+    Posterior,
 }
 
 impl Kind {
@@ -64,6 +66,7 @@ impl Kind {
             Self::Stylised => "stylised",
             Self::Reading => "reading",
             Self::Photographs => "photographs",
+            Self::Posterior => "posterior",
         }
     }
 }

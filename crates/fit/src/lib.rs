@@ -86,7 +86,9 @@ pub use method::{
     MethodSettings, Optimizer, Random, RandomSettings, Rules, RulesSettings, SETTINGS, Setting, SettingKind,
     Shade, ShadeSettings, Start, UnknownOptimizer,
 };
-pub use posterior::{Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings, Prior};
+pub use posterior::{
+    HeldOut, Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings, Prior,
+};
 pub use problem::{
     Accuracy, Agreement, AnyEvidence, Azimuth, Evidence, FitProblem, Genome, GoalView, MAX_OFFSET, MAX_SCALE,
     Nuisance, Objective, PlacedTree, Placement, ProblemError, ROUGH_AZIMUTH, Score, Scored, Size, Terms,

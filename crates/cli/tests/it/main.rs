@@ -43,6 +43,7 @@ mod odd_files;
 mod params;
 mod parity;
 mod pictures;
+mod posterior;
 mod read;
 mod reference_stats;
 mod render;

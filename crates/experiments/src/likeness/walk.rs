@@ -4,6 +4,7 @@ use super::line::{Line, MIN_STEPS, Walk};
 use super::measures::{self, MEASURES, Seen};
 use super::pictures::silhouette;
 use super::{LikenessSpec, Rows, SIDE, progress, stop};
+use crate::spearman::spearman;
 use pleach_silhouette::{Frame, View};
 use pleach_tree::{Growth, Limits, Parts, Species};
 use rayon::prelude::*;
@@ -42,7 +43,11 @@ pub(super) fn rows(lines: &[Line], rows: &mut Rows) {
         for (m, measure) in MEASURES.iter().enumerate() {
             let away = line.walk.iter().map(|(step, values)| (f64::from(*step), values[m]));
             let points: Vec<(f64, f64)> = std::iter::once((0.0, 1.0)).chain(away).collect();
-            rows.add(["walk", &line.species, &against, measure], line.walk.len() as u64, spearman(&points));
+            rows.add(
+                ["walk", &line.species, &against, measure],
+                line.walk.len() as u64,
+                spearman(&points).unwrap_or(0.0),
+            );
         }
     }
 }
@@ -85,39 +90,5 @@ impl Goal {
             Ok(tree.ok().map(|tree| (step, measures::compare(&look(tree), &self.seen))))
         });
         Ok(walked.collect::<anyhow::Result<Vec<_>>>()?.into_iter().flatten().collect())
-    }
-}
-
-/// Spearman's rank correlation of x and y; equal values share their mean rank (Spearman 1904). 0 where one of
-/// the two never changes.
-fn spearman(points: &[(f64, f64)]) -> f64 {
-    let ranks = |values: Vec<f64>| -> Vec<f64> {
-        let below = |v: f64| values.iter().filter(|w| **w < v).count() as f64;
-        let equal = |v: f64| values.iter().filter(|w| **w == v).count() as f64;
-        values.iter().map(|&v| below(v) + 0.5 * (equal(v) - 1.0)).collect()
-    };
-    let x = ranks(points.iter().map(|p| p.0).collect());
-    let y = ranks(points.iter().map(|p| p.1).collect());
-    let middle = (points.len() as f64 - 1.0) / 2.0;
-    let product =
-        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - middle) * (b - middle)).sum::<f64>();
-    let spread = (product(&x, &x) * product(&y, &y)).sqrt();
-    if spread > 0.0 { product(&x, &y) / spread } else { 0.0 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ranks_correlate_as_they_should() {
-        let of = |y: [f64; 5]| spearman(&std::array::from_fn::<_, 5, _>(|i| (i as f64, y[i])));
-        assert_eq!(of([9.0, 7.0, 6.9, 2.0, 1.0]), -1.0);
-        assert_eq!(of([1.0, 2.0, 5.0, 6.0, 100.0]), 1.0);
-        // One exchange of neighbours: 1 − 6 · 2 / (5 · 24).
-        assert!((of([2.0, 1.0, 3.0, 4.0, 5.0]) - 0.9).abs() < 1e-12);
-        // A tie shares its ranks: 9.5 / √(10 · 9.5).
-        assert!((of([1.0, 2.0, 2.0, 3.0, 4.0]) - 0.95_f64.sqrt()).abs() < 1e-12);
-        assert_eq!(of([3.0; 5]), 0.0);
     }
 }

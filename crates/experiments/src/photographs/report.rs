@@ -1,8 +1,9 @@
 //! The summary: medians of each set, and whether the program's own numbers agree with a person.
 
-use super::eye::{Eye, spearman};
+use super::eye::Eye;
 use super::row::{Row, Which};
 use super::verdict::rank;
+use crate::spearman::spearman;
 use pleach_console::output;
 
 /// A number of a row, if it has one.

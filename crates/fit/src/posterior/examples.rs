@@ -30,7 +30,7 @@ impl Drawer {
         Ok(Self(if prior.sizes_are_free() { evaluator.with_height_matching() } else { evaluator }))
     }
 
-    /// The first `count` trees of `prior`, without those that do not grow and those for which it is too late. `notify` is
+    /// The first `count` trees of `prior`, without those that do not grow or are not seen, and those for which it is too late. `notify` is
     /// told how many were tried.
     ///
     /// # Errors
@@ -57,16 +57,17 @@ impl Drawer {
         Ok(all)
     }
 
-    /// The tree of `genome`; `None` if it does not grow.
+    /// The tree of `genome`; `None` if it does not grow, or if nothing is seen of it in one of the pictures.
     pub(super) fn example(&self, mut genome: Genome) -> Option<Example> {
         let mut rasterizer = Rasterizer::for_searches(Detail::Half);
         let (mut picture, mut scratch) = (Bitmap::default(), Scratch::default());
-        let mut shown = Vec::new();
+        let (mut shown, mut is_seen) = (Vec::new(), true);
         genome.values = self.0.pictures(&genome, |placed| {
             rasterizer.draw(placed.tree, &placed.view, &placed.frame, placed.parts, &mut picture);
+            is_seen &= picture.ink() > 0;
             shown.push(Descriptor::new(&picture, &mut scratch));
         })?;
-        Some(Example { genome, shown })
+        is_seen.then_some(Example { genome, shown })
     }
 }
 

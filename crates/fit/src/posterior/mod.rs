@@ -8,5 +8,5 @@ mod model;
 mod prior;
 mod ridge;
 
-pub use model::{Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings};
+pub use model::{HeldOut, Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings};
 pub use prior::Prior;

@@ -31,7 +31,8 @@ impl Prior {
     /// Largest standard deviation that is accepted: nearly uniform.
     pub const MAX_SPREAD: f64 = 10.0;
 
-    /// Trees around `species`, of which the numbers that `freedom` leaves free vary by `spread` of their plausible range.
+    /// Trees around `species`, of which the numbers that `freedom` leaves free vary by `spread` of their plausible range:
+    /// from 0, which NaN counts as, to [`Prior::MAX_SPREAD`].
     ///
     /// # Errors
     /// Patterns that `species` does not know, and values that are not allowed.
@@ -52,7 +53,8 @@ impl Prior {
 
     fn in_space(species: &Species, space: SearchSpace, spread: f64) -> Self {
         let space = space.plausible(species.params.values()).settling(true);
-        Self { species: species.clone(), space, spread: spread.clamp(0.0, Self::MAX_SPREAD) }
+        let spread = if spread.is_nan() { 0.0 } else { spread.clamp(0.0, Self::MAX_SPREAD) };
+        Self { species: species.clone(), space, spread }
     }
 
     /// A tree that anyone could use: of some draws the first that grows within the limits of a search; `None` if none
@@ -102,7 +104,10 @@ impl Prior {
         }
         let draws: [f64; TRIES] = std::array::from_fn(|_| unit + spread * stream.normal());
         let last = draws[TRIES - 1].clamp(low, high);
-        gene.from_unit(draws.into_iter().find(|draw| (low..=high).contains(draw)).unwrap_or(last))
+        let drawn =
+            gene.from_unit(draws.into_iter().find(|draw| (low..=high).contains(draw)).unwrap_or(last));
+        // A whole number that is rounded to 0 has no sign any more.
+        if gene.can_flip() && drawn == 0.0 && center != 0.0 { gene.clamp(center.signum()) } else { drawn }
     }
 
     fn varies(&self, gene: &Gene) -> bool {

@@ -44,32 +44,26 @@ pub(super) struct Ridge {
     /// Number, mean and scale of every feature that varies.
     scales: Vec<(usize, f64, f64)>,
     pub(super) targets: Vec<Target>,
-    /// Of the features, for distances.
-    factor: Option<Cholesky>,
-    /// Distance of each example from the others.
-    distances: Vec<f64>,
 }
 
 impl Ridge {
     /// Learns `targets` from `features`, which have as many rows.
-    pub(super) fn learn(features: &Columns, targets: &Columns) -> Self {
-        let count = features.rows as f64;
-        let scale = |(number, column): (usize, &Vec<f64>)| {
-            let (mean, deviation) = moments(column);
-            (deviation > LEAST).then(|| (number, mean, 1.0 / deviation))
+    pub(super) fn learn(features: Columns, targets: &Columns) -> Self {
+        let standard = |(number, mut column): (usize, Vec<f64>)| {
+            let (mean, deviation) = moments(&column);
+            let scale = (deviation > LEAST).then_some(1.0 / deviation)?;
+            column.iter_mut().for_each(|value| *value = (*value - mean) * scale);
+            Some(((number, mean, scale), column))
         };
-        let scales: Vec<(usize, f64, f64)> = features.columns.iter().enumerate().filter_map(scale).collect();
-        let standard = |&(number, mean, scale): &(usize, f64, f64)| {
-            features.columns[number].iter().map(|value| (value - mean) * scale).collect()
-        };
-        let columns: Vec<Vec<f64>> = scales.par_iter().map(standard).collect();
+        let rows = features.rows;
+        let count = rows as f64;
+        let (scales, columns): (Vec<(usize, f64, f64)>, Vec<Vec<f64>>) =
+            features.columns.into_iter().enumerate().filter_map(standard).unzip();
         let product =
             |(i, column): (usize, &Vec<f64>)| columns[..=i].iter().map(|c| dot(column, c)).collect();
         let gram: Vec<Vec<f64>> = columns.par_iter().enumerate().map(product).collect();
-        let examples: Vec<Vec<f64>> = (0..features.rows)
-            .into_par_iter()
-            .map(|row| columns.iter().map(|column| column[row]).collect())
-            .collect();
+        let examples: Vec<Vec<f64>> =
+            (0..rows).into_par_iter().map(|row| columns.iter().map(|column| column[row]).collect()).collect();
         let centered: Vec<(f64, Vec<f64>)> = targets
             .columns
             .iter()
@@ -87,7 +81,6 @@ impl Ridge {
                 explained: 0.0,
             })
             .collect();
-        let (mut farness, mut distances) = (None, Vec::new());
         for strength in STRENGTHS {
             let Some(factor) = Cholesky::new(&gram, strength * count) else { continue };
             let leverages: Vec<f64> = examples.par_iter().map(|row| factor.square(row)).collect();
@@ -105,39 +98,20 @@ impl Ridge {
                     *best = Target { mean: *mean, weights, residuals, explained };
                 }
             });
-            if strength == FAMILIAR {
-                // As if the example had been left out.
-                distances = leverages.iter().map(|h| h / (1.0 - h).max(TINY)).collect();
-                farness = Some(factor);
-            }
         }
-        Self { scales, targets: best, factor: farness, distances }
+        Self { scales, targets: best }
     }
 
     /// The prediction of each target for the row `asked` of features.
     pub(super) fn predict(&self, asked: &[f64]) -> Vec<f64> {
-        let asked = self.scaled(asked);
+        let scaled = |&(number, mean, scale): &(usize, f64, f64)| (asked[number] - mean) * scale;
+        let asked: Vec<f64> = self.scales.iter().map(scaled).collect();
         self.targets.iter().map(|target| target.mean + dot(&asked, &target.weights)).collect()
-    }
-
-    /// The share of the examples that are at least as far from all others as `asked` is, in 0..=1.
-    pub(super) fn familiarity(&self, asked: &[f64]) -> f64 {
-        let Some(factor) = &self.factor else { return 0.0 };
-        let own = factor.square(&self.scaled(asked));
-        self.distances.iter().filter(|&&distance| distance >= own).count() as f64
-            / self.distances.len().max(1) as f64
-    }
-
-    fn scaled(&self, asked: &[f64]) -> Vec<f64> {
-        self.scales.iter().map(|&(number, mean, scale)| (asked[number] - mean) * scale).collect()
     }
 }
 
 /// Keeps quotients finite.
 const TINY: f64 = 1e-12;
-
-/// The strength by which the distance of a row is measured.
-const FAMILIAR: f64 = 0.1;
 
 /// Mean and standard deviation.
 fn moments(values: &[f64]) -> (f64, f64) {
@@ -162,7 +136,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The lower triangle L of L Lᵀ = A + strength.
-#[derive(Debug)]
 struct Cholesky(Vec<Vec<f64>>);
 
 impl Cholesky {
@@ -237,7 +210,7 @@ mod tests {
     }
 
     fn learn(features: &[Vec<f64>], targets: &[Vec<f64>]) -> Ridge {
-        Ridge::learn(&Columns::from_rows(features), &Columns::from_rows(targets))
+        Ridge::learn(Columns::from_rows(features), &Columns::from_rows(targets))
     }
 
     #[test]
@@ -251,8 +224,6 @@ mod tests {
         assert!(clear.explained > 0.99 && noise.explained < 0.02, "{clear:?} {noise:?}");
         let rms = (dot(&clear.residuals, &clear.residuals) / 400.0).sqrt();
         assert!((0.09..0.11).contains(&rms), "{rms}");
-        assert!(ridge.familiarity(&asked) > 0.2);
-        assert_eq!(ridge.familiarity(&[30.0, 0.0, 0.0]), 0.0);
     }
 
     #[test]

@@ -4,8 +4,8 @@ use crate::common::goal_of;
 use pleach_fit::{
     AssessmentSettings, Budget, Candidate, CheckpointSettings, Control, CostModel, Deadline, FitError,
     FitProblem, FitSettings, Fitted, GoalSettings, GuessLibrary, Guessing, Identifiability,
-    IndividualSettings, Observer, ObserverError, PreparedSearch, Progress, Start, StopReason, fit, fit_goal,
-    fit_goal_with,
+    IndividualSettings, Observer, ObserverError, PosteriorSettings, PreparedSearch, Progress, Start,
+    StopReason, fit, fit_goal, fit_goal_with,
 };
 use pleach_tree::Limits;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -62,14 +62,41 @@ impl Observer for Steps<'_> {
     fn assessing(&mut self) {
         self.step("assessing");
     }
+
+    fn learning(&mut self, done: usize, all: usize) {
+        assert!(done <= all);
+        self.step("learning");
+    }
 }
 
 fn watched(raise_at: &'static str) -> (Result<Fitted, FitError>, Vec<&'static str>) {
+    watched_with(&settings(120), raise_at)
+}
+
+fn watched_with(
+    settings: &GoalSettings,
+    raise_at: &'static str,
+) -> (Result<Fitted, FitError>, Vec<&'static str>) {
     let stop = AtomicBool::new(false);
     let mut steps = Steps { seen: Vec::new(), raise_at, stop: &stop };
     let control = Control { observers: vec![&mut steps], ..Control::new(&still, &stop) };
-    let result = fit_goal(&goal_of("palm", 4, 64), &settings(120), control);
+    let result = fit_goal(&goal_of("palm", 4, 64), settings, control);
     (result, steps.seen)
+}
+
+#[test]
+fn a_posterior_is_learnt_in_the_end_and_is_all_or_nothing() {
+    let how = PosteriorSettings { trees: 130, samples: 1, ..PosteriorSettings::default() };
+    let settings = GoalSettings { posterior: Some(how), ..settings(60) };
+    let (whole, seen) = watched_with(&settings, "");
+    assert_eq!(seen, ["guessing", "prepared", "progress", "assessing", "learning"]);
+    let whole = whole.unwrap();
+    let found = whole.posterior.unwrap();
+    assert_eq!((found.trees + found.failures, found.samples.len()), (130, 1));
+    let (interrupted, _) = watched_with(&settings, "learning");
+    let interrupted = interrupted.unwrap();
+    assert!(interrupted.posterior.is_none() && interrupted.outcome.stop == StopReason::Interrupted);
+    assert_eq!((interrupted.best, interrupted.assessment.is_some()), (whole.best, true));
 }
 
 #[test]

@@ -106,7 +106,7 @@ pub struct FitOptions {
     pub individual: Effort,
     /// How many trees are to lie on the goal in the end; they share the time of `individual`.
     pub individuals: u8,
-    /// Number of trees around the species that the search started from, 100 to 100 000, from which the fit learns, in the
+    /// Number of trees around the species that the search started from, 100 to 20 000, from which the fit learns, in the
     /// end, how surely the goal determines each number; not part of `timeout`.
     pub posterior: Option<u32>,
     /// Time for all of the fit, in JSON in seconds; above 0 and at most 10 000 000 s. A minute if neither this nor
@@ -475,7 +475,7 @@ mod tests {
         assert_eq!(with(|o| o.generations = Some(0)), "generations");
         assert_eq!(with(|o| o.target_iou = Some(1.5)), "target_iou");
         assert_eq!(with(|o| o.posterior = Some(99)), "posterior");
-        assert_eq!(with(|o| o.posterior = Some(100_001)), "posterior");
+        assert_eq!(with(|o| o.posterior = Some(20_001)), "posterior");
         assert_eq!(with(|o| (o.posterior, o.evolve_rules) = (Some(200), true)), "posterior");
         assert_eq!(with(|o| o.individuals = 0), "individuals");
         assert_eq!(with(|o| (o.individuals, o.individual) = (2, Effort::Off)), "individuals");

@@ -62,7 +62,7 @@ class Posterior:
     trees: int
     """How many of them grew."""
     familiarity: float
-    """The share of those trees whose pictures are at least as strange among the others as the goal is, in 0..=1."""
+    """The share of those trees whose pictures are at most as like the most similar other one as the goal is, in 0..=1."""
     is_familiar: bool
     """Whether the goal is like a picture of such a tree; where it is not, intervals cannot be trusted."""
     numbers: dict[str, PosteriorNumber] = field(repr=False)
@@ -303,7 +303,7 @@ def fit(
     It ends after ``timeout`` seconds, ``evaluations`` or ``generations``, or once ``target_iou`` is reached; after a
     minute if nothing is said. ``individual`` is how long the goal's own tree is searched: True, a share of the budget;
     seconds; a number of trees such as ``"400trees"``; or False, which ``"off"`` is too. ``posterior`` is the number of trees,
-    100 to 100,000, from which the fit learns in the end how surely the goal determines each number; True is 2000. It is not
+    100 to 20,000, from which the fit learns in the end how surely the goal determines each number; True is 2000. It is not
     part of ``timeout``.
 
     ``progress`` is True, for a bar (with tqdm), or a function of a dict: ``stage`` and what it says of it. Fits

@@ -202,7 +202,7 @@ pub(super) struct PosteriorArgs {
     /// that it may be of. The trees are around the species that the search started from; they are grown after all
     /// else, and not within --timeout
     #[arg(long, value_name = "TREES", num_args = 0..=1, default_missing_value = "2000",
-          value_parser = clap::value_parser!(u32).range(100..=100_000))]
+          value_parser = clap::value_parser!(u32).range(100..=20_000))]
     pub(super) posterior: Option<u32>,
 }
 

@@ -209,7 +209,7 @@ mod tests {
     }
 
     /// The options of `pleach fit`, and what each of them may be given that is not its default.
-    const GIVEN: [(&str, &str); 42] = [
+    const GIVEN: [(&str, &str); 43] = [
         ("height", "12"),
         ("size", "64"),
         ("mask", "auto"),
