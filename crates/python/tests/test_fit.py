@@ -282,7 +282,7 @@ def test_a_known_frame_is_checked_and_taken() -> None:
 
 def test_a_posterior_has_intervals_and_trees() -> None:
     goal = pleach.species("palm").grow(5).silhouette(64)
-    events = []
+    events: list[dict[str, Any]] = []
     found = pleach.fit(
         goal, start="palm", evaluations=16, size=64, individual=False, posterior=150, progress=events.append
     )

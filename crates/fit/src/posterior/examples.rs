@@ -30,8 +30,8 @@ impl Drawer {
         Ok(Self(if prior.sizes_are_free() { evaluator.with_height_matching() } else { evaluator }))
     }
 
-    /// The first `count` trees of `prior`, without those that do not grow or are not seen, and those for which it is too late. `notify` is
-    /// told how many were tried.
+    /// The first `count` trees of `prior`, without those that do not grow or are not seen, and those for which it is too
+    /// late. `notify` is told how many were tried.
     ///
     /// # Errors
     /// [`FitError::Interrupted`] once asked to stop.

@@ -83,9 +83,9 @@ pub struct Posterior {
     pub trees: usize,
     /// Trees that did not grow, or of which nothing is seen.
     pub failures: usize,
-    /// The share of those trees whose pictures are at most as like the most similar other one as the goal is, in 0..=1:
-    /// half for most trees of the prior. Near 0 the goal is not a picture of such a tree, and the intervals cannot be
-    /// trusted.
+    /// The share of those trees whose pictures are at least as strange as the goal is, in 0..=1, by how like they are to
+    /// the most similar other one, or by how far they are from all (leverage), whichever is less. Near 0 the goal is not a
+    /// picture of such a tree, and the intervals cannot be trusted.
     pub familiarity: f64,
 }
 
@@ -237,7 +237,7 @@ impl PosteriorModel {
             samples: samples.collect(),
             trees: self.known.len(),
             failures: self.failures,
-            familiarity: self.familiarity(goals),
+            familiarity: self.familiarity(goals).min(self.ridge.share_as_far(&asked)),
         }
     }
 

@@ -44,6 +44,10 @@ pub(super) struct Ridge {
     /// Number, mean and scale of every feature that varies.
     scales: Vec<(usize, f64, f64)>,
     pub(super) targets: Vec<Target>,
+    /// Of the features, for distances.
+    factor: Option<Cholesky>,
+    /// Distance of each example from all others.
+    distances: Vec<f64>,
 }
 
 impl Ridge {
@@ -81,6 +85,7 @@ impl Ridge {
                 explained: 0.0,
             })
             .collect();
+        let (mut farness, mut distances) = (None, Vec::new());
         for strength in STRENGTHS {
             let Some(factor) = Cholesky::new(&gram, strength * count) else { continue };
             let leverages: Vec<f64> = examples.par_iter().map(|row| factor.square(row)).collect();
@@ -98,17 +103,39 @@ impl Ridge {
                     *best = Target { mean: *mean, weights, residuals, explained };
                 }
             });
+            if strength == DISTANCE {
+                // As if the example had been left out.
+                distances = leverages.iter().map(|h| h / (1.0 - h).max(TINY)).collect();
+                farness = Some(factor);
+            }
         }
-        Self { scales, targets: best }
+        Self { scales, targets: best, factor: farness, distances }
     }
 
     /// The prediction of each target for the row `asked` of features.
     pub(super) fn predict(&self, asked: &[f64]) -> Vec<f64> {
-        let scaled = |&(number, mean, scale): &(usize, f64, f64)| (asked[number] - mean) * scale;
-        let asked: Vec<f64> = self.scales.iter().map(scaled).collect();
+        let asked = self.scaled(asked);
         self.targets.iter().map(|target| target.mean + dot(&asked, &target.weights)).collect()
     }
 }
+
+impl Ridge {
+    /// The share of the examples that are at least as far from all others as `asked` is, in 0..=1: where it is 0,
+    /// predictions are extrapolated.
+    pub(super) fn share_as_far(&self, asked: &[f64]) -> f64 {
+        let Some(factor) = &self.factor else { return 0.0 };
+        let own = factor.square(&self.scaled(asked));
+        let farther = self.distances.iter().filter(|&&distance| distance >= own).count();
+        farther as f64 / self.distances.len().max(1) as f64
+    }
+
+    fn scaled(&self, asked: &[f64]) -> Vec<f64> {
+        self.scales.iter().map(|&(number, mean, scale)| (asked[number] - mean) * scale).collect()
+    }
+}
+
+/// The strength by which distances are measured.
+const DISTANCE: f64 = 0.1;
 
 /// Keeps quotients finite.
 const TINY: f64 = 1e-12;
@@ -136,6 +163,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The lower triangle L of L Lᵀ = A + strength.
+#[derive(Debug)]
 struct Cholesky(Vec<Vec<f64>>);
 
 impl Cholesky {
@@ -143,9 +171,7 @@ impl Cholesky {
     fn new(matrix: &[Vec<f64>], strength: f64) -> Option<Self> {
         let width = matrix.len();
         let mut lower: Vec<Vec<f64>> = matrix.to_vec();
-        for i in 0..width {
-            lower[i][i] += strength;
-        }
+        lower.iter_mut().enumerate().for_each(|(i, row)| row[i] += strength);
         for j in 0..width {
             let (done, rest) = lower.split_at_mut(j + 1);
             let row = &mut done[j];
@@ -224,6 +250,8 @@ mod tests {
         assert!(clear.explained > 0.99 && noise.explained < 0.02, "{clear:?} {noise:?}");
         let rms = (dot(&clear.residuals, &clear.residuals) / 400.0).sqrt();
         assert!((0.09..0.11).contains(&rms), "{rms}");
+        assert!(ridge.share_as_far(&asked) > 0.2);
+        assert_eq!(ridge.share_as_far(&[30.0, 0.0, 0.0]), 0.0);
     }
 
     #[test]

@@ -18,7 +18,7 @@ pub struct PosteriorReport {
     pub trees: usize,
     /// Trees that did not grow, or of which nothing is seen.
     pub failures: usize,
-    /// The share of those trees whose pictures are at most as like the most similar other one as the goal is, in 0..=1.
+    /// The share of those trees whose pictures are at least as strange as the goal is, in 0..=1.
     pub familiarity: f64,
     /// Whether the goal is like a picture of a tree of the prior; where it is not, intervals cannot be trusted.
     pub is_familiar: bool,

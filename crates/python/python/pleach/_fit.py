@@ -62,7 +62,7 @@ class Posterior:
     trees: int
     """How many of them grew."""
     familiarity: float
-    """The share of those trees whose pictures are at most as like the most similar other one as the goal is, in 0..=1."""
+    """The share of those trees whose pictures are at least as strange as the goal is, in 0..=1."""
     is_familiar: bool
     """Whether the goal is like a picture of such a tree; where it is not, intervals cannot be trusted."""
     numbers: dict[str, PosteriorNumber] = field(repr=False)
