@@ -242,12 +242,16 @@ impl Evaluator {
         memory: &mut EvalWorkspace,
         terms: Terms,
     ) -> Agreement {
-        let PreparedGoal { viewpoint, evidence } = &self.goals[number];
-        let (view, mut frame) = viewpoint.placed(&genome.nuisances);
-        frame.meters_per_pixel /= magnified;
         let EvalWorkspace { tree, evidence: memories, .. } = memory;
-        let placed = PlacedTree { tree, view, frame, parts: self.foliage.into() };
-        evidence.measure(&placed, terms, &mut *memories[number])
+        let placed = self.standing(number, genome, magnified, tree);
+        self.goals[number].evidence.measure(&placed, terms, &mut *memories[number])
+    }
+
+    /// `tree`, `magnified` times as large, as it stands in goal `number`.
+    fn standing<'a>(&self, number: usize, genome: &Genome, magnified: f64, tree: &'a Tree) -> PlacedTree<'a> {
+        let (view, mut frame) = self.goals[number].viewpoint.placed(&genome.nuisances);
+        frame.meters_per_pixel /= magnified;
+        PlacedTree { tree, view, frame, parts: self.foliage.into() }
     }
 
     /// The direction and the frame of each goal; unknowns are as in `genome`.
@@ -297,10 +301,8 @@ impl Evaluator {
         self.with_memory(|memory| {
             let growth = self.growth(genome.tree_seed, self.foliage, Size::ANY);
             let Matched { magnified, .. } = self.grow_matched(&*self.generator, genome, &growth, memory)?;
-            for goal in &*self.goals {
-                let (view, mut frame) = goal.viewpoint.placed(&genome.nuisances);
-                frame.meters_per_pixel /= magnified;
-                look(&PlacedTree { tree: &memory.tree, view, frame, parts: self.foliage.into() });
+            for number in 0..self.goals.len() {
+                look(&self.standing(number, genome, magnified, &memory.tree));
             }
             Some(memory.values.clone())
         })

@@ -32,8 +32,9 @@ pub struct GoalSettings {
     /// What is learnt, in the end, about how surely the goal determines each number; `None`: nothing. The prior is around
     /// the species that the search started from.
     pub posterior: Option<PosteriorSettings>,
-    /// Deadline of the whole fit, without the posterior, which takes the time that its trees take; `None`: no deadline. The stages after the search share the time that is left; the
-    /// last one has all of it: individuals where they take the rest, assessment where there are none.
+    /// Deadline of the whole fit, without the posterior, which takes the time that its trees take; `None`: no deadline.
+    /// The stages after the search share the time that is left; the last one has all of it: individuals where they take
+    /// the rest, assessment where there are none.
     pub deadline: Option<Deadline>,
 }
 
@@ -88,8 +89,8 @@ pub struct Fitted {
     /// This very tree, or several that all lie on the goal, the best first. Empty if none was asked for, the fit was
     /// interrupted, or stems of the generator have no addresses.
     pub individuals: Vec<FoundIndividual>,
-    /// What the goal says about the numbers of its tree; `None` if it was not asked for, or the fit was interrupted
-    /// before there were enough trees.
+    /// What the goal says about the numbers of its tree; `None` if it was not asked for, too few trees of the prior grew,
+    /// or the fit was interrupted.
     pub posterior: Option<Posterior>,
 }
 

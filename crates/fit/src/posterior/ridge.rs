@@ -117,9 +117,7 @@ impl Ridge {
         let asked = self.scaled(asked);
         self.targets.iter().map(|target| target.mean + dot(&asked, &target.weights)).collect()
     }
-}
 
-impl Ridge {
     /// The share of the examples that are at least as far from all others as `asked` is, in 0..=1: where it is 0,
     /// predictions are extrapolated.
     pub(super) fn share_as_far(&self, asked: &[f64]) -> f64 {

@@ -59,7 +59,7 @@ pub struct FitReport {
     /// How well the goal determines each free parameter.
     pub parameters: Vec<ParameterReport>,
     /// What the goal says about the numbers of its tree, with [`FitOptions::posterior`]; `None` if too few trees of the
-    /// prior grew.
+    /// prior grew, or the fit was interrupted.
     pub posterior: Option<PosteriorReport>,
     /// Trees that the search has grown and scored.
     pub evaluations: u64,

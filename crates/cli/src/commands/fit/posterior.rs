@@ -26,6 +26,10 @@ pub(super) fn write(claim: &Claim, drawing: &FitDrawing<'_>, found: &PosteriorRe
         write_species(&claim.file(&sample_file(number)), species, &[comment])?;
         trees.push(drawing.grow(species).ok().map(|tree| render(&tree, species, SIZE)));
     }
+    // It may be that none grows.
+    if trees.is_empty() {
+        return Ok(());
+    }
     let sheet = sheet(&trees, SIZE);
     files::write_whole(&claim.file(POSTERIOR_SHEET), |out| Ok(png_file::write(out, &[sheet], 0)?))
 }

@@ -55,8 +55,13 @@ pub(super) fn report(summary: &FitReport, goal: &Path, folder: &Path) -> String 
         individual += &several::line(sides);
         tree += &format!("trees    {}\n", folder.join(SHEET).display());
     }
-    let posterior = summary.posterior.as_ref().map_or_else(String::new, posterior::said);
-    if summary.posterior.is_some() {
+    let mut posterior = summary.posterior.as_ref().map_or_else(String::new, posterior::said);
+    if summary.posterior.is_none() && summary.options.posterior.is_some() && summary.finished {
+        posterior =
+            "\nno interval is known: too few trees around the species of the start grow and are seen\n"
+                .to_owned();
+    }
+    if summary.posterior.as_ref().is_some_and(|known| !known.samples.is_empty()) {
         tree += &format!("samples  {}\n", folder.join(POSTERIOR_SHEET).display());
     }
     let rules = summary.rules.as_ref();
