@@ -7,10 +7,16 @@ use pleach_tree::{Family, Generator, Growth, Tree, Workspace};
 
 fn grow(c: &mut Criterion) {
     let space = SpaceColonization.space();
-    for points in [500.0, 1000.0, 2000.0, 4000.0] {
+    // Points, length of a step, and apical control: at 0.5 nothing is divided.
+    let cases = [500.0, 1000.0, 2000.0, 4000.0].map(|points| (points, 0.45, 0.5));
+    let divided = [(4000.0, 0.45, 0.3), (4000.0, 0.45, 0.7)];
+    let fine = [0.5, 0.4, 0.6].map(|control| (4000.0, 0.2, control));
+    for (points, step, control) in cases.into_iter().chain(divided).chain(fine) {
         let mut values = space.defaults();
-        let slot = space.slots().find(|slot| space.slot_name(*slot) == "points").expect("a parameter");
-        values[slot.index()] = points;
+        for (name, value) in [("points", points), ("step", step), ("apical_control", control)] {
+            let slot = space.slots().find(|slot| space.slot_name(*slot) == name).expect("a parameter");
+            values[slot.index()] = value;
+        }
         let params = space.check(values).expect("allowed values");
         let mut workspace = Workspace::default();
         let count = |workspace: &mut Workspace, seed| {
@@ -18,7 +24,7 @@ fn grow(c: &mut Criterion) {
         };
         let nodes = count(&mut workspace, 1);
         let mut seed = 0;
-        c.bench_function(&format!("scaffold of {nodes} nodes"), |b| {
+        c.bench_function(&format!("scaffold of {nodes} nodes, apical control {control}"), |b| {
             b.iter(|| {
                 seed = seed % 20 + 1;
                 count(&mut workspace, seed)

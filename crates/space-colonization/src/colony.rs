@@ -5,8 +5,8 @@
 //! is taken away.
 //!
 //! Ours, after the bud fates of Pałubicki and others 2009, §4: the last node of an axis continues it; any other node
-//! begins a side shoot, not too near to the next one, and side shoots grow more slowly by their apical control. It
-//! stands for the allocation of vigour by Borchert and Honda: what a leader takes first is lost to its sides.
+//! begins a side shoot, not too near to the next one, and side shoots grow more slowly by `dominance`: what a leader
+//! takes first is lost to its sides. Where `apical_control` is not 0.5, buds also wait for what `vigor.rs` gives them.
 //!
 //! A point remembers its nearest node, so that only new nodes are compared with the points around them: the work is the
 //! number of nodes times the points within the radius of influence, and the time grows as the number of points.
@@ -14,7 +14,8 @@
 use crate::budget::Budget;
 use crate::grid::Grid;
 use crate::nodes::{MAX_CHILDREN, NONE, Node, Nodes};
-use crate::params::{Id, Numbers};
+use crate::params::{EVEN, Id, Numbers};
+use crate::vigor::Vigor;
 use crate::volume::Volume;
 use glam::DVec3;
 use pleach_tree::trig::sin_cos;
@@ -58,6 +59,8 @@ pub(crate) struct Rules {
     tropism: f64,
     outward: f64,
     dominance: f64,
+    control: f64,
+    crown_width: f64,
     bud_spacing: u32,
 }
 
@@ -74,8 +77,15 @@ impl Rules {
             tropism: n.tropism,
             outward: n.outward,
             dominance: n.dominance,
+            control: n.apical_control,
+            crown_width: n.crown_width,
             bud_spacing: n.bud_spacing,
         }
+    }
+
+    /// Whether resource is divided among buds. It is not where each gets as much as it can use.
+    fn divides(&self) -> bool {
+        self.control != EVEN
     }
 
     /// `wish`, or as much of the way to it from `heading` as a shoot can bend in one step.
@@ -111,6 +121,7 @@ pub(crate) struct Colony {
     aside: Vec<u32>,
     /// Nodes that have no way to go.
     spent: Vec<bool>,
+    vigor: Vigor,
 }
 
 /// What marks a point that was reached.
@@ -137,7 +148,10 @@ impl Colony {
                 }
                 let is_full = nodes.all.len() - given > NODES_A_POINT * points.len() + NODES;
                 let has_grown = nodes.all.len() > first_new;
-                if (!has_grown && next.is_infinite()) || is_full {
+                if (!has_grown && next.is_infinite())
+                    || is_full
+                    || self.vigor.is_of_age(rules.step, rules.crown_width)
+                {
                     break;
                 }
                 // Nothing happens until the first of those that wait has its turn.
@@ -170,6 +184,7 @@ impl Colony {
         self.is_listed.resize(points.len(), false);
         self.pulls.clear();
         self.spent.clear();
+        self.vigor.clear();
         for node in 0..nodes.all.len() {
             let Node { axis, next, heading, .. } = nodes.all[node];
             if next == NONE {
@@ -228,7 +243,7 @@ impl Colony {
         budget: &mut Budget,
     ) -> Result<f64, GrowError> {
         let mut next = f64::INFINITY;
-        let Self { nearest, alive, pulls, pulled, aside, spent, is_listed, .. } = self;
+        let Self { nearest, alive, pulls, pulled, aside, spent, is_listed, vigor, .. } = self;
         pulled.clear();
         aside.clear();
         alive.retain(|&point| {
@@ -241,7 +256,7 @@ impl Colony {
             let own = &nodes.all[node as usize];
             let is_tip = nodes.is_tip(own);
             let axis = &nodes.axes[own.axis as usize];
-            if is_tip && axis.credit < READY {
+            if is_tip && axis.credit < READY && !rules.divides() {
                 next = next.min((1.0 - axis.credit) / axis.vigor);
                 return true;
             }
@@ -270,8 +285,17 @@ impl Colony {
         pulled.sort_unstable();
         // Two points on opposite sides may add up to nothing and list a node twice.
         pulled.dedup();
+        if rules.divides() && !pulled.is_empty() {
+            vigor.divide(rules.control, pulled, nodes);
+            budget.work(nodes.all.len() as u64, Id::points)?;
+            // One of them has its turn now, and the others wait.
+            next = 0.0;
+        }
         for &node in pulled.iter() {
             let pull = std::mem::take(&mut pulls[node as usize]);
+            if rules.divides() && !vigor.takes_step(node) {
+                continue;
+            }
             if grow_from(node, (pull, volume), rules, nodes, spent) {
                 next = 0.0;
             }
@@ -358,6 +382,8 @@ mod tests {
         tropism: 0.0,
         outward: 0.0,
         dominance: 0.0,
+        control: EVEN,
+        crown_width: 0.8,
         bud_spacing: 0,
     };
 
@@ -430,6 +456,50 @@ mod tests {
             nodes.axes.len() as f64 / nodes.all.len() as f64
         };
         assert!(axes(&Rules { bud_spacing: 3, ..RULES }) < axes(&RULES));
+    }
+
+    /// Part of all steps that are the trunk's, and its height, in the mean of several clouds.
+    fn leading(control: f64) -> [f64; 2] {
+        let mut means = [0.0; 2];
+        for seed in 0..8 {
+            let key = Key::root(seed);
+            let point = |i| DVec3::new(key.signed(0, i), key.signed(1, i), 0.2 + 3.0 * key.unit(2, i)) * 0.4;
+            let points: Vec<DVec3> = (0..800).map(point).collect();
+            let nodes = colonised(&points, &Rules { control, bud_spacing: 2, ..RULES });
+            let trunk: Vec<f64> =
+                nodes.all.iter().filter(|node| node.axis == 0).map(|node| node.place.z).collect();
+            means[0] += trunk.len() as f64 / nodes.all.len() as f64 / 8.0;
+            means[1] += trunk.iter().copied().fold(0.0, f64::max) / 8.0;
+        }
+        means
+    }
+
+    #[test]
+    fn apical_control_keeps_a_leader_or_leaves_it_behind() {
+        let [starved, behind, even, kept, alone] = [0.1, 0.3, 0.5, 0.7, 0.9].map(leading);
+        assert!(even[0] < kept[0] && kept[0] < 0.7 * alone[0], "parts {even:?} {kept:?} {alone:?}");
+        assert!(
+            starved[1] < behind[1] && behind[1] < 0.8 * even[1],
+            "heights {starved:?} {behind:?} {even:?}"
+        );
+    }
+
+    #[test]
+    fn apical_control_near_its_middle_is_nearly_as_none() {
+        let count = |control| colonised(&cloud(500), &Rules { control, ..RULES }).all.len() as f64;
+        let ratio = count(EVEN + 1e-9) / count(EVEN);
+        assert!((0.93..1.07).contains(&ratio), "{ratio}");
+    }
+
+    #[test]
+    fn no_apical_control_hangs() {
+        for control in [0.0, f64::MIN_POSITIVE, 1e-9, 1.0 - 1e-16, 1.0] {
+            for dominance in [0.0, 1.0] {
+                let nodes = colonised(&cloud(300), &Rules { control, dominance, ..RULES });
+                assert!(nodes.all.len() > 10, "{control} {dominance}: {}", nodes.all.len());
+                assert!(nodes.all.iter().all(|node| node.place.is_finite()));
+            }
+        }
     }
 
     #[test]

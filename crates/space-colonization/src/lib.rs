@@ -22,6 +22,7 @@
 //! | `nodes` | the scaffold |
 //! | `trunks` | trunks and limbs, which stand before points are colonised |
 //! | `colony`, `grid` | shoots that grow towards points |
+//! | `vigor` | how much of the resource each bud gets |
 //! | `pipes` | thickness |
 //! | `stems`, `pose` | from nodes to stems, and how draws of single stems turn them |
 //! | `twigs`, `leaves` | what stands on the outer stems |
@@ -47,6 +48,7 @@ mod sections;
 mod stems;
 mod trunks;
 mod twigs;
+mod vigor;
 mod volume;
 
 pub use family::SpaceColonizationFamily;

@@ -11,11 +11,14 @@ pub(crate) const STATIONS: usize = 6;
 pub(crate) const MAX_POINTS: i64 = 6000;
 /// Largest number of leaflets of a leaf.
 const MAX_LEAFLETS: i64 = 25;
+/// The apical control with which every bud that has space gets the same.
+pub(crate) const EVEN: f64 = 0.5;
 /// Largest number of clumps.
 pub(crate) const MAX_CLUMPS: i64 = 200;
 
 const COLONIES: &str = "Runions, Lane and Prusinkiewicz 2007, §3";
 const FATES: &str = "ours, after Pałubicki and others 2009, §4";
+const CONTROL: &str = "Borchert and Honda 1984, after Pałubicki and others 2009, §4.2";
 const TWIGS: &str = "Weber and Penn 1995, §4.3";
 const LEAVES: &str = "Weber and Penn 1995, §4.9";
 const OURS: &str = "ours";
@@ -156,7 +159,11 @@ pleach_tree::parameters! {
                 .doc("pull on shoots out of the crown's middle");
         dominance: f64, when always =>
             real((0.0, 1.0), (0.0, 0.9), 0.4).effect([Effect::Layout]).group("growth").source(FATES)
-                .doc("apical control: how much slower than its parent a side shoot grows");
+                .doc("how much slower than its parent a side shoot grows");
+        apical_control: f64, when always =>
+            real((0.0, 1.0), (0.3, 0.9), EVEN).neutral(EVEN).effect([Effect::Layout]).group("growth").opt_in()
+                .source(CONTROL)
+                .doc("0.5: buds with space get the same resource; more: leaders get more than sides; less: sides do");
         bud_spacing: u32, when always =>
             count((0, 12), (0.0, 6.0), 2.0).neutral(0.0).group("growth").source(FATES)
                 .doc("steps along a stem from one side shoot to the next, at least");

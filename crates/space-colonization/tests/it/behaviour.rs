@@ -1,7 +1,7 @@
 //! What the numbers do to a tree.
 
-use pleach_space_colonization::SpaceColonization;
-use pleach_tree::{Generator, GrowError, Growth, Stature, StemKind, Tree, Workspace};
+use pleach_space_colonization::{SpaceColonization, SpaceColonizationFamily};
+use pleach_tree::{Generator, GrowError, Growth, SpeciesDoc, Stature, StemKind, Tree, Workspace};
 
 fn grown_from(seed: u64, set: &[(&str, f64)]) -> Result<Tree, GrowError> {
     let space = SpaceColonization.space();
@@ -63,6 +63,47 @@ fn a_leader_with_dominance_goes_through_to_the_top() {
         [("limbs", 5.0), ("first_fork", 0.2), ("fork_angle", 60.0), ("leader", 0.5), ("crown_width", 1.2)];
     let tip = trunk(&scaffold(&oak));
     assert!(tip.truncate().length() > 1.5, "{tip}");
+}
+
+#[test]
+fn apical_control_of_a_half_is_the_default_and_others_are_other_trees() {
+    let lead = [("limbs", 1.0), ("leader", 0.3), ("points", 2000.0)];
+    let with = |control: f64| scaffold(&[&lead[..], &[("apical_control", control)]].concat());
+    let even = with(0.5);
+    assert_eq!(even.digest(), scaffold(&lead).digest());
+    for control in [0.3, 0.7, 0.9] {
+        let tree = with(control);
+        assert_eq!(tree.well_formed(), Ok(()));
+        assert!(tree.digest() != even.digest(), "{control}");
+    }
+    // What a leader keeps its side shoots lack, and the other way round.
+    assert!(with(0.9).stems.len() < even.stems.len() / 2);
+    let top = |tree: &Tree| range(tree, |knot| knot.point.z).1;
+    assert!(top(&with(0.3)) < 0.9 * top(&even), "{} {}", top(&with(0.3)), top(&even));
+}
+
+#[test]
+fn apical_control_is_a_part() {
+    let space = SpaceColonization.space();
+    let slot = space.slots().find(|slot| space.slot_name(*slot) == "apical_control").unwrap();
+    for value in [-0.1, 1.1, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut values = space.defaults();
+        values[slot.index()] = value;
+        let error = space.check(values).unwrap_err().to_string();
+        assert!(error.contains("apical_control"), "{error}");
+    }
+    let read = |value: &str| {
+        let text = format!("generator = \"space-colonization\"\nname = \"x\"\napical_control = {value}\n");
+        SpeciesDoc::parse("x.toml", &text).and_then(|doc| doc.species(&SpaceColonizationFamily))
+    };
+    assert_eq!(read("0.8").unwrap().params.values()[slot.index()], 0.8);
+    for value in ["1.01", "-1", "nan", "inf", "\"much\"", "[0.7]"] {
+        let error = read(value).unwrap_err().to_string();
+        assert!(error.contains("apical_control"), "{error}");
+    }
+    for value in [0.0, 1.0] {
+        assert_eq!(grown(&[("apical_control", value)]).well_formed(), Ok(()));
+    }
 }
 
 #[test]
