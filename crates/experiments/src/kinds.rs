@@ -4,6 +4,7 @@ use super::families::FamiliesSpec;
 use super::individual::IndividualSpec;
 use super::likeness::LikenessSpec;
 use super::needle::NeedleSpec;
+use super::perturbed::PerturbedSpec;
 use super::photographs::PhotographsSpec;
 use super::posterior::PosteriorSpec;
 use super::reading::ReadingSpec;
@@ -32,6 +33,7 @@ pub(super) enum Spec {
     Reading(ReadingSpec),
     Photographs(PhotographsSpec),
     Posterior(PosteriorSpec),
+    Perturbed(PerturbedSpec),
 }
 
 impl Spec {
@@ -51,6 +53,7 @@ impl Spec {
             Kind::Yao => Self::Yao(source.parse::<YaoSpec>()?.checked(source)?),
             Kind::Photographs => Self::Photographs(source.parse::<PhotographsSpec>()?.checked(source)?),
             Kind::Posterior => Self::Posterior(source.parse::<PosteriorSpec>()?.checked(source)?),
+            Kind::Perturbed => Self::Perturbed(source.parse::<PerturbedSpec>()?.checked(source)?),
             Kind::Reading => Self::Reading(source.parse::<ReadingSpec>()?.checked(source)?),
             Kind::Stylised => Self::Stylised(source.parse::<StylisedSpec>()?.checked(source)?),
         })

@@ -16,6 +16,7 @@ mod list;
 mod needle;
 mod outputs;
 mod part;
+mod perturbed;
 mod photographs;
 mod pictured;
 mod plot;
@@ -66,6 +67,7 @@ impl Spec {
             Self::Reading(spec) => spec,
             Self::Photographs(spec) => spec,
             Self::Posterior(spec) => spec,
+            Self::Perturbed(spec) => spec,
         }
     }
 }

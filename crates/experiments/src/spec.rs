@@ -46,6 +46,8 @@ pub(super) enum Kind {
     Photographs,
     /// What one picture says about the numbers of its tree.
     Posterior,
+    /// Fits of trees whose numbers no library has.
+    Perturbed,
 }
 
 impl Kind {
@@ -67,6 +69,7 @@ impl Kind {
             Self::Reading => "reading",
             Self::Photographs => "photographs",
             Self::Posterior => "posterior",
+            Self::Perturbed => "perturbed",
         }
     }
 }

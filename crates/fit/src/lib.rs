@@ -44,6 +44,8 @@ mod individual;
 mod method;
 /// Answers with intervals: what a picture says about the numbers of its tree.
 mod posterior;
+/// The numbers of a tree from its picture, by regression.
+mod predictor;
 /// What is fitted: pictures of a tree, and what is unknown of them.
 mod problem;
 /// The place of a tree in its picture, to a small part of a pixel: before the search, and for its result.
@@ -89,6 +91,7 @@ pub use method::{
 pub use posterior::{
     HeldOut, Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings, Prior,
 };
+pub use predictor::{PredictorError, Predictors};
 pub use problem::{
     Accuracy, Agreement, AnyEvidence, Azimuth, Evidence, FitProblem, Genome, GoalView, MAX_OFFSET, MAX_SCALE,
     Nuisance, Objective, PlacedTree, Placement, ProblemError, ROUGH_AZIMUTH, Score, Scored, Size, Terms,

@@ -129,9 +129,9 @@ pub use pleach_fit::{
     FitSettings, Fitted, FoundIndividual, Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary,
     GuessSettings, Guessing, Identifiability, IndividualProgress, IndividualSettings, Interval, Objective,
     Observer, ObserverError, Optimizer, Outcome, Placement, Posterior, PosteriorModel, PosteriorNumber,
-    PosteriorSettings, PreparedSearch, Prior, Profile, Progress, Reserve, Row, RulesSettings, Score, Scored,
-    SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed, Unknown, Verdict, evaluator, fit, fit_goal,
-    fit_goal_with, individuals,
+    PosteriorSettings, PredictorError, Predictors, PreparedSearch, Prior, Profile, Progress, Reserve, Row,
+    RulesSettings, Score, Scored, SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed, Unknown,
+    Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
 };
 #[cfg(feature = "fit")]
 pub use pleach_fit::{

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use pleach::plan::{Origin, draw, library, plan, usual_start};
+use pleach::plan::{Origin, draw, library, library_with, plan, usual_start};
 use pleach::{
-    Bitmap, Candidate, Drawings, FitProblem, FitSettings, Frame, GeneratorChoice, GoalView, GuessLibrary,
-    GuessSettings, Parts, Rasterizer, Species, View,
+    Bitmap, Candidate, Drawings, FitProblem, FitSettings, Foliage, Frame, GeneratorChoice, GoalView,
+    GuessLibrary, GuessSettings, Parts, Rasterizer, Species, View,
 };
 use std::sync::atomic::AtomicBool;
 
@@ -30,6 +30,21 @@ fn drawings_are_of_this_version() {
     let drawn = drawings(all);
     assert_eq!((drawn.len(), built_in.len()), (462, 462));
     assert!(drawn.are_within(&built_in));
+}
+
+/// If it fails, `cargo run --release -p pleach --example learn_known_species` learns them again, in half an hour.
+#[test]
+fn every_known_species_is_learnt() {
+    let all = known();
+    let predictors = library().predictors().unwrap().clone();
+    assert_eq!(predictors.species(), all.len());
+    let goal = Bitmap::from_fn(64, 64, |x, y| (28..36).contains(&x) && y > 8);
+    for foliage in [Foliage::All, Foliage::None] {
+        for (species, values) in all.iter().zip(predictors.predict(&goal, foliage, &all)) {
+            let values = values.unwrap_or_else(|| panic!("{} is not learnt", species.name));
+            assert!(species.params.space().check(values).is_ok(), "{}", species.name);
+        }
+    }
 }
 
 #[test]
@@ -60,7 +75,7 @@ fn a_first_guess_is_the_same_bits_with_drawings_and_without() {
         let stop = AtomicBool::new(false);
         library.first_guess(&problem, &FitSettings::default(), &candidates, &how, &stop, |_, _| ()).unwrap()
     };
-    let (with, without) = (guess(library()), guess(GuessLibrary::new()));
+    let (with, without) = (guess(library()), guess(library_with(None)));
     assert_eq!(with.names[0].0, "palm");
     assert_eq!(format!("{with:?}"), format!("{without:?}"));
 }

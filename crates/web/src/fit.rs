@@ -5,6 +5,7 @@ use crate::goal::Goal;
 use crate::tree::ink;
 use crate::{message, report};
 use js_sys::{Array, Function, Uint8Array};
+use pleach::plan::library_with;
 use pleach::{
     Control, Drawings, FitDrawing, FitOptions, FitReport, FitSource, Foliage, GuessLibrary,
     IndividualProgress, LooksLike, Observer, Prepared, Stepwise, StopReason,
@@ -54,7 +55,7 @@ impl Fit {
         };
         Ok(Self {
             prepared: options.prepare(&source).map_err(thrown)?,
-            stage: Stage::Prepared(Box::new(GuessLibrary::new().for_one_goal())),
+            stage: Stage::Prepared(Box::new(library_with(None).for_one_goal())),
             pieces: Vec::new(),
             elapsed: Duration::ZERO,
         })
@@ -65,7 +66,7 @@ impl Fit {
         if let Stage::Prepared(library) = &mut self.stage {
             // They stay until the worker is thrown away.
             let drawings = Drawings::from_bytes(bytes.leak()).map_err(thrown)?;
-            **library = GuessLibrary::with_drawings(drawings).for_one_goal();
+            **library = library_with(Some(drawings)).for_one_goal();
         }
         Ok(())
     }

@@ -7,6 +7,7 @@ use super::goal_context::{GoalContext, known_views, likeness_evaluator};
 use super::library::{GuessLibrary, compare};
 use super::measured::measured;
 use super::near::Near;
+use super::predicted::predicted;
 use super::race;
 use super::ranking::{confidence, first_of, ranked, scored};
 use super::references;
@@ -57,6 +58,7 @@ impl GuessLibrary {
         let evaluator = likeness_evaluator(&known, settings)?;
         let context = GoalContext::new(&known, candidates, &evaluator, settings, stop, self.prepared.clone())
             .with_contradictions(guess.contradictions);
+        let predictors = self.predictors.clone();
         let preview = self.preview(&known, settings, candidates, guess, stop, &mut progress)?;
         let (entries, foliage, found) = match &preview {
             None => self.seen(&context, guess, &mut progress)?,
@@ -74,6 +76,7 @@ impl GuessLibrary {
             preview.complete(&mut costs, &mut by_candidate);
         }
         alike.extend(measured(&context, &alike, foliage)?);
+        alike.extend(predicted(&context, predictors.as_ref(), &costs, &alike, foliage)?);
         // A tree that looks like the goal may still stand beside it: the objective of the search decides.
         let known = FitProblem { foliage, ..known.clone() };
         let mut all = race::contenders(&context, scored(&known, &context, alike)?, &costs, keep);

@@ -83,7 +83,7 @@ const CORRECTED: f64 = 2.0;
 /// From above or below, in radians: farther, feet and trunks are not what a reading takes them for.
 const LEVEL: f64 = 0.2;
 
-fn is_level(view: &View) -> bool {
+pub(super) fn is_level(view: &View) -> bool {
     view.elevation.abs() <= LEVEL
 }
 

@@ -11,6 +11,7 @@ use super::silhouettes::{BothSilhouettes, Silhouettes, index_of};
 use crate::control::interrupt;
 use crate::error::FitError;
 use crate::evaluator::{Buffers, Evaluator, FineSilhouette, height_of, side_for};
+use crate::predictor::Predictors;
 use crate::problem::{FitProblem, Genome, GoalView, Objective, Terms};
 use crate::run::FitSettings;
 use crate::space::TreeSeed;
@@ -32,6 +33,7 @@ const BATCH: usize = 32;
 pub struct GuessLibrary {
     shelves: Vec<(Key, Vec<Entry>)>,
     pub(super) prepared: Option<Drawings>,
+    pub(super) predictors: Option<Predictors>,
     /// Whether trees are dropped after one goal.
     is_for_one: bool,
 }
@@ -86,6 +88,24 @@ impl GuessLibrary {
     #[must_use]
     pub fn with_drawings(drawings: Drawings) -> Self {
         Self { prepared: Some(drawings), ..Self::default() }
+    }
+
+    /// The same, whose guesses are also of trees whose numbers `predictors` tell from the goal.
+    #[must_use]
+    pub fn with_predictors(self, predictors: Predictors) -> Self {
+        Self { predictors: Some(predictors), ..self }
+    }
+
+    /// The same, whose guesses are of known trees alone.
+    #[must_use]
+    pub fn without_predictors(self) -> Self {
+        Self { predictors: None, ..self }
+    }
+
+    /// What it predicts by.
+    #[must_use]
+    pub const fn predictors(&self) -> Option<&Predictors> {
+        self.predictors.as_ref()
     }
 
     /// The same, but it drops its trees once a goal has been compared with them: a fit needs their memory only for

@@ -26,6 +26,7 @@ mod leaves;
 mod library;
 mod measured;
 mod near;
+mod predicted;
 mod preview;
 mod race;
 mod ranking;

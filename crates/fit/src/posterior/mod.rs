@@ -10,3 +10,4 @@ mod ridge;
 
 pub use model::{HeldOut, Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings};
 pub use prior::Prior;
+pub(crate) use ridge::{Columns, Ridge, dot};

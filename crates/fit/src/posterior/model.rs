@@ -161,7 +161,7 @@ impl PosteriorModel {
         let seen = Columns::from_rows(&rows);
         drop(rows);
         let genes: Vec<Gene> =
-            prior.genes().map(|gene| widened(gene, &known)).filter(|gene| differs(gene, &known)).collect();
+            prior.genes().map(|gene| gene.holding(&known)).filter(|gene| differs(gene, &known)).collect();
         let units = |genome: &Genome| genes.iter().map(|gene| gene.to_unit(gene.get(genome))).collect();
         let units = Columns::from_rows(&known.iter().map(units).collect::<Vec<_>>());
         let ridge = Ridge::learn(seen, &units);
@@ -283,13 +283,6 @@ fn likeness(a: &[Descriptor], b: &[Descriptor]) -> f64 {
 /// How like `one` is to the most similar of `others`.
 fn nearest<'a>(one: &[Descriptor], others: impl Iterator<Item = &'a Vec<Descriptor>>) -> f64 {
     others.map(|other| likeness(one, other)).fold(0.0, f64::max)
-}
-
-/// `gene` in a range that holds the numbers of all these trees: at the height of their picture sizes may be others than
-/// were drawn.
-fn widened(gene: &Gene, known: &[Genome]) -> Gene {
-    let values = || known.iter().map(|genome| gene.get(genome));
-    Gene { low: values().fold(gene.low, f64::min), high: values().fold(gene.high, f64::max), ..gene.clone() }
 }
 
 /// Whether not all of these trees have the same number: whole ones may.

@@ -12,14 +12,14 @@ const LEAST: f64 = 1e-4;
 
 /// A table of numbers, column by column.
 #[derive(Clone, Debug)]
-pub(super) struct Columns {
-    pub(super) rows: usize,
-    pub(super) columns: Vec<Vec<f64>>,
+pub(crate) struct Columns {
+    pub(crate) rows: usize,
+    pub(crate) columns: Vec<Vec<f64>>,
 }
 
 impl Columns {
     /// The table of `rows`, which are of one length.
-    pub(super) fn from_rows(rows: &[Vec<f64>]) -> Self {
+    pub(crate) fn from_rows(rows: &[Vec<f64>]) -> Self {
         let width = rows.first().map_or(0, Vec::len);
         let columns = (0..width).map(|column| rows.iter().map(|row| row[column]).collect()).collect();
         Self { rows: rows.len(), columns }
@@ -28,22 +28,22 @@ impl Columns {
 
 /// What was learnt of one target.
 #[derive(Clone, Debug)]
-pub(super) struct Target {
+pub(crate) struct Target {
     mean: f64,
     weights: Vec<f64>,
     /// Truth minus prediction of every example, as if it had been left out.
-    pub(super) residuals: Vec<f64>,
+    pub(crate) residuals: Vec<f64>,
     /// By how much the squares of the residuals are smaller than those around the mean: at most 1, and 0 where the
     /// features tell nothing.
-    pub(super) explained: f64,
+    pub(crate) explained: f64,
 }
 
 /// Targets as linear functions of features.
 #[derive(Debug)]
-pub(super) struct Ridge {
+pub(crate) struct Ridge {
     /// Number, mean and scale of every feature that varies.
     scales: Vec<(usize, f64, f64)>,
-    pub(super) targets: Vec<Target>,
+    pub(crate) targets: Vec<Target>,
     /// Of the features, for distances.
     factor: Option<Cholesky>,
     /// Distance of each example from all others.
@@ -52,7 +52,7 @@ pub(super) struct Ridge {
 
 impl Ridge {
     /// Learns `targets` from `features`, which have as many rows.
-    pub(super) fn learn(features: Columns, targets: &Columns) -> Self {
+    pub(crate) fn learn(features: Columns, targets: &Columns) -> Self {
         let standard = |(number, mut column): (usize, Vec<f64>)| {
             let (mean, deviation) = moments(&column);
             let scale = (deviation > LEAST).then_some(1.0 / deviation)?;
@@ -113,14 +113,26 @@ impl Ridge {
     }
 
     /// The prediction of each target for the row `asked` of features.
-    pub(super) fn predict(&self, asked: &[f64]) -> Vec<f64> {
+    pub(crate) fn predict(&self, asked: &[f64]) -> Vec<f64> {
         let asked = self.scaled(asked);
         self.targets.iter().map(|target| target.mean + dot(&asked, &target.weights)).collect()
     }
 
+    /// The prediction of target number `number` as a sum: what it is where every feature is 0, and the weight of each of
+    /// the `width` features.
+    pub(crate) fn sum(&self, number: usize, width: usize) -> (f64, Vec<f64>) {
+        let Target { mean, weights, .. } = &self.targets[number];
+        let (mut constant, mut all) = (*mean, vec![0.0; width]);
+        for (&(feature, center, scale), weight) in self.scales.iter().zip(weights) {
+            all[feature] = weight * scale;
+            constant -= weight * scale * center;
+        }
+        (constant, all)
+    }
+
     /// The share of the examples that are at least as far from all others as `asked` is, in 0..=1: where it is 0,
     /// predictions are extrapolated.
-    pub(super) fn share_as_far(&self, asked: &[f64]) -> f64 {
+    pub(crate) fn share_as_far(&self, asked: &[f64]) -> f64 {
         let Some(factor) = &self.factor else { return 0.0 };
         let own = factor.square(&self.scaled(asked));
         let farther = self.distances.iter().filter(|&&distance| distance >= own).count();
@@ -147,7 +159,7 @@ fn moments(values: &[f64]) -> (f64, f64) {
 }
 
 /// Σ a b, in eight sums side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     const LANES: usize = 8;
     let mut lanes = [0.0; LANES];
     let (whole_a, rest_a) = a.as_chunks::<LANES>();

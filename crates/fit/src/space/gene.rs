@@ -128,6 +128,15 @@ impl Gene {
         self.kind.repair(value.clamp(self.low, self.high)).clamp(self.low, self.high)
     }
 
+    /// The same in a range that holds the numbers of all these trees as well: at the height of their picture sizes may be
+    /// others than were drawn.
+    pub(crate) fn holding<'a>(&self, known: impl IntoIterator<Item = &'a Genome>) -> Self {
+        let widen = |(low, high): (f64, f64), value: f64| (low.min(value), high.max(value));
+        let values = known.into_iter().map(|genome| self.get(genome));
+        let (low, high) = values.fold((self.low, self.high), widen);
+        Self { low, high, ..self.clone() }
+    }
+
     /// Where `value` lies between `low` (0) and `high` (1), by difference or by ratio.
     #[must_use]
     pub fn to_unit(&self, value: f64) -> f64 {

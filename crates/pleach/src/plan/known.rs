@@ -1,7 +1,7 @@
 //! How the known species look, drawn beforehand.
 
 use pleach_fit::{
-    Candidate, Drawings, FitError, FitProblem, FitSettings, GoalView, GuessLibrary, GuessSettings,
+    Candidate, Drawings, FitError, FitProblem, FitSettings, GoalView, GuessLibrary, GuessSettings, Predictors,
 };
 use pleach_silhouette::{Bitmap, Frame, View};
 use std::sync::atomic::AtomicBool;
@@ -9,15 +9,31 @@ use std::sync::atomic::AtomicBool;
 /// Made by `cargo run --release -p pleach --example draw_known_species`.
 static DRAWINGS: &[u8] = include_bytes!("known.bin");
 
-/// A library of first guesses that knows how the species of Weber and Penn's and of the space-colonisation generator look:
+/// Made by `cargo run --release -p pleach --example learn_known_species`.
+static PREDICTORS: &[u8] = include_bytes!("predictors.bin");
+
+/// A library of first guesses with these drawings of known species, if any: see [`library`], for hosts that load them.
+///
+/// It has seen many trees around every species of Weber and Penn's and of the space-colonisation generator: searches also
+/// start from the numbers that they tell of the goal's picture.
+///
+/// # Panics
+/// If the predictors that are built in are not of this version, which a test rules out.
+#[must_use]
+pub fn library_with(drawings: Option<Drawings>) -> GuessLibrary {
+    let library = drawings.map_or_else(GuessLibrary::new, GuessLibrary::with_drawings);
+    library.with_predictors(Predictors::from_bytes(PREDICTORS).expect("the predictors of this version"))
+}
+
+/// [`library_with`] drawings that are built in: it knows how the species of Weber and Penn's and of the space-colonisation generator look:
 /// it grows them only for goals that were taken from elsewhere than the front or are not compared at 129 to 256 pixels, and where seeds are not
 /// the usual ones.
 ///
 /// # Panics
-/// If the drawings that are built in are not of this version, which a test rules out.
+/// If the drawings or predictors that are built in are not of this version, which a test rules out.
 #[must_use]
 pub fn library() -> GuessLibrary {
-    GuessLibrary::with_drawings(Drawings::from_bytes(DRAWINGS).expect("the drawings of this version"))
+    library_with(Some(Drawings::from_bytes(DRAWINGS).expect("the drawings of this version")))
 }
 
 /// Draws `species` as [`library`] knows them.

@@ -6,7 +6,7 @@ mod known;
 mod origin;
 mod shares;
 
-pub use known::{draw, library};
+pub use known::{draw, library, library_with};
 pub use origin::{Origin, has_individuals, plan, usual_start};
 pub use shares::{DRAWING, Shares};
 

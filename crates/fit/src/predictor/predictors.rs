@@ -1,0 +1,220 @@
+//! What was learnt about several species.
+
+use super::basis::Basis;
+use super::examples::{examples, features};
+use super::numbers::Numbers;
+use super::packed::Packed;
+use crate::error::FitError;
+use crate::posterior::Prior;
+use crate::space::Freedom;
+use pleach_silhouette::Bitmap;
+use pleach_tree::{Fnv, Foliage, Species};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Directions in which pictures are compared: with twice as many hardly more of a number is explained.
+const DIRECTIONS: usize = 128;
+/// Trees of each species from which the directions are learnt.
+const FOR_DIRECTIONS: u64 = 300;
+
+/// The numbers of trees from their pictures, for several species.
+///
+/// Around each species trees of a [`Prior`] are grown and drawn from the front. Of a picture the amounts that likeness
+/// compares are taken, as roots, along the 128 directions in which those of all species vary most (principal
+/// components); each number is a linear function of these (ridge regression), learnt for trees with leaves and without.
+/// Networks of one and two hidden layers, and squares and products of the coordinates, explained no more of the numbers of
+/// as many trees.
+#[derive(Clone, Debug)]
+pub struct Predictors {
+    basis: Arc<Basis>,
+    /// By species and foliage.
+    known: Arc<BTreeMap<u64, Numbers>>,
+}
+
+/// As it is kept.
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    means: Vec<f32>,
+    directions: Vec<Packed>,
+    known: Vec<(u64, Numbers)>,
+}
+
+/// The bytes are not of this version.
+#[derive(Debug, thiserror::Error)]
+#[error("no predictors of this version")]
+pub struct PredictorError;
+
+const FOLIAGE: [Foliage; 2] = [Foliage::All, Foliage::None];
+
+impl Predictors {
+    /// Learns from `trees` trees around each of `species`, with leaves and again without, and returns bytes for
+    /// [`Predictors::from_bytes`]. `notify` is told how many kinds of trees were learnt, and of how many.
+    ///
+    /// # Errors
+    /// A species whose numbers cannot vary, [`FitError::Interrupted`] once `stop` is raised.
+    ///
+    /// # Panics
+    /// None: numbers can be stored.
+    pub fn record(
+        species: &[Species],
+        trees: u64,
+        stop: &AtomicBool,
+        mut notify: impl FnMut(usize, usize),
+    ) -> Result<Vec<u8>, FitError> {
+        let mut kinds = Vec::new();
+        let mut rows = Vec::new();
+        for one in species {
+            let prior = Prior::new(one, &Freedom::default(), Prior::SPREAD)?;
+            for foliage in FOLIAGE {
+                let some = examples(one, &prior, foliage, 0..trees.min(FOR_DIRECTIONS), stop)?;
+                rows.extend(some.iter().map(|example| example.features.clone()));
+                kinds.push((one, prior.clone(), foliage, some));
+            }
+        }
+        // What is stored is what coordinates are taken by, then and now.
+        let basis = Basis::learn(rows, DIRECTIONS);
+        let means: Vec<f32> = basis.means.iter().map(|&mean| mean as f32).collect();
+        let directions: Vec<Packed> = basis.directions.iter().map(|one| Packed::new(one)).collect();
+        let basis = unpacked(&means, &directions);
+        let all = kinds.len();
+        let mut known = Vec::new();
+        for (done, (species, prior, foliage, mut some)) in kinds.into_iter().enumerate() {
+            some.extend(examples(species, &prior, foliage, FOR_DIRECTIONS.min(trees)..trees, stop)?);
+            known.push((key(species, foliage), Numbers::learn(&prior, &basis, &some)));
+            notify(done + 1, all);
+        }
+        Ok(postcard::to_allocvec(&Stored { means, directions, known }).expect("numbers can be stored"))
+    }
+
+    /// Reads the bytes of [`Predictors::record`].
+    ///
+    /// # Errors
+    /// [`PredictorError`] for other bytes.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, PredictorError> {
+        let Stored { means, directions, known } = postcard::from_bytes(bytes).map_err(|_| PredictorError)?;
+        let is_whole = means.iter().all(|mean| mean.is_finite())
+            && directions.iter().all(|one| one.len() == means.len() && one.is_finite())
+            && known.iter().all(|(_, numbers)| numbers.are_sums_over(directions.len()));
+        if !is_whole {
+            return Err(PredictorError);
+        }
+        let basis = unpacked(&means, &directions);
+        Ok(Self { basis: Arc::new(basis), known: Arc::new(known.into_iter().collect()) })
+    }
+
+    /// The number of species.
+    #[must_use]
+    pub fn species(&self) -> usize {
+        self.known.len() / FOLIAGE.len()
+    }
+
+    /// The numbers of the tree in `picture`, for every one of `species` that is known: at any height. `None` for others,
+    /// and where nothing is seen.
+    pub fn predict<'a>(
+        &self,
+        picture: &Bitmap,
+        foliage: Foliage,
+        species: impl IntoIterator<Item = &'a Species>,
+    ) -> Vec<Option<Vec<f64>>> {
+        let at = features(picture).filter(|features| features.len() == self.basis.means.len());
+        let at = at.map(|features| self.basis.coordinates(&features));
+        let of = |species: &Species| {
+            let (numbers, at) = (self.known.get(&key(species, foliage))?, at.as_ref()?);
+            let prior = Prior::new(species, &Freedom::default(), Prior::SPREAD).ok()?;
+            Some(numbers.predict(species.params.values(), prior.genes(), at))
+        };
+        species.into_iter().map(of).collect()
+    }
+}
+
+fn unpacked(means: &[f32], directions: &[Packed]) -> Basis {
+    Basis {
+        means: means.iter().copied().map(f64::from).collect(),
+        directions: directions.iter().map(|one| one.numbers().collect()).collect(),
+    }
+}
+
+fn key(species: &Species, foliage: Foliage) -> u64 {
+    let (model, values) = (species.generator.model(), species.params.values());
+    Fnv::hash(format!("{model} {values:?} {foliage:?}").as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pleach_silhouette::{Frame, Rasterizer, View};
+    use pleach_tree::Parts;
+
+    fn palm() -> Species {
+        pleach_generators::preset("palm").unwrap().clone()
+    }
+
+    fn recorded(trees: u64) -> Vec<u8> {
+        Predictors::record(&[palm()], trees, &AtomicBool::new(false), |_, _| ()).unwrap()
+    }
+
+    fn picture(species: &Species, seed: u64) -> Bitmap {
+        let tree = species.grow(seed).unwrap();
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 128, 128);
+        let mut picture = Bitmap::default();
+        Rasterizer::new().draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut picture);
+        picture
+    }
+
+    #[test]
+    fn what_is_learnt_comes_nearer_to_a_tree_than_its_species() {
+        let predictors = Predictors::from_bytes(&recorded(400)).unwrap();
+        assert_eq!(predictors.species(), 1);
+        let (palm, freedom) = (palm(), Freedom::default());
+        let prior = Prior::new(&palm, &freedom, Prior::SPREAD).unwrap();
+        let slot = palm.params.space().select("base_size[0]").unwrap()[0].index();
+        let own = palm.params.values()[slot];
+        let (mut unfitted, mut fitted) = (0.0, 0.0);
+        for number in 0..24 {
+            let Some((truth, _)) = prior.sample(5, number) else { continue };
+            let picture = picture(&truth, truth.tree_seed.unwrap());
+            let [found] = &predictors.predict(&picture, Foliage::All, [&palm])[..] else { panic!() };
+            let (found, truth) = (found.as_ref().unwrap()[slot], truth.params.values()[slot]);
+            fitted += (found - truth).powi(2);
+            unfitted += (own - truth).powi(2);
+            assert!(
+                palm.params
+                    .space()
+                    .check(predictors.predict(&picture, Foliage::All, [&palm])[0].clone().unwrap())
+                    .is_ok()
+            );
+        }
+        assert!(fitted < 0.6 * unfitted, "{fitted} {unfitted}");
+    }
+
+    #[test]
+    fn others_are_not_known_and_an_empty_picture_says_nothing() {
+        let predictors = Predictors::from_bytes(&recorded(120)).unwrap();
+        let (palm, poplar) = (palm(), pleach_generators::preset("lombardy_poplar").unwrap().clone());
+        let found = predictors.predict(&picture(&palm, 3), Foliage::None, [&poplar, &palm]);
+        assert!(found[0].is_none() && found[1].is_some());
+        assert_eq!(predictors.predict(&Bitmap::new(8, 8), Foliage::All, [&palm]), [None]);
+    }
+
+    #[test]
+    fn they_are_the_same_bytes_on_any_number_of_threads_and_no_others_are_read() {
+        let on = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let bytes = on(1).install(|| recorded(100));
+        assert_eq!(bytes, on(3).install(|| recorded(100)));
+        assert!(Predictors::from_bytes(&bytes[..bytes.len() / 2]).is_err());
+        assert!(Predictors::from_bytes(&[0xff; 64]).is_err());
+        // A number that is none.
+        let Stored { mut means, directions, known } = postcard::from_bytes(&bytes).unwrap();
+        means[0] = f32::NAN;
+        let bad = postcard::to_allocvec(&Stored { means, directions, known }).unwrap();
+        assert!(Predictors::from_bytes(&bad).is_err());
+    }
+
+    #[test]
+    fn learning_ends_when_asked_to() {
+        let found = Predictors::record(&[palm()], 100, &AtomicBool::new(true), |_, _| ());
+        assert!(matches!(found, Err(FitError::Interrupted)));
+    }
+}
