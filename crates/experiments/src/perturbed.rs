@@ -14,7 +14,7 @@ use pleach_fit::{
 };
 use pleach_generators::GeneratorChoice;
 use pleach_silhouette::View;
-use pleach_tree::{Limits, Species};
+use pleach_tree::{Foliage, Limits, Species};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -76,9 +76,9 @@ impl Perturbed {
         Ok(Self { problem, truth, seed })
     }
 
-    /// Mean likeness of trees of `species` of other seeds; 0 where one does not grow.
-    fn fresh(&self, species: &Species) -> anyhow::Result<f64> {
-        let problem = FitProblem { start: species.clone(), ..self.problem.clone() };
+    /// Mean likeness of trees of `species` of other seeds, with leaves or without; 0 where one does not grow.
+    fn fresh(&self, species: &Species, foliage: Foliage) -> anyhow::Result<f64> {
+        let problem = FitProblem { start: species.clone(), foliage, ..self.problem.clone() };
         let genome = Genome::new(species.params.values().to_vec(), self.seed);
         let until = Until::from(stop::flag());
         let fresh = fresh_seeds(&problem, Objective::Likeness, Limits::DEFAULT, &genome, FRESH, until)?;
@@ -88,7 +88,7 @@ impl Perturbed {
     fn fit(&self, library: &mut GuessLibrary, evaluations: u64) -> anyhow::Result<Found> {
         let search = FitSettings { budget: Budget::evaluations(evaluations), ..FitSettings::default() };
         let (origin, start) = (Origin::Guess { detect_leaves: true }, &self.problem.start);
-        let settings = plan(origin, GeneratorChoice::Trees, start, search)?;
+        let settings = plan(origin, GeneratorChoice::default(), start, search)?;
         let settings = GoalSettings { assessment: None, ..settings };
         let started = Instant::now();
         let clock = || started.elapsed();
@@ -101,7 +101,7 @@ impl Perturbed {
             looks_like: name.map_or_else(String::new, |(name, _)| name.clone()),
             likeness: Fixed(fitted.best.score.likeness.unwrap_or_default()),
             iou: Fixed(fitted.best.score.iou),
-            fresh: Fixed(self.fresh(&fitted.species()?)?),
+            fresh: Fixed(self.fresh(&fitted.species()?, fitted.problem.foliage)?),
             wall_s: Fixed(wall_s),
             ..Found::default()
         })
@@ -146,7 +146,7 @@ impl Kind for PerturbedSpec {
                         journal.job(is_of, || {
                             let own = match ceiling {
                                 Some(known) => known,
-                                None => perturbed.fresh(&perturbed.truth)?,
+                                None => perturbed.fresh(&perturbed.truth, Foliage::All)?,
                             };
                             ceiling = Some(own);
                             let found = perturbed.fit(library, evaluations)?;

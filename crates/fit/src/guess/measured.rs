@@ -65,7 +65,7 @@ pub(super) fn measured(
 }
 
 /// The picture of an individual as the first goal shows it; `None` if it does not grow.
-fn draw(
+pub(super) fn draw(
     context: &GoalContext<'_>,
     candidate: usize,
     genome: &Genome,

@@ -1,11 +1,15 @@
 //! Trees whose numbers follow from the goal's picture by regression: a search starts from them.
 
+use super::contradiction::{NO_START, contradiction};
 use super::goal_context::{GoalContext, is_level};
+use super::measured::draw;
 use super::ranking::Alike;
 use crate::control::interrupt;
 use crate::error::FitError;
 use crate::predictor::Predictors;
 use crate::problem::Genome;
+use pleach_reading::Reader;
+use pleach_silhouette::Bitmap;
 use pleach_tree::{Foliage, Species};
 
 /// So many candidates, those that look most like the goal.
@@ -34,10 +38,20 @@ pub(super) fn predicted(
         .zip(numbers)
         .filter_map(|(candidate, values)| Some((candidate, values?)))
         .collect();
+    let of = |candidate: usize, genome: &Genome| {
+        let Some(reading) = &context.reading else { return Some(0.0) };
+        let (mut picture, mut reader) = (Bitmap::default(), Reader::new());
+        draw(context, candidate, genome, foliage, &mut picture)?;
+        let trunks = species(candidate).generator.trunks(&genome.values);
+        Some(context.weight * contradiction(reading, &picture, trunks, &mut reader))
+    };
+    // A prediction sees a silhouette, and not what was read of it or said by a person.
+    let allowed = alike.first().and_then(|(_, candidate, genome)| of(*candidate, genome)).unwrap_or_default();
     let found = interrupt::map(&known, context.stop, |(candidate, values)| {
         let genome = Genome { values: values.clone(), ..first.clone() };
         let values = context.models.evaluator(*candidate).pictures(&genome, |_| ())?;
-        Some((costs[*candidate], *candidate, Genome { values, ..genome }))
+        let genome = Genome { values, ..genome };
+        (of(*candidate, &genome)? <= allowed + NO_START).then_some((costs[*candidate], *candidate, genome))
     })?;
     Ok(found.into_iter().flatten().collect())
 }

@@ -14,7 +14,7 @@ use pleach_fit::{
     GuessLibrary, Guessing, MeasuredSilhouette, Unknown, fit_goal_with,
 };
 use pleach_generators::GeneratorChoice;
-use pleach_reading::{Colors, Reading};
+use pleach_reading::Reading;
 use pleach_silhouette::{GoalOptions, Polarity, View};
 use pleach_tree::Foliage;
 use pleach_tree::species::safe_name;
@@ -137,17 +137,16 @@ impl FitOptions {
         Ok(prepared.with_result_cost(DRAWING, DRAWING))
     }
 
-    /// The same with the usual generators of a goal that was read so: a picture is mostly of a real tree, unless it is drawn
-    /// in flat colours, as icons are.
+    /// The same with the usual generators of a goal that was read so: a picture in colour is mostly of a real tree, unless
+    /// it is drawn in flat colours, as icons are.
     fn for_picture(&self, reading: &GoalReading) -> Cow<'_, Self> {
         let is_open = self.generator.is_none()
             && self.from == StartFrom::Auto
             && self.volume_from.is_none()
             && !self.evolve_rules;
-        if !is_open {
-            return Cow::Borrowed(self);
-        }
-        let is_drawn = reading.colors.as_ref().is_some_and(Colors::is_drawn);
+        let colors = reading.colors.as_ref().filter(|colors| is_open && colors.leaves.is_some());
+        let Some(colors) = colors else { return Cow::Borrowed(self) };
+        let is_drawn = colors.is_drawn();
         let generator = if is_drawn { GeneratorChoice::DRAWINGS } else { GeneratorChoice::Trees };
         Cow::Owned(Self { generator: Some(generator), ..self.clone() })
     }
