@@ -130,7 +130,8 @@ impl Kind for PerturbedSpec {
         let goals = *self.goals as u32;
         let most = slice.evaluations.unwrap_or(u64::MAX);
         let bar = progress("goals", species.len() as u64 * *self.goals);
-        let mut libraries = [(false, library().without_predictors()), (true, library())];
+        let drawn = library().drawings().cloned().context("drawings are built in")?;
+        let mut libraries = [(false, GuessLibrary::with_drawings(drawn)), (true, library())];
         for goal in 1..=goals {
             for name in species {
                 let name = name.get_ref().as_str();

@@ -14,12 +14,12 @@
 use crate::budget::Budget;
 use crate::grid::Grid;
 use crate::nodes::{MAX_CHILDREN, NONE, Node, Nodes};
-use crate::params::{EVEN, Id, Numbers};
+use crate::params::Id;
+use crate::rules::Rules;
 use crate::vigor::Vigor;
 use crate::volume::Volume;
 use glam::DVec3;
-use pleach_tree::trig::sin_cos;
-use pleach_tree::{GrowError, math};
+use pleach_tree::GrowError;
 
 /// Slowest side shoot: part of a step each time.
 const MIN_VIGOR: f64 = 0.08;
@@ -32,9 +32,7 @@ const MAX_ROUNDS: u32 = 1500;
 /// How often, and by which factor, influence is widened where a crown is out of reach of its trunk.
 const WIDENINGS: u32 = 8;
 const WIDENING: f64 = 1.7;
-/// Largest bend of a shoot without inertia in one step, radians; and the cosine of the angle to its first direction at
-/// which a shoot ends, so that none curls up.
-const MAX_TURN: f64 = 0.5;
+/// The cosine of the angle to its first direction at which a shoot ends, so that none curls up.
 const TURNED: f64 = 0.5;
 /// The same for shoots at the ends of trunks and limbs.
 const FORKED: f64 = 0.3;
@@ -48,62 +46,6 @@ const PERCEIVED_SQUARED: f32 = PERCEIVED * PERCEIVED;
 const FOLLOWED: f64 = 0.64;
 /// A step that ends within this part of a step from a former one is not taken.
 const SAME: f64 = 0.35;
-
-/// Lengths and habits of growth; lengths over the tree's height.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Rules {
-    pub(crate) step: f64,
-    influence: f64,
-    kill: f64,
-    inertia: f64,
-    tropism: f64,
-    outward: f64,
-    dominance: f64,
-    control: f64,
-    crown_width: f64,
-    bud_spacing: u32,
-}
-
-impl Rules {
-    /// The rules of a tree whose points lie `spacing` apart.
-    pub(crate) fn new(n: &Numbers, spacing: f64) -> Self {
-        let step = n.step * spacing;
-        Self {
-            step,
-            influence: (n.influence * spacing).max(1.2 * step),
-            // A point that is passed at less than half a step would pull back for ever.
-            kill: (n.kill * spacing).max(0.6 * step),
-            inertia: n.inertia,
-            tropism: n.tropism,
-            outward: n.outward,
-            dominance: n.dominance,
-            control: n.apical_control,
-            crown_width: n.crown_width,
-            bud_spacing: n.bud_spacing,
-        }
-    }
-
-    /// Whether resource is divided among buds. It is not where each gets as much as it can use.
-    fn divides(&self) -> bool {
-        self.control != EVEN
-    }
-
-    /// `wish`, or as much of the way to it from `heading` as a shoot can bend in one step.
-    fn bent(&self, heading: DVec3, wish: DVec3) -> DVec3 {
-        let (sin, cos) = sin_cos(MAX_TURN / (1.0 + self.inertia));
-        let along = heading.dot(wish);
-        if along >= cos {
-            return wish;
-        }
-        let aside = (wish - heading * along).normalize_or_zero();
-        (heading * cos + aside * sin).normalize_or(heading)
-    }
-
-    /// The mean spacing of `count` points in a volume of `size`.
-    pub(crate) fn spacing(size: f64, count: u32) -> f64 {
-        math::cbrt(size / f64::from(count)).max(1e-4)
-    }
-}
 
 /// Memory that is kept from tree to tree.
 #[derive(Debug, Default)]
@@ -371,6 +313,7 @@ fn grow_from(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::params::{EVEN, Numbers};
     use pleach_tree::param::table::Parameters;
     use pleach_tree::{Key, Limits};
 

@@ -2,13 +2,14 @@
 
 use crate::adapt::adapt;
 use crate::budget::Budget;
-use crate::colony::{Colony, Rules};
+use crate::colony::Colony;
 use crate::finer_leaves::finer_leaves;
 use crate::nodes::Nodes;
 use crate::params::Numbers;
 use crate::pipes::Pipes;
 use crate::points;
 use crate::purpose::{POINTS, VOLUME};
+use crate::rules::Rules;
 use crate::stems::Stems;
 use crate::trunks;
 use crate::twigs::Twigs;

@@ -44,6 +44,7 @@ mod pipes;
 mod points;
 mod pose;
 mod purpose;
+mod rules;
 mod sections;
 mod stems;
 mod trunks;

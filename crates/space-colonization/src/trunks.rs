@@ -3,10 +3,10 @@
 //! Pictures show a trunk's lean, its bow, its first fork and how far a leader goes, so these are numbers and not what
 //! happens to come out of growing. Runions and others let the trunk grow up until it comes near to the points.
 
-use crate::colony::Rules;
 use crate::nodes::{NONE, Nodes};
 use crate::params::Numbers;
 use crate::purpose::{CROOK, LIMB, LIMB_DRAW, STAND, TRUNK};
+use crate::rules::Rules;
 use crate::volume::{Volume, lean_at};
 use glam::{DVec2, DVec3};
 use pleach_tree::trig::sin_cos;

@@ -52,5 +52,8 @@ pub(super) fn pictures_of(
     let more = compare_once(context, trees_of(context.settings, context.candidates, named, seeds)?, foliage)?;
     let known =
         entries.iter().zip(found).filter(|(entry, _)| is_one(entry)).filter_map(|(_, found)| found.as_ref());
-    Ok(known.map(|found| found.pictures.clone()).chain(more.into_iter().map(|one| one.pictures)).collect())
+    Ok(known
+        .map(|found| found.pictures.clone())
+        .chain(more.into_iter().flatten().map(|one| one.pictures))
+        .collect())
 }

@@ -96,12 +96,6 @@ impl GuessLibrary {
         Self { predictors: Some(predictors), ..self }
     }
 
-    /// The same, whose guesses are of known trees alone.
-    #[must_use]
-    pub fn without_predictors(self) -> Self {
-        Self { predictors: None, ..self }
-    }
-
     /// What it predicts by.
     #[must_use]
     pub const fn predictors(&self) -> Option<&Predictors> {
@@ -360,12 +354,12 @@ pub(super) fn compare(
     })
 }
 
-/// Grows `samples` without keeping their trees, and compares them as [`compare`] does.
+/// Grows `samples` without keeping their trees, and compares them as [`compare`] does; `None` for those that do not grow.
 pub(super) fn compare_once(
     context: &GoalContext<'_>,
     samples: Vec<Sample>,
     foliage: Foliage,
-) -> Result<Vec<Resemblance>, FitError> {
+) -> Result<Vec<Option<Resemblance>>, FitError> {
     let side = side_of(context.problem);
     let wanted = [Foliage::All, Foliage::None].map(|one| one == foliage);
     let silhouettes =
@@ -375,7 +369,7 @@ pub(super) fn compare_once(
         .zip(silhouettes)
         .map(|(sample, silhouettes)| Entry { sample, silhouettes: silhouettes.unwrap_or([None, None]) })
         .collect();
-    Ok(compare(context, &entries, foliage, &Near::All)?.into_iter().flatten().collect())
+    compare(context, &entries, foliage, &Near::All)
 }
 
 #[cfg(test)]

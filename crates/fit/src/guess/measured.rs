@@ -65,7 +65,7 @@ pub(super) fn measured(
 }
 
 /// The picture of an individual as the first goal shows it; `None` if it does not grow.
-pub(super) fn draw(
+fn draw(
     context: &GoalContext<'_>,
     candidate: usize,
     genome: &Genome,

@@ -1,22 +1,21 @@
 //! Trees whose numbers follow from the goal's picture by regression: a search starts from them.
 
-use super::contradiction::{NO_START, contradiction};
+use super::contradiction::NO_START;
 use super::goal_context::{GoalContext, is_level};
-use super::measured::draw;
+use super::library::{Resemblance, compare_once};
 use super::ranking::Alike;
-use crate::control::interrupt;
+use super::samples::Sample;
 use crate::error::FitError;
 use crate::predictor::Predictors;
 use crate::problem::Genome;
-use pleach_reading::Reader;
-use pleach_silhouette::Bitmap;
 use pleach_tree::{Foliage, Species};
 
 /// So many candidates, those that look most like the goal.
 const CANDIDATES: usize = 4;
 
-/// The trees of the likeliest candidates as the first goal shows them; `costs` is 1 minus the likeness of each candidate's
-/// most similar tree. None where nothing was learnt.
+/// The trees of the likeliest candidates as the first goal shows them, at its height; `costs` is 1 minus the likeness of
+/// each candidate's most similar tree, `alike` begins with the known tree that is nearest. None where nothing was learnt, and
+/// none that contradicts what was read of the goal more than that tree does.
 pub(super) fn predicted(
     context: &GoalContext<'_>,
     predictors: Option<&Predictors>,
@@ -31,29 +30,25 @@ pub(super) fn predicted(
     likeliest.truncate(CANDIDATES);
     let species = |candidate: usize| -> &Species { &context.candidates[candidate].species };
     let numbers = predictors.predict(&goal.goal, foliage, likeliest.iter().map(|&one| species(one)));
+    let Some((_, nearest, first)) = alike.first() else { return Ok(Vec::new()) };
     // The seed that the search uses is that of all trees that it may start from.
-    let Some((_, _, first)) = alike.first() else { return Ok(Vec::new()) };
-    let known: Vec<(usize, Vec<f64>)> = likeliest
-        .into_iter()
-        .zip(numbers)
-        .filter_map(|(candidate, values)| Some((candidate, values?)))
-        .collect();
-    let of = |candidate: usize, genome: &Genome| {
-        let Some(reading) = &context.reading else { return Some(0.0) };
-        let (mut picture, mut reader) = (Bitmap::default(), Reader::new());
-        draw(context, candidate, genome, foliage, &mut picture)?;
-        let trunks = species(candidate).generator.trunks(&genome.values);
-        Some(context.weight * contradiction(reading, &picture, trunks, &mut reader))
+    let sample = |candidate, values| {
+        let genome = Genome { values, ..first.clone() };
+        Sample { candidate, is_species: false, is_first: false, may_start: true, genome }
     };
+    let predicted = likeliest.iter().zip(numbers).filter_map(|(&one, values)| Some(sample(one, values?)));
+    let samples: Vec<Sample> =
+        std::iter::once(sample(*nearest, first.values.clone())).chain(predicted).collect();
+    let compared = compare_once(context, samples.clone(), foliage)?;
     // A prediction sees a silhouette, and not what was read of it or said by a person.
-    let allowed = alike.first().and_then(|(_, candidate, genome)| of(*candidate, genome)).unwrap_or_default();
-    let found = interrupt::map(&known, context.stop, |(candidate, values)| {
-        let genome = Genome { values: values.clone(), ..first.clone() };
-        let values = context.models.evaluator(*candidate).pictures(&genome, |_| ())?;
-        let genome = Genome { values, ..genome };
-        (of(*candidate, &genome)? <= allowed + NO_START).then_some((costs[*candidate], *candidate, genome))
-    })?;
-    Ok(found.into_iter().flatten().collect())
+    let own = compared[0].as_ref().map_or(0.0, |nearest| nearest.contradiction);
+    let start = |(sample, found): (Sample, Option<Resemblance>)| {
+        let found = found.filter(|found| found.contradiction <= own + NO_START)?;
+        let Sample { candidate, mut genome, .. } = sample;
+        context.resize(candidate, &mut genome.values, found.factor);
+        Some((1.0 - found.likeness + found.contradiction, candidate, genome))
+    };
+    Ok(samples.into_iter().zip(compared).skip(1).filter_map(start).collect())
 }
 
 #[cfg(test)]
@@ -90,11 +85,9 @@ mod tests {
             };
             let [known, predicted] =
                 [GuessLibrary::new(), GuessLibrary::new().with_predictors(predictors.clone())].map(guess);
-            let cost = |one: usize, found: &crate::guess::FirstGuess| (one, found.nearest[0].score.cost);
-            for (one, cost) in [cost(0, &known), cost(1, &predicted)] {
-                costs[one] += cost;
-            }
-            assert!(predicted.nearest[0].score.cost <= known.nearest[0].score.cost);
+            let own = [&known, &predicted].map(|found| found.nearest[0].score.cost);
+            assert!(own[1] <= own[0]);
+            costs.iter_mut().zip(own).for_each(|(sum, cost)| *sum += cost);
             assert_eq!(predicted.names, known.names);
         }
         assert!(costs[1] < 0.95 * costs[0], "{costs:?}");

@@ -75,6 +75,6 @@ impl Drawer {
 const BATCH: usize = 64;
 
 /// Pictures as a row of numbers: the amounts that likeness compares, as roots, so that few and many weigh alike.
-pub(super) fn features(shown: &[Descriptor]) -> Vec<f64> {
+pub(crate) fn features(shown: &[Descriptor]) -> Vec<f64> {
     shown.iter().flat_map(Descriptor::amounts).map(|amount| f64::from(amount.max(0.0)).sqrt()).collect()
 }

@@ -8,6 +8,7 @@ mod model;
 mod prior;
 mod ridge;
 
+pub(crate) use examples::features;
 pub use model::{HeldOut, Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings};
 pub use prior::Prior;
 pub(crate) use ridge::{Columns, Ridge, dot};

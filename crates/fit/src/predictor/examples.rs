@@ -2,7 +2,7 @@
 
 use crate::control::interrupt;
 use crate::error::FitError;
-use crate::posterior::Prior;
+use crate::posterior::{Prior, features as amounts};
 use crate::problem::Genome;
 use crate::run::FIT_LIMITS;
 use pleach_silhouette::score::likeness::{Descriptor, Scratch};
@@ -55,11 +55,9 @@ fn example(species: &Species, mut genome: Genome, foliage: Foliage) -> Option<Ex
     Some(Example { genome, features: features(&picture)? })
 }
 
-/// What `picture` shows, whatever its size and margins: the amounts that likeness compares, as roots, so that few and
-/// many weigh alike. `None` of an empty picture.
+/// What `picture` shows, whatever its size and margins. `None` of an empty picture.
 pub(super) fn features(picture: &Bitmap) -> Option<Vec<f64>> {
-    let descriptor = Descriptor::new(&squared(picture)?, &mut Scratch::default());
-    Some(descriptor.amounts().map(|amount| f64::from(amount.max(0.0)).sqrt()).collect())
+    Some(amounts(&[Descriptor::new(&squared(picture)?, &mut Scratch::default())]))
 }
 
 /// The tree alone: in the middle of a square, on its lower edge.

@@ -1,4 +1,4 @@
-//! The numbers of a tree from its picture, by regression: learnt once from many trees, asked in a millisecond.
+//! The numbers of a tree from its picture, by regression: learnt once from many trees, and then a sum for each number.
 
 mod basis;
 mod examples;

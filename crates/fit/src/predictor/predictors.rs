@@ -5,7 +5,7 @@ use super::examples::{examples, features};
 use super::numbers::Numbers;
 use super::packed::Packed;
 use crate::error::FitError;
-use crate::posterior::Prior;
+use crate::posterior::{PosteriorSettings, Prior};
 use crate::space::Freedom;
 use pleach_silhouette::Bitmap;
 use pleach_tree::{Fnv, Foliage, Species};
@@ -49,8 +49,9 @@ pub struct PredictorError;
 const FOLIAGE: [Foliage; 2] = [Foliage::All, Foliage::None];
 
 impl Predictors {
-    /// Learns from `trees` trees around each of `species`, with leaves and again without, and returns bytes for
-    /// [`Predictors::from_bytes`]. `notify` is told how many kinds of trees were learnt, and of how many.
+    /// Learns from `trees` trees around each of `species`, at most [`PosteriorSettings::MAX_TREES`], with leaves and again
+    /// without, and returns bytes for [`Predictors::from_bytes`]: a hundred kB, and some three for each species and kind
+    /// of foliage. `notify` is told how many kinds of trees were learnt, and of how many.
     ///
     /// # Errors
     /// A species whose numbers cannot vary, [`FitError::Interrupted`] once `stop` is raised.
@@ -63,6 +64,7 @@ impl Predictors {
         stop: &AtomicBool,
         mut notify: impl FnMut(usize, usize),
     ) -> Result<Vec<u8>, FitError> {
+        let trees = trees.min(PosteriorSettings::MAX_TREES as u64);
         let mut kinds = Vec::new();
         let mut rows = Vec::new();
         for one in species {
@@ -110,8 +112,8 @@ impl Predictors {
         self.known.len() / FOLIAGE.len()
     }
 
-    /// The numbers of the tree in `picture`, for every one of `species` that is known: at any height. `None` for others,
-    /// and where nothing is seen.
+    /// The numbers of the tree in `picture`, for every one of `species` that is known: one value per slot, as in species
+    /// files, of a tree of any height. `None` for others, and where nothing is seen.
     pub fn predict<'a>(
         &self,
         picture: &Bitmap,
@@ -175,16 +177,11 @@ mod tests {
         for number in 0..24 {
             let Some((truth, _)) = prior.sample(5, number) else { continue };
             let picture = picture(&truth, truth.tree_seed.unwrap());
-            let [found] = &predictors.predict(&picture, Foliage::All, [&palm])[..] else { panic!() };
-            let (found, truth) = (found.as_ref().unwrap()[slot], truth.params.values()[slot]);
-            fitted += (found - truth).powi(2);
+            let found = predictors.predict(&picture, Foliage::All, [&palm]).remove(0).unwrap();
+            let truth = truth.params.values()[slot];
+            fitted += (found[slot] - truth).powi(2);
             unfitted += (own - truth).powi(2);
-            assert!(
-                palm.params
-                    .space()
-                    .check(predictors.predict(&picture, Foliage::All, [&palm])[0].clone().unwrap())
-                    .is_ok()
-            );
+            assert!(palm.params.space().check(found).is_ok());
         }
         assert!(fitted < 0.6 * unfitted, "{fitted} {unfitted}");
     }
