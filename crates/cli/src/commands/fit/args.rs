@@ -139,8 +139,9 @@ pub(super) struct SearchArgs {
     #[arg(long, value_name = "auto|random|SPECIES", default_value = "auto")]
     pub(super) from: StartFrom,
     /// The generator whose species take part in a first guess, and that `--from random` draws for: `auto`
-    /// for all of them, `trees` for weber-penn and space-colonization. By default that of the species in --from, of a
-    /// photograph trees, of a drawing in flat colors stylised, and else weber-penn
+    /// for all of them, `trees` for weber-penn and space-colonization. By default that of the species in --from, for a
+    /// drawing in flat colors stylised, for other pictures trees (of silhouettes those of 100 pixels and more), and
+    /// else weber-penn
     #[arg(long, value_name = "auto|trees|NAME")]
     pub(super) generator: Option<GeneratorChoice>,
     /// Start from a tree of least-cost paths in the outline of a picture: of the `goal`, with its further
