@@ -11,6 +11,7 @@ mod fit;
 mod frame;
 mod goal;
 mod json;
+mod numbers;
 mod params;
 mod pool;
 mod problem;
@@ -18,7 +19,6 @@ mod reading;
 mod score;
 mod seed;
 mod species;
-
 mod tree;
 mod view;
 
@@ -34,6 +34,8 @@ mod native {
     use crate::error::{FitError, GoalError, GrowError, PleachError, SpeciesError};
     #[pymodule_export]
     use crate::fit::fit;
+    #[pymodule_export]
+    use crate::numbers::numbers_of;
     #[pymodule_export]
     use crate::problem::NativeProblem;
     #[pymodule_export]

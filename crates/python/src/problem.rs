@@ -1,36 +1,52 @@
-//! A goal as a function of numbers, for other people's optimisers.
+//! Goals as a function of numbers, for other people's optimisers.
 
 use crate::arrays::{numbers, of_ink};
 use crate::error::{FitError, of_fit};
 use crate::frame::KnownFrame;
 use crate::goal::Source;
+use crate::numbers::described;
 use crate::pool;
 use crate::seed::Seed;
 use crate::species::Species;
 use crate::view::{Direction, view};
-use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods as _};
+use numpy::{IntoPyArray as _, PyArray2, PyArray3, PyArrayMethods as _};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods as _};
 use pleach::{
-    EvalWorkspace, Evaluator, FitProblem, Foliage, Freedom, Gene, Genome, GoalOptions, GoalView, Limits,
-    Score, SearchSpace, TreeSeed,
+    Bitmap, Evaluator, FitProblem, Foliage, Freedom, Genome, GoalOptions, GoalView, Limits, PlacedTree,
+    Rasterizer, Score, SearchSpace, TreeSeed,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
-/// A goal and the free numbers of a species.
+/// Goals and the free numbers of a species.
 #[pyclass(frozen, module = "pleach._native")]
 pub(crate) struct NativeProblem {
     problem: FitProblem,
-    /// What the goal was read from, for pickles.
-    source: Source,
-    goal: pleach::Bitmap,
+    /// What the goals were read from, for pickles.
+    sources: Vec<Source>,
     evaluator: Evaluator,
     space: SearchSpace,
     seed: u64,
 }
 
-/// Individuals between two looks at Python's signals.
+/// Individuals of a thread between two looks at Python's signals.
 const BATCH: usize = 64;
+/// Individuals that are not worth a thread of their own.
+const FEW: usize = 2;
+
+/// Largest array of pictures: 2 GiB.
+const MAX_PIXELS: usize = 1 << 31;
+
+/// The usual limits, or these.
+fn limits(max_leaves: Option<usize>, max_stems: Option<usize>) -> PyResult<Limits> {
+    let usual = Limits::DEFAULT;
+    let (leaves, stems) = (max_leaves.unwrap_or(usual.leaves), max_stems.unwrap_or(usual.stems));
+    if stems == 0 {
+        return Err(FitError::new_err("max_stems is 0, expected at least 1: a trunk is a stem"));
+    }
+    Ok(Limits { leaves: leaves.min(usual.leaves), stems: stems.min(usual.stems), ..usual })
+}
 
 #[pymethods]
 impl NativeProblem {
@@ -50,6 +66,9 @@ impl NativeProblem {
         seed: Seed,
         match_height: bool,
         wide: bool,
+        views: Vec<(Bound<'_, PyAny>, Direction)>,
+        max_leaves: Option<usize>,
+        max_stems: Option<usize>,
     ) -> PyResult<Self> {
         let known = frame.map(KnownFrame::checked).transpose()?;
         let options = known.map_or_else(GoalOptions::default, KnownFrame::options);
@@ -63,9 +82,19 @@ impl NativeProblem {
         let foliage = if leaves { Foliage::All } else { Foliage::None };
         let start = species.inner.kind();
         let goal_view = GoalView::new(goal.bitmap.clone(), view(from_)?, goal.frame(height));
-        let problem = FitProblem { start, goals: vec![goal_view], foliage };
+        let mut goals = vec![goal_view];
+        let mut sources = vec![source];
+        for (picture, from) in views {
+            let source = Source::read(&picture)?;
+            let goal = source.goal(&GoalOptions { max_side: Some(size), ..GoalOptions::default() })?;
+            let frame = goal.frame(height);
+            goals.push(GoalView::new(goal.bitmap, from.view()?, frame));
+            sources.push(source);
+        }
+        let problem = FitProblem { start, goals, foliage };
         let objective = objective.parse().map_err(of_fit)?;
-        let mut evaluator = Evaluator::new(&problem, objective, Limits::DEFAULT).map_err(of_fit)?;
+        let limits = limits(max_leaves, max_stems)?;
+        let mut evaluator = Evaluator::new(&problem, objective, limits).map_err(of_fit)?;
         if match_height {
             evaluator = evaluator.with_height_matching();
         }
@@ -75,50 +104,25 @@ impl NativeProblem {
         if !wide {
             space = space.plausible(problem.start.params.values());
         }
-        Ok(Self { problem, source, goal: goal.bitmap, evaluator, space, seed })
+        Ok(Self { problem, sources, evaluator, space, seed })
     }
 
-    /// What the goal was read from: the bytes of a picture, or an array of bool. A file may change or stay behind.
+    /// What the goals were read from: the bytes of a picture, or an array of bool. A file may change or stay behind.
     #[getter]
-    fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.source.given(py)
+    fn sources<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        self.sources.iter().map(|source| source.given(py)).collect()
     }
 
+    /// The free numbers: names, kinds, bounds, values and scales.
     #[getter]
-    fn names(&self) -> Vec<String> {
-        let space = self.problem.start.generator.space();
-        self.space.genes().iter().filter_map(Gene::slot).map(|slot| space.slot_name(slot)).collect()
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        described(py, &self.space, self.problem.start.params.values())
     }
 
+    /// The goals as they are compared with.
     #[getter]
-    fn kinds(&self) -> Vec<&'static str> {
-        self.space.genes().iter().map(|gene| gene.kind.word()).collect()
-    }
-
-    #[getter]
-    fn lower<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        numbers(py, self.space.genes().iter().map(|gene| gene.low).collect())
-    }
-
-    #[getter]
-    fn upper<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        numbers(py, self.space.genes().iter().map(|gene| gene.high).collect())
-    }
-
-    #[getter]
-    fn start<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        let genome = Genome::new(self.problem.start.params.values().to_vec(), self.seed);
-        numbers(py, self.space.genes().iter().map(|gene| gene.get(&genome)).collect())
-    }
-
-    #[getter]
-    fn is_log(&self) -> Vec<bool> {
-        self.space.genes().iter().map(Gene::is_log).collect()
-    }
-
-    #[getter]
-    fn goal<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
-        of_ink(py, &self.goal)
+    fn goals<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<bool>>>> {
+        self.problem.goals.iter().map(|goal| of_ink(py, &goal.goal)).collect()
     }
 
     /// Cost, IoU and likeness of each row, in its order.
@@ -131,19 +135,7 @@ impl NativeProblem {
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let genomes = self.genomes(&values, seeds.as_deref())?;
-        let pool = pool::with_threads(threads)?;
-        let mut scores: Vec<Score> = Vec::with_capacity(genomes.len());
-        for some in genomes.chunks(BATCH * pool.current_num_threads()) {
-            scores.extend(py.detach(|| {
-                pool.install(|| {
-                    let memory = || self.evaluator.workspace();
-                    let score =
-                        |memory: &mut EvalWorkspace, genome: &Genome| self.evaluator.evaluate(genome, memory);
-                    some.par_iter().with_max_len(8).map_init(memory, score).collect::<Vec<_>>()
-                })
-            }));
-            py.check_signals()?;
-        }
+        let scores = self.of_all(py, &genomes, threads, |genome| self.evaluator.score(genome))?;
         let dict = PyDict::new(py);
         let column = |of: fn(&Score) -> f64| numbers(py, scores.iter().map(of).collect());
         dict.set_item("cost", column(|score| score.cost))?;
@@ -153,11 +145,52 @@ impl NativeProblem {
         Ok(dict)
     }
 
+    /// The picture of each row in view number `view`, in the frame of that goal; empty where no tree grows.
+    #[pyo3(signature = (values, seeds, view, threads))]
+    fn silhouettes<'py>(
+        &self,
+        py: Python<'py>,
+        values: PyReadonlyArray2<'py, f64>,
+        seeds: Option<Vec<Seed>>,
+        view: usize,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyArray3<bool>>> {
+        let Some(goal) = self.problem.goals.get(view) else {
+            let count = self.problem.goals.len();
+            return Err(FitError::new_err(format!("there is no view {view}, expected one below {count}")));
+        };
+        let (width, height) = (goal.goal.width() as usize, goal.goal.height() as usize);
+        let count = values.shape()[0];
+        if count.saturating_mul(width * height) > MAX_PIXELS {
+            return Err(FitError::new_err(format!(
+                "{count} pictures of {height} × {width} pixels are too many for one array, expected at most {}",
+                MAX_PIXELS / (width * height)
+            )));
+        }
+        let genomes = self.genomes(&values, seeds.as_deref())?;
+        let draw = |genome: &Genome| {
+            let mut picture = Bitmap::new(goal.goal.width(), goal.goal.height());
+            let mut number = 0;
+            // A tree that does not grow has an empty picture, as its cost is infinite.
+            let _ = self.evaluator.pictures(genome, |placed| {
+                if number == view {
+                    let PlacedTree { tree, view, frame, parts } = placed;
+                    Rasterizer::default().draw(tree, view, frame, *parts, &mut picture);
+                }
+                number += 1;
+            });
+            let pixels = (0..picture.height()).flat_map(|y| (0..picture.width()).map(move |x| (x, y)));
+            pixels.map(|(x, y)| picture.get(x, y)).collect::<Vec<bool>>()
+        };
+        let pictures = self.of_all(py, &genomes, threads, draw)?;
+        pictures.concat().into_pyarray(py).reshape([genomes.len(), height, width])
+    }
+
     /// The species with these numbers, of the size that it was compared at.
-    fn species(&self, values: PyReadonlyArray1<'_, f64>, seed: Seed) -> PyResult<Species> {
+    fn species(&self, py: Python<'_>, values: PyReadonlyArray1<'_, f64>, seed: Seed) -> PyResult<Species> {
         let row = values.as_array().to_vec();
         let mut genome = self.genome(&row, seed.0, 0)?;
-        let score = self.evaluator.evaluate(&genome, &mut self.evaluator.workspace());
+        let score = py.detach(|| self.evaluator.score(&genome));
         if score.resized != 1.0 {
             self.problem.start.generator.resize(&mut genome.values, score.resized);
         }
@@ -166,6 +199,30 @@ impl NativeProblem {
 }
 
 impl NativeProblem {
+    /// `work` of each of `genomes`, in their order, without the interpreter's lock. A few of them are done on this
+    /// thread: to start others takes longer.
+    fn of_all<T: Send>(
+        &self,
+        py: Python<'_>,
+        genomes: &[Genome],
+        threads: Option<usize>,
+        work: impl Fn(&Genome) -> T + Sync,
+    ) -> PyResult<Vec<T>> {
+        pool::check(threads)?;
+        if genomes.len() <= FEW {
+            return Ok(py.detach(|| genomes.iter().map(work).collect()));
+        }
+        let pool = pool::with_threads(threads)?;
+        let mut done = Vec::with_capacity(genomes.len());
+        for some in genomes.chunks(BATCH * pool.current_num_threads()) {
+            done.extend(py.detach(|| {
+                pool.install(|| some.par_iter().with_max_len(FEW).map(&work).collect::<Vec<T>>())
+            }));
+            py.check_signals()?;
+        }
+        Ok(done)
+    }
+
     fn genomes(&self, values: &PyReadonlyArray2<'_, f64>, seeds: Option<&[Seed]>) -> PyResult<Vec<Genome>> {
         let rows = values.as_array();
         if let Some(seeds) = seeds.filter(|seeds| seeds.len() != rows.nrows()) {

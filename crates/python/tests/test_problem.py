@@ -103,6 +103,63 @@ def test_some_numbers_alone() -> None:
     assert "length[1]" in some.names and "length[0]" not in some.names and "ratio" not in some.names
 
 
+def test_numbers_need_no_goal(problem: pleach.Problem) -> None:
+    alone = pleach.Numbers("acer")
+    assert isinstance(problem, pleach.Numbers)
+    for own, of_problem in zip(vars(alone).values(), (getattr(problem, name) for name in vars(alone))):
+        assert np.array_equal(own, of_problem)
+    assert pleach.Numbers("acer", free=["length"], fix=["length[0]"]).names == ["length[1]", "length[2]"]
+    wide = pleach.Numbers("acer", wide=True)
+    assert (wide.upper >= alone.upper[0]).any() and len(wide) >= len(alone)
+    with pytest.raises(pleach.FitError, match="did you mean `length`"):
+        pleach.Numbers("acer", free=["lenght"])
+
+
+def test_further_views_count_as_much_as_the_goal() -> None:
+    tree = pleach.species("acer").grow(3)
+    front, side = tree.silhouette(64), tree.silhouette(64, view=90)
+    other = pleach.species("palm").grow(1).silhouette(64)
+    both = pleach.Problem(front, "acer", size=64, seed=3, views=[(side, 90)])
+    odd = pleach.Problem(front, "acer", size=64, seed=3, views=[(other, 90)])
+    assert [goal.shape for goal in both.goals] == [(64, 64)] * 2 and np.array_equal(both.goals[1], side)
+    own = both.start[None]
+    assert both.evaluate(own)[0] < 0.1 < odd.evaluate(own)[0]
+    again = pickle.loads(pickle.dumps(odd))
+    assert np.array_equal(again.evaluate(own), odd.evaluate(own)) and np.array_equal(again.goals[1], other)
+    seen = both.silhouettes(own, view=1)[0]
+    assert (seen == side).mean() > 0.98 and not np.array_equal(seen, both.silhouettes(own)[0])
+    for wrong in ([(side, 90, 3)], [(side, "left")], [side]):
+        with pytest.raises((TypeError, ValueError)):
+            pleach.Problem(front, "acer", views=wrong)  # type: ignore[arg-type]
+    with pytest.raises(pleach.PleachError, match="elevation from"):
+        pleach.Problem(front, "acer", views=[(side, (0.0, 120.0))])
+    with pytest.raises(pleach.FitError, match="no view 2, expected one below 2"):
+        both.silhouettes(own, view=2)
+
+
+def test_pictures_are_those_that_are_compared(problem: pleach.Problem) -> None:
+    values = rows(problem, 9)
+    pictures = problem.silhouettes(values, threads=1)
+    assert pictures.shape == (9, 64, 64) and pictures.dtype == bool
+    assert np.array_equal(pictures, problem.silhouettes(values, threads=3))
+    shared = (pictures & problem.goal).sum((1, 2)) / (pictures | problem.goal).sum((1, 2))
+    assert np.abs(shared - problem.scores(values).iou).max() < 0.06, "searches draw a little coarser"
+    assert problem.silhouettes(values[:0]).shape == (0, 64, 64)
+    with pytest.raises(pleach.FitError, match=r"600000 pictures of 64 × 64 pixels are too many"):
+        problem.silhouettes(np.zeros((600_000, len(problem))))
+
+
+def test_a_tree_can_be_too_large(problem: pleach.Problem) -> None:
+    small = pleach.Problem(problem.goal, "acer", size=64, max_leaves=100)
+    values = small.start[None]
+    assert np.isinf(small.evaluate(values)[0]) and np.isfinite(problem.evaluate(values)[0])
+    assert not small.silhouettes(values).any()
+    assert np.isinf(pickle.loads(pickle.dumps(small)).evaluate(values)[0])
+    assert np.isinf(pleach.Problem(problem.goal, "acer", size=64, max_stems=3).evaluate(values)[0])
+    with pytest.raises(pleach.FitError, match="max_stems is 0"):
+        pleach.Problem(problem.goal, "acer", max_stems=0)
+
+
 def test_problems_can_be_pickled_and_copied(problem: pleach.Problem, tmp_path: Path) -> None:
     values = rows(problem, 4)
     for again in (pickle.loads(pickle.dumps(problem)), copy.copy(problem), copy.deepcopy(problem)):

@@ -137,8 +137,8 @@ impl Evaluator {
         self.with_memory(|memory| self.evaluate_within(genome, Size::ANY, memory, terms))
     }
 
-    /// [`Evaluator::evaluate`] in pooled memory.
-    pub(crate) fn score(&self, genome: &Genome) -> Score {
+    /// [`Evaluator::evaluate`] in memory that the evaluator keeps for as many threads as have asked at once.
+    pub fn score(&self, genome: &Genome) -> Score {
         self.with_memory(|memory| self.evaluate(genome, memory))
     }
 
@@ -293,11 +293,7 @@ impl Evaluator {
 
     /// Grows `genome`'s own tree at the goal's height, calls `look` with it as it stands in each goal, and returns its
     /// values at that height; `None` if it does not grow.
-    pub(crate) fn pictures(
-        &self,
-        genome: &Genome,
-        mut look: impl FnMut(&PlacedTree<'_>),
-    ) -> Option<Vec<f64>> {
+    pub fn pictures(&self, genome: &Genome, mut look: impl FnMut(&PlacedTree<'_>)) -> Option<Vec<f64>> {
         self.with_memory(|memory| {
             let growth = self.growth(genome.tree_seed, self.foliage, Size::ANY);
             let Matched { magnified, .. } = self.grow_matched(&*self.generator, genome, &growth, memory)?;

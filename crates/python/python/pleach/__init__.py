@@ -26,7 +26,7 @@ from ._native import (
     __version__,
     generators,
 )
-from ._problem import Problem, Scores
+from ._problem import Numbers, Problem, Scores
 from ._reading import Reading, read
 from ._score import Card, Mask, mask, score
 from ._species import species
@@ -40,6 +40,7 @@ __all__ = [
     "Interval",
     "Map",
     "Mask",
+    "Numbers",
     "PleachError",
     "Posterior",
     "PosteriorNumber",
