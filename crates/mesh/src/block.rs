@@ -9,9 +9,11 @@ pub struct Vertex {
     pub position: Vec3,
     /// Of length 1, outwards.
     pub normal: Vec3,
-    /// Texture coordinates. On bark u is the part of a turn around the stem, 0 to 1, and v runs along it
-    /// in metres, on through forks. On leaves u runs across and v from the tip (0) to the base (1); both
-    /// stay within 0 to 1.
+    /// Texture coordinates, v from the top of a picture to its bottom as in glTF. On bark they count tiles of about
+    /// [`crate::BARK_TILE`] metres: u from 0 to a whole number of them around the stem, and v against its direction of
+    /// growth, so that pictures stand upright; a fork goes on where its parent is left. Tiles get smaller with the
+    /// stem, so that they keep their form. On leaves u runs across and v from the tip (0) to the base (1); both stay
+    /// within 0 to 1.
     pub uv: Vec2,
 }
 

@@ -9,7 +9,7 @@ use crate::rig::Rig;
 use crate::settings::{LeafStyle, MeshSettings};
 use crate::tube::{Rings, Tubes};
 use crate::wind;
-use pleach_plant::{Leaf, Parts, StemKind, Tree};
+use pleach_plant::{Leaf, Parts, Stem, StemKind, Tree};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -27,7 +27,7 @@ pub struct Mesher<'a> {
     blossoms: Placed<'a>,
     /// Vertices and triangles of the blobs, which follow the leaves.
     blobs: Count,
-    /// Corners before each stem's, and v where the stem starts, in metres.
+    /// Corners before each stem's, and texture tiles below it.
     stems: Vec<StemStart>,
     bark: Count,
     blocks: Vec<Range<usize>>,
@@ -37,7 +37,15 @@ pub struct Mesher<'a> {
 #[derive(Clone, Copy, Debug, Default)]
 struct StemStart {
     vertex: u64,
-    along: f64,
+    tiles: f64,
+}
+
+/// What is measured of a stem.
+#[derive(Clone, Debug, Default)]
+struct Measured {
+    count: Count,
+    /// Of each of its forks in turn: texture tiles from its own base to where the fork goes on.
+    forks: Vec<f64>,
 }
 
 impl<'a> Mesher<'a> {
@@ -46,33 +54,37 @@ impl<'a> Mesher<'a> {
     pub fn new(tree: &'a Tree, settings: MeshSettings) -> Self {
         let settings = settings.clamped();
         let tubes = Tubes::new(settings);
-        let counts: Vec<Count> = tree
+        let forks = Forks::of(tree);
+        let measured: Vec<Measured> = tree
             .stems
             .par_iter()
-            .map_init(Rings::default, |rings, stem| {
+            .enumerate()
+            .map_init(Rings::default, |rings, (i, stem)| {
                 if !settings.parts.has_stem(stem.kind) {
-                    return Count::default();
+                    return Measured::default();
                 }
                 rings.sample(tree, stem, tubes.tolerance());
-                tubes.count(rings)
+                let forks = forks.of_stem(i).map(|fork| rings.tiles_at(tree.stems[fork].offset));
+                Measured { count: tubes.count(rings), forks: forks.collect() }
             })
             .collect();
-        let mut stems: Vec<StemStart> = Vec::with_capacity(counts.len());
+        let mut stems: Vec<StemStart> = Vec::with_capacity(measured.len());
         let (mut bark, mut blocks, mut first) = (Count::default(), Vec::new(), 0);
-        for (i, (stem, &count)) in tree.stems.iter().zip(&counts).enumerate() {
-            let along = match (stem.kind, stem.parent) {
-                (StemKind::Fork, Some(parent)) => stems[parent as usize].along + stem.offset,
-                _ => 0.0,
-            };
-            stems.push(StemStart { vertex: bark.vertices, along });
-            bark += count;
+        for (i, Measured { count, .. }) in measured.iter().enumerate() {
+            let goes_on = forks.place(i).and_then(|(parent, place)| {
+                let below: &StemStart = stems.get(parent)?;
+                Some(below.tiles + measured[parent].forks.get(place)?)
+            });
+            let tiles = goes_on.unwrap_or(0.0);
+            stems.push(StemStart { vertex: bark.vertices, tiles });
+            bark += *count;
             if bark.vertices - stems[first].vertex >= BLOCK_VERTICES {
                 blocks.push(first..i + 1);
                 first = i + 1;
             }
         }
-        if first < counts.len() {
-            blocks.push(first..counts.len());
+        if first < measured.len() {
+            blocks.push(first..measured.len());
         }
         let has = |part| settings.parts.contains(part);
         let leaves = if has(Parts::LEAVES) { &tree.leaves[..] } else { &[] };
@@ -145,29 +157,64 @@ impl<'a> Mesher<'a> {
     }
 
     fn fill_stems(&self, range: Range<usize>, block: &mut Block) {
-        let mut rings = Rings::default();
+        let (mut rings, mut along) = (Rings::default(), Vec::new());
         for i in range {
             if !self.settings.parts.has_stem(self.tree.stems[i].kind) {
                 continue;
             }
-            let StemStart { vertex, along } = self.stems[i];
+            let StemStart { vertex, tiles } = self.stems[i];
             rings.sample(self.tree, &self.tree.stems[i], self.tubes.tolerance());
-            let first = block.vertices.len();
-            self.tubes.push(&rings, vertex as u32, along, block);
+            self.tubes.push(&rings, vertex as u32, tiles, block, &mut along);
             let length = rings.length().unwrap_or(1.0).max(1e-6);
             if self.settings.wind {
                 let wind = wind::of_stem(self.tree, i);
-                block.wind.extend(block.vertices[first..].iter().map(|v| {
-                    let mut wind = wind;
-                    wind.place = ((f64::from(v.uv.y) - along) / length).clamp(0.0, 1.0) as f32;
-                    wind
-                }));
+                let at = |&along: &f32| (f64::from(along) / length).clamp(0.0, 1.0) as f32;
+                block.wind.extend(along.iter().map(|along| Wind { place: at(along), ..wind }));
             }
             if let Some(rig) = self.rig {
-                let joint = |v: &crate::Vertex| rig.joint_at(i as u32, f64::from(v.uv.y) - along);
-                block.joints.extend(block.vertices[first..].iter().map(joint));
+                let joint = |&along: &f32| rig.joint_at(i as u32, f64::from(along));
+                block.joints.extend(along.iter().map(joint));
             }
         }
+    }
+}
+
+/// The forks of each stem, whose bark goes on from it.
+struct Forks {
+    /// Parent and number of each fork, by parent.
+    all: Vec<(usize, usize)>,
+    /// The parent of each stem that is a fork.
+    parents: Vec<Option<usize>>,
+}
+
+impl Forks {
+    fn of(tree: &Tree) -> Self {
+        let parent = |stem: &Stem| stem.parent.filter(|_| stem.kind == StemKind::Fork).map(|p| p as usize);
+        let parents: Vec<Option<usize>> = tree.stems.iter().map(parent).collect();
+        let numbered = parents.iter().enumerate();
+        let mut all: Vec<_> = numbered.filter_map(|(i, parent)| Some(((*parent)?, i))).collect();
+        all.sort_unstable();
+        Self { all, parents }
+    }
+
+    /// Number of the first fork of stem number `stem`.
+    fn first_of(&self, stem: usize) -> usize {
+        self.all.partition_point(|(parent, _)| *parent < stem)
+    }
+
+    /// The parent of stem number `stem` and which of its forks it is; `None` if it is no fork.
+    fn place(&self, stem: usize) -> Option<(usize, usize)> {
+        let parent = self.parents[stem]?;
+        let place = self.all.binary_search(&(parent, stem)).ok()?;
+        Some((parent, place - self.first_of(parent)))
+    }
+
+    /// The forks of stem number `stem`, in turn.
+    fn of_stem(&self, stem: usize) -> impl Iterator<Item = usize> + '_ {
+        self.all[self.first_of(stem)..]
+            .iter()
+            .take_while(move |(parent, _)| *parent == stem)
+            .map(|(_, fork)| *fork)
     }
 }
 

@@ -201,6 +201,7 @@ impl Tree {
     ///
     /// Options are those of `pleach grow`: `lod` (levels of detail, 1 to 6), `billboard` (a last level of this many cards,
     /// 1 to 8), `tolerance` (how far bark may stray, in millimetres), `leaves` (outline, simple, cards, instances, none),
+    /// `textures` (pictures of the bark, 512, 1024 or 2048 pixels a side: colour, normals, roughness and occlusion),
     /// `season` (spring, summer, autumn, winter), `weld` (one surface on a grid with cells of this many millimetres) and
     /// `fillet`, `roots`, `wind`, `sway`. A format that cannot hold an option refuses it with `PleachError`.
     ///

@@ -17,6 +17,7 @@
 //! | --- | --- |
 //! | [`preview`] | shaded pictures without a graphics card |
 //! | [`billboard`] | a tree from a few sides, for the cards of a last level of detail |
+//! | [`bark_picture`] | pictures of bark that repeat: colour, relief, roughness |
 //! | [`leaf_picture`] | pictures of leaves and blossoms for cards |
 //! | [`picture`], [`png_file`] | pixels in memory and in files |
 //!
@@ -26,6 +27,7 @@
 //! numbers, reads the clock or prints, and the number of threads changes nothing.
 #![cfg_attr(not(test), warn(clippy::disallowed_types))]
 
+pub mod bark_picture;
 pub mod billboard;
 mod few_colors;
 pub mod leaf_picture;

@@ -7,7 +7,7 @@ use anyhow::{Context, bail};
 use pleach::{Export, Forest, LeafForm, MeshFormat};
 use pleach_mesh::lod;
 use pleach_mesh::weld::WeldSettings;
-use pleach_render::billboard;
+use pleach_render::{bark_picture, billboard};
 use pleach_tree::Season;
 use pleach_tree::{Foliage, GrowError, Species, Tree};
 use std::io::Write;
@@ -59,6 +59,10 @@ pub(crate) struct MeshArgs {
     /// How leaves are drawn [default: outline]
     #[arg(long, value_parser = one_of(LEAVES), value_name = "HOW", conflicts_with = "no_leaves")]
     pub(super) leaves: Option<LeafForm>,
+    /// Pictures of the bark of so many pixels a side: colour, normals, roughness and occlusion, in the file or beside
+    /// it (.glb, .obj, .usda)
+    #[arg(long, value_name = "512|1024|2048", value_parser = textures, conflicts_with = "weld")]
+    pub(super) textures: Option<u32>,
     /// Season; by default the species file's own, or summer with all its blossom
     #[arg(long, value_parser = one_of(SEASONS))]
     pub(super) season: Option<Season>,
@@ -91,6 +95,12 @@ fn cell(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|t| (1.0..=1000.0).contains(t))
         .ok_or_else(|| "millimetres from 1 to 1000".to_owned())
+}
+
+fn textures(text: &str) -> Result<u32, String> {
+    let sides = bark_picture::SIDES;
+    let side = text.parse().ok().filter(|side| sides.contains(side));
+    side.ok_or_else(|| format!("pixels: {}", sides.map(|side| side.to_string()).join(", ")))
 }
 
 fn fillet(text: &str) -> Result<f64, String> {
@@ -132,6 +142,7 @@ impl MeshArgs {
             fillet: self.fillet.unwrap_or(usual.fillet),
             roots: self.roots,
             leaves: self.leaves.unwrap_or(usual.leaves),
+            textures: self.textures,
             season: self.season,
             wind: self.wind,
             sway: self.sway,
@@ -144,10 +155,16 @@ impl MeshArgs {
             Format::Mesh(format) if format != MeshFormat::Glb => format,
             _ => return Ok(()),
         };
-        if files::is_stdout(path) && self.leaves == Some(LeafForm::Cards) {
+        let option = if self.leaves == Some(LeafForm::Cards) {
+            "--leaves cards"
+        } else if self.textures.is_some() {
+            "--textures"
+        } else {
+            return Ok(());
+        };
+        if files::is_stdout(path) {
             bail!(
-                "`--leaves cards` writes pictures beside a .{}, which standard output cannot have; .glb \
-                 holds them",
+                "`{option}` writes pictures beside a .{}, which standard output cannot have; .glb holds them",
                 format.suffix()
             );
         }

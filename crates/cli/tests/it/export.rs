@@ -155,6 +155,31 @@ fn cards_bring_pictures_of_leaves() {
 }
 
 #[test]
+fn bark_has_pictures_of_the_size_that_was_asked_for() {
+    let dir = Dir::new();
+    let _ = dir.run(["grow", "palm", "--textures", "512", "--lod", "2", "-o", "palm.glb"]).ok();
+    let file = glb(&dir.path("palm.glb"));
+    assert_eq!(names(&file["images"]), ["bark", "bark normal", "bark roughness"]);
+    assert_eq!(file["samplers"][file["textures"][0]["sampler"].as_u64().unwrap() as usize]["wrapS"], 10_497);
+    let _ = dir.run(["grow", "palm", "--textures", "512", "-o", "palm.obj"]).ok();
+    assert!(std::fs::read_to_string(dir.path("palm.mtl")).unwrap().contains("norm palm-bark-normal.png"));
+    for name in ["palm-bark.png", "palm-bark-normal.png", "palm-bark-roughness.png"] {
+        let picture = image::open(dir.path(name)).unwrap();
+        assert_eq!((picture.width(), picture.height()), (512, 512), "{name}");
+    }
+    let one_thread = ["grow", "palm", "--textures", "512", "--threads", "1", "-o", "palm.usda"];
+    let before = std::fs::read(dir.path("palm-bark.png")).unwrap();
+    let _ = dir.run(one_thread).ok();
+    assert_eq!(std::fs::read(dir.path("palm-bark.png")).unwrap(), before);
+    for wrong in ["0", "1000", "65536", "many"] {
+        dir.run(["grow", "palm", "--textures", wrong, "-o", "x.glb"]).fails(2, &["512, 1024, 2048"]);
+    }
+    dir.run(["grow", "palm", "--textures", "512", "--weld", "40", "-o", "x.glb"]).fails(2, &["--weld"]);
+    dir.run(["grow", "palm", "--textures", "512", "-o", "x.stl"]).fails(2, &["--textures"]);
+    dir.run(["grow", "palm", "--textures", "512", "-o", "-", "--format", "obj"]).fails(1, &["--textures", ".glb"]);
+}
+
+#[test]
 fn a_tree_without_leaves_has_one_material() {
     let dir = Dir::new();
     let _ = dir.run(["grow", "acer", "--no-leaves", "-o", "bare.glb"]).ok();

@@ -13,14 +13,16 @@ mod rings;
 #[cfg(test)]
 #[path = "tests.rs"]
 mod shape_tests;
+mod unroll;
 
 pub(crate) use path::Path;
 pub(crate) use rings::Rings;
+pub use unroll::TILE;
 
 use crate::block::{Block, Vertex};
 use crate::part::Count;
 use crate::settings::MeshSettings;
-use glam::vec2;
+use glam::{Vec2, vec2};
 use path::Ring;
 use pleach_plant::trig::sin_cos;
 use rings::{End, Run};
@@ -36,9 +38,8 @@ struct Polygon {
 }
 
 impl Polygon {
-    /// Appends the corners of `ring`; `slope` is by how much the radius grows per metre there, and v starts at
-    /// `along`.
-    fn push(&self, ring: &Ring, slope: f64, along: f64, block: &mut Block) {
+    /// Appends the corners of `ring`; `slope` is by how much the radius grows per metre there.
+    fn push(&self, ring: &Ring, slope: f64, bark: &Bark, corners: &mut Corners<'_>) {
         let (x, y) = (ring.side, ring.tangent.cross(ring.side));
         let radius = ring.radius * self.reach;
         let level = 1.0 / (1.0 + slope * slope).sqrt();
@@ -46,12 +47,45 @@ impl Polygon {
         for (j, &(cos, sin)) in self.corners.iter().enumerate() {
             let out = x * cos + y * sin;
             let normal = (out - ring.tangent * slope) * level;
-            block.vertices.push(Vertex {
-                position: (ring.center + out * radius).as_vec3(),
-                normal: normal.as_vec3(),
-                uv: vec2(j as f32 / n as f32, (along + ring.along) as f32),
-            });
+            corners.push(
+                Vertex {
+                    position: (ring.center + out * radius).as_vec3(),
+                    normal: normal.as_vec3(),
+                    uv: bark.uv(j as f64 / n as f64, ring.tiles),
+                },
+                ring.along,
+            );
         }
+    }
+}
+
+/// Where a stem is on its bark's picture.
+#[derive(Clone, Copy, Debug)]
+struct Bark {
+    /// Tiles around it.
+    around: f64,
+    /// Tiles before its base.
+    before: f64,
+}
+
+impl Bark {
+    /// The texture coordinates after this part of a turn, so many tiles from the base: a picture stands upright, its
+    /// v from top to bottom.
+    fn uv(&self, turn: f64, tiles: f64) -> Vec2 {
+        vec2((turn * self.around) as f32, -(self.before + tiles) as f32)
+    }
+}
+
+/// Takes the corners of tubes, and how far along its stem each is.
+struct Corners<'a> {
+    vertices: &'a mut Vec<Vertex>,
+    along: &'a mut Vec<f32>,
+}
+
+impl Corners<'_> {
+    fn push(&mut self, vertex: Vertex, along: f64) {
+        self.vertices.push(vertex);
+        self.along.push(along as f32);
     }
 }
 
@@ -119,24 +153,33 @@ impl Tubes {
         count
     }
 
-    /// Appends the tubes over `rings`; their corners count from `base`, and v starts at `along`.
-    pub(crate) fn push(&self, rings: &Rings, base: u32, along: f64, block: &mut Block) {
+    /// Appends the tubes over `rings`; their corners count from `base`, and `before` texture tiles are below them.
+    /// `along` becomes how far along the stem each corner is, in metres.
+    pub(crate) fn push(
+        &self,
+        rings: &Rings,
+        base: u32,
+        before: f64,
+        block: &mut Block,
+        along: &mut Vec<f32>,
+    ) {
         let n = self.sides(rings);
-        let before = block.vertices.len();
+        let bark = Bark { around: f64::from(rings.tiles_around()), before };
+        along.clear();
         for run in rings.runs() {
-            let first = base + (block.vertices.len() - before) as u32;
-            self.push_run(&run, n, along, block);
+            let first = base + along.len() as u32;
+            self.push_run(&run, n, &bark, &mut Corners { vertices: &mut block.vertices, along });
             faces(first, n, self.wide(&run, n), &mut block.triangles);
         }
     }
 
     /// Appends the vertices of one tube.
-    fn push_run(&self, run: &Run<'_>, n: u32, along: f64, block: &mut Block) {
+    fn push_run(&self, run: &Run<'_>, n: u32, bark: &Bark, corners: &mut Corners<'_>) {
         let Some(tip) = run.rings.last() else { return };
         let polygon = &self.polygons[n as usize];
         let body = run.rings.len() - usize::from(run.end == End::Point);
         for (i, r) in run.rings[..body].iter().enumerate() {
-            polygon.push(r, run.slope(i), along, block);
+            polygon.push(r, run.slope(i), bark, corners);
         }
         // The end is half an ellipsoid: its height, in radii.
         let height = match run.end {
@@ -152,15 +195,21 @@ impl Tubes {
                 center: tip.center + tip.tangent * ahead,
                 radius: tip.radius * cos,
                 along: tip.along + ahead,
+                tiles: tip.tiles + ahead * bark.around / (TAU * tip.radius),
                 ..*tip
             };
-            polygon.push(&ring, -sin / (cos * height), along, block);
+            polygon.push(&ring, -sin / (cos * height), bark, corners);
         }
-        block.vertices.push(Vertex {
-            position: (tip.center + tip.tangent * (tip.radius * height)).as_vec3(),
-            normal: tip.tangent.as_vec3(),
-            uv: vec2(0.5, (along + tip.along) as f32),
-        });
+        let ahead = tip.radius * height;
+        let tiles = if ahead > 0.0 { tip.tiles + height * bark.around / TAU } else { tip.tiles };
+        corners.push(
+            Vertex {
+                position: (tip.center + tip.tangent * ahead).as_vec3(),
+                normal: tip.tangent.as_vec3(),
+                uv: bark.uv(0.5, tiles),
+            },
+            tip.along + ahead,
+        );
     }
 }
 

@@ -25,6 +25,8 @@ pub(crate) struct Ring {
     pub(crate) radius: f64,
     /// Metres along the stem from its first knot.
     pub(crate) along: f64,
+    /// Texture tiles along the stem from its first knot.
+    pub(crate) tiles: f64,
 }
 
 /// A knot at which a stem turns sharply.
@@ -89,7 +91,7 @@ impl Path {
                     along += center.distance(last.center);
                 }
                 let radius = (from + (to - from) * t).max(MIN_RADIUS);
-                self.rings.push(Ring { center, tangent, side: DVec3::X, radius, along });
+                self.rings.push(Ring { center, tangent, side: DVec3::X, radius, along, tiles: 0.0 });
             }
             arrival = Some(legs[2]);
         }

@@ -6,6 +6,7 @@
 
 use super::frame::{perpendicular, transport};
 use super::path::{Corner, Path, Ring};
+use super::unroll::{self, unroll};
 use glam::DVec3;
 use pleach_plant::turtle::rotate;
 use pleach_plant::{Stem, StemKind, Tree};
@@ -56,6 +57,7 @@ impl Rings {
     /// the axis by a tenth of its radius where the stem turns in less room than its own width.
     pub(crate) fn sample(&mut self, tree: &Tree, stem: &Stem, tolerance: f64) {
         self.path.trace(tree, stem, tolerance);
+        unroll(&mut self.path.rings);
         let last = self.path.rings.len() - 1;
         if self.path.is_pointed {
             self.path.rings[last].radius = 0.0;
@@ -94,6 +96,16 @@ impl Rings {
     /// The widest ring's radius in metres.
     pub(crate) fn widest(&self) -> f64 {
         self.rings.iter().map(|ring| ring.radius).fold(0.0, f64::max)
+    }
+
+    /// How many texture tiles go around the stem.
+    pub(crate) fn tiles_around(&self) -> u32 {
+        unroll::tiles_around(&self.path.rings)
+    }
+
+    /// Texture tiles from the base to `along` metres from it.
+    pub(crate) fn tiles_at(&self, along: f64) -> f64 {
+        unroll::tiles_at(&self.path.rings, along)
     }
 
     /// Length in metres of what is drawn of the stem.

@@ -43,7 +43,7 @@ fn tube(knots: Vec<Knot>, tolerance: f64) -> (Rings, Count, Block) {
     let (mut rings, mut block) = (Rings::default(), Block::default());
     rings.sample(&tree, &tree.stems[0], tolerance);
     let count = tubes.count(&rings);
-    tubes.push(&rings, 0, 0.0, &mut block);
+    tubes.push(&rings, 0, 0.0, &mut block, &mut Vec::new());
     (rings, count, block)
 }
 
@@ -77,7 +77,7 @@ fn broken(block: &Block) -> Result<(), String> {
         if v.to_array().iter().any(|x| !x.is_finite()) || (v.normal.length() - 1.0).abs() > 1e-4 {
             return Err(format!("a corner is not finite or its normal not of length 1: {v:?}"));
         }
-        if !(0.0..=1.0).contains(&v.uv.x) || v.uv.y < 0.0 {
+        if v.uv.x < 0.0 || v.uv.y > 0.0 {
             return Err(format!("texture coordinates out of range: {v:?}"));
         }
     }
@@ -192,14 +192,49 @@ fn normals_of_a_cone_lean_by_its_taper() {
     }
 }
 
+/// How much wider than high a picture is drawn on a triangle.
+fn stretch(corners: &[Vertex; 3]) -> f64 {
+    let [a, b, c] = corners;
+    let (p, q) = (b.position - a.position, c.position - a.position);
+    let (s, t) = (b.uv - a.uv, c.uv - a.uv);
+    let area = s.perp_dot(t);
+    let across = (p * t.y - q * s.y) / area;
+    let along = (q * s.x - p * t.x) / area;
+    f64::from(across.length() / along.length())
+}
+
 #[test]
-fn texture_runs_along_in_metres_and_once_around() {
-    let (_, _, block) = tube(straight(&[0.1, 0.1, 0.1]), 1e-3);
-    for v in &block.vertices[..block.vertices.len() - 1] {
-        assert!((v.uv.y - v.position.z).abs() < 0.02, "v is the height of an upright stem: {v:?}");
+fn a_whole_number_of_upright_tiles_goes_around() {
+    for (radius, tiles) in [(0.01, 1.0), (0.1, 1.0), (0.13, 2.0), (0.4, 5.0)] {
+        let (_, _, block) = tube(straight(&[radius; 3]), 1e-3);
+        let at_foot = block.vertices.iter().filter(|v| v.position.z == 0.0);
+        let around: Vec<f32> = at_foot.map(|v| v.uv.x).collect();
+        assert_eq!((around[0], around[around.len() - 1]), (0.0, tiles), "{radius}");
+        // As wide as high.
+        let side = std::f64::consts::TAU * radius / f64::from(tiles);
+        for v in block.vertices.iter().filter(|v| v.position.z <= 2.0) {
+            let wanted = -f64::from(v.position.z) / side;
+            assert!((f64::from(v.uv.y) - wanted).abs() < 1e-3 * wanted.abs().max(1.0), "{v:?}");
+        }
     }
-    let around: Vec<f32> = block.vertices.iter().filter(|v| v.position.z == 0.0).map(|v| v.uv.x).collect();
-    assert_eq!((around[0], around[around.len() - 1]), (0.0, 1.0));
+}
+
+#[test]
+fn tiles_keep_their_form_on_a_cone() {
+    let (_, _, block) =
+        tube(straight(&[0.2, 0.18, 0.16, 0.14, 0.12, 0.1, 0.08, 0.06, 0.04, 0.02, 0.0]), 1e-3);
+    let (mut good, mut all) = (0.0, 0.0);
+    for t in &block.triangles {
+        let [a, b, c] = t.map(|i| block.vertices[i as usize]);
+        let area = f64::from((b.position - a.position).cross(c.position - a.position).length());
+        let stretch = stretch(&[a, b, c]);
+        // Its base is a flat cap inside the parent.
+        if t.iter().any(|&i| block.vertices[i as usize].position.z > 0.0) {
+            all += area;
+            good += if (0.5..2.0).contains(&stretch) { area } else { 0.0 };
+        }
+    }
+    assert!(good > 0.97 * all, "{good} of {all}");
 }
 
 #[test]

@@ -18,6 +18,8 @@ pub enum Format {
 /// Something that only some formats can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Feature {
+    /// Pictures of bark.
+    Textures,
     /// Cards that show the picture of a leaf.
     LeafCards,
     /// One leaf that is placed many times.
@@ -73,10 +75,12 @@ impl Format {
     pub const fn holds(self, feature: Feature) -> bool {
         match self {
             Self::Glb => true,
-            Self::Obj => matches!(feature, Feature::LeafCards),
+            Self::Obj => matches!(feature, Feature::LeafCards | Feature::Textures),
             Self::Ply => matches!(feature, Feature::Wind),
             Self::Stl => false,
-            Self::Usda => matches!(feature, Feature::LeafCards | Feature::LeafInstances),
+            Self::Usda => {
+                matches!(feature, Feature::LeafCards | Feature::LeafInstances | Feature::Textures)
+            }
         }
     }
 }

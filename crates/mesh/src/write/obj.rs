@@ -5,6 +5,7 @@ use super::{one_plain_mesh, total};
 use crate::block::{Block, Vertex};
 use crate::palette::{Palette, linear};
 use crate::part::{Material, MeshError, Part, Sink};
+use crate::pictures::Pictures;
 use std::io::Write;
 
 /// Writes OBJ text.
@@ -39,17 +40,26 @@ impl<W: Write> Obj<W> {
 /// The material file that goes with an OBJ file; `pictures` are the names of PNG files in the same
 /// folder that materials show instead of their colour.
 #[must_use]
-pub fn materials(palette: &Palette, pictures: &[(Material, String)]) -> String {
+pub fn materials(palette: &Palette, pictures: &[Pictures<String>]) -> String {
     let mut text = String::from("# materials of a tree\n");
     for material in Material::ALL {
-        let picture = pictures.iter().find(|(of, _)| *of == material).map(|(_, name)| name);
+        let picture = pictures.iter().find(|pictures| pictures.material == material);
         let [r, g, b] = if picture.is_some() { [1.0; 3] } else { linear(palette.color(material)) };
         text.push_str(&format!(
             "\nnewmtl {}\nKd {r:.4} {g:.4} {b:.4}\nKs 0 0 0\nNs 0\nd 1\nillum 1\n",
             material.name()
         ));
-        if let Some(name) = picture {
-            text.push_str(&format!("map_Kd {name}\nmap_d {name}\n"));
+        let Some(pictures) = picture else { continue };
+        text.push_str(&format!("map_Kd {}\n", pictures.color));
+        if !pictures.repeats() {
+            text.push_str(&format!("map_d {}\n", pictures.color));
+        }
+        // As programs with materials of physics read them, Blender among them.
+        if let Some(name) = &pictures.normal {
+            text.push_str(&format!("norm {name}\nmap_Bump {name}\n"));
+        }
+        if let Some(name) = &pictures.roughness {
+            text.push_str(&format!("map_Pr {name}\n"));
         }
     }
     text

@@ -8,6 +8,7 @@ use super::decimal::{self, digits};
 use crate::block::Block;
 use crate::palette::{Palette, linear};
 use crate::part::{Material, MeshError, Part, Sink};
+use crate::pictures::Pictures;
 use glam::Vec3;
 use std::io::Write;
 
@@ -23,7 +24,7 @@ pub struct Notes {
     /// Names and values that are kept in the file's head.
     pub about: Vec<(String, String)>,
     /// PNG files beside this one that materials show instead of their colour.
-    pub pictures: Vec<(Material, String)>,
+    pub pictures: Vec<Pictures<String>>,
 }
 
 /// Writes USDA text.
@@ -111,50 +112,84 @@ impl<'a, W: Write> Usda<'a, W> {
         Ok(())
     }
 
+    /// The textures of a material at `path`, and what places them.
+    fn pictures(&mut self, pictures: &Pictures<String>, path: &str) -> Result<(), MeshError> {
+        let wrap = if pictures.repeats() { "repeat" } else { "clamp" };
+        for (what, file) in pictures.all() {
+            // Directions are from -1 to 1, and no colours.
+            let kind = match what {
+                "color" => "token inputs:sourceColorSpace = \"sRGB\"",
+                "normal" => {
+                    "token inputs:sourceColorSpace = \"raw\"\n                \
+                     float4 inputs:scale = (2, 2, 2, 1)\n                \
+                     float4 inputs:bias = (-1, -1, -1, 0)"
+                }
+                _ => "token inputs:sourceColorSpace = \"raw\"",
+            };
+            write!(
+                self.out,
+                "\n            def Shader \"{what}\"\n            {{\n                \
+                 uniform token info:id = \"UsdUVTexture\"\n                \
+                 asset inputs:file = @./{file}@\n                \
+                 {kind}\n                \
+                 float2 inputs:st.connect = <{path}/place.outputs:result>\n                \
+                 token inputs:wrapS = \"{wrap}\"\n                \
+                 token inputs:wrapT = \"{wrap}\"\n                \
+                 float outputs:r\n                \
+                 float outputs:g\n                \
+                 float outputs:a\n                \
+                 float3 outputs:rgb\n            }}\n"
+            )?;
+        }
+        write!(
+            self.out,
+            "\n            def Shader \"place\"\n            {{\n                \
+             uniform token info:id = \"UsdPrimvarReader_float2\"\n                \
+             string inputs:varname = \"st\"\n                \
+             float2 outputs:result\n            }}\n"
+        )?;
+        Ok(())
+    }
+
     fn materials(&mut self) -> Result<(), MeshError> {
         writeln!(self.out, "\n    def Scope \"materials\"\n    {{")?;
         let mut used: Vec<Material> = self.parts.iter().map(|p| p.material).collect();
         used.dedup();
         for material in used {
-            let picture = self.notes.pictures.iter().find(|(of, _)| *of == material).map(|(_, file)| file);
+            let picture = self.notes.pictures.iter().find(|pictures| pictures.material == material);
             let path = format!("/{}/materials/{}", self.root, material.name());
             let [r, g, b] = linear(self.palette.color(material));
-            let color = match picture {
-                Some(_) => format!(
-                    "color3f inputs:diffuseColor.connect = <{path}/picture.outputs:rgb>\n                \
-                     float inputs:opacity.connect = <{path}/picture.outputs:a>\n                \
-                     float inputs:opacityThreshold = 0.4"
-                ),
-                None => format!("color3f inputs:diffuseColor = ({r:.4}, {g:.4}, {b:.4})"),
+            let mut inputs = match picture {
+                Some(_) => vec![format!("color3f inputs:diffuseColor.connect = <{path}/color.outputs:rgb>")],
+                None => vec![format!("color3f inputs:diffuseColor = ({r:.4}, {g:.4}, {b:.4})")],
             };
-            let roughness = if material == Material::Bark { 0.95 } else { 0.7 };
+            if picture.is_some_and(|pictures| !pictures.repeats()) {
+                inputs.push(format!("float inputs:opacity.connect = <{path}/color.outputs:a>"));
+                inputs.push("float inputs:opacityThreshold = 0.4".to_owned());
+            }
+            if picture.is_some_and(|pictures| pictures.normal.is_some()) {
+                inputs.push(format!("normal3f inputs:normal.connect = <{path}/normal.outputs:rgb>"));
+            }
+            if picture.is_some_and(|pictures| pictures.roughness.is_some()) {
+                inputs.push(format!("float inputs:occlusion.connect = <{path}/roughness.outputs:r>"));
+                inputs.push(format!("float inputs:roughness.connect = <{path}/roughness.outputs:g>"));
+            } else {
+                let roughness = if material == Material::Bark { 0.95 } else { 0.7 };
+                inputs.push(format!("float inputs:roughness = {roughness}"));
+            }
+            let inputs = inputs.join("\n                ");
             write!(
                 self.out,
                 "        def Material \"{}\"\n        {{\n            \
                  token outputs:surface.connect = <{path}/surface.outputs:surface>\n\n            \
                  def Shader \"surface\"\n            {{\n                \
                  uniform token info:id = \"UsdPreviewSurface\"\n                \
-                 {color}\n                \
-                 float inputs:roughness = {roughness}\n                \
+                 {inputs}\n                \
                  token outputs:surface\n            }}\n",
                 material.name()
             )?;
-            if let Some(file) = picture {
-                write!(
-                    self.out,
-                    "\n            def Shader \"picture\"\n            {{\n                \
-                     uniform token info:id = \"UsdUVTexture\"\n                \
-                     asset inputs:file = @./{file}@\n                \
-                     float2 inputs:st.connect = <{path}/place.outputs:result>\n                \
-                     token inputs:wrapS = \"clamp\"\n                \
-                     token inputs:wrapT = \"clamp\"\n                \
-                     float outputs:a\n                \
-                     float3 outputs:rgb\n            }}\n\n            \
-                     def Shader \"place\"\n            {{\n                \
-                     uniform token info:id = \"UsdPrimvarReader_float2\"\n                \
-                     string inputs:varname = \"st\"\n                \
-                     float2 outputs:result\n            }}\n"
-                )?;
+            if let Some(pictures) = picture {
+                self.pictures(pictures, &path)?;
             }
             writeln!(self.out, "        }}")?;
         }

@@ -46,16 +46,70 @@ fn corners_are_finite_with_unit_normals_and_textures_in_range() {
             for v in &block.vertices {
                 assert!(v.to_array().iter().all(|x| x.is_finite()), "{name}: {v:?}");
                 assert!((v.normal.length() - 1.0).abs() < 1e-3, "{name} {:?}: {v:?}", part.material);
-                let top = if part.material == Material::Bark { 1e3 } else { 1.0 + 1e-5 };
-                assert!(
-                    (-1e-5..=1.0 + 1e-5).contains(&v.uv.x) && (-1e-5..=top).contains(&v.uv.y),
-                    "{name}: {v:?}"
-                );
+                // Bark has tiles, which grow upwards: against v.
+                let (u, v_range) = match part.material {
+                    Material::Bark => (100.0, -1e4..=1e-5),
+                    _ => (1.0, -1e-5..=1.0 + 1e-5),
+                };
+                assert!((-1e-5..=u + 1e-5).contains(&v.uv.x) && v_range.contains(&v.uv.y), "{name}: {v:?}");
             }
             let used: HashSet<u32> = block.triangles.iter().flatten().copied().collect();
             assert_eq!(used.len(), block.vertices.len(), "{name}: every corner is used");
         }
     }
+}
+
+/// Area of a triangle of bark, and how much wider than high a picture is drawn on it; `None` without a picture.
+fn stretch([a, b, c]: [&pleach_mesh::Vertex; 3]) -> (f32, Option<f32>) {
+    let (p, q) = (b.position - a.position, c.position - a.position);
+    let (s, t) = (b.uv - a.uv, c.uv - a.uv);
+    let area = s.perp_dot(t);
+    // A picture with v downwards is upright and not mirrored if u, v and the normal are a left-handed system.
+    let (across, along) = ((p * t.y - q * s.y) / area, (q * s.x - p * t.x) / area);
+    let is_upright = across.cross(along).dot(a.normal + b.normal + c.normal) < 0.0;
+    (p.cross(q).length(), is_upright.then(|| across.length() / along.length()))
+}
+
+#[test]
+fn pictures_of_bark_keep_their_form_and_are_not_mirrored() {
+    for name in SPECIES {
+        let tree = pleach_generators::preset(name).unwrap().grow_bare(1).unwrap();
+        let mesh = Mesh::new(&tree, MeshSettings::default());
+        let bark = mesh.part(Material::Bark).unwrap();
+        let (mut good, mut all) = (0.0, 0.0);
+        for triangle in &bark.triangles {
+            let corners = triangle.map(|i| &bark.vertices[i as usize]);
+            let (area, stretch) = stretch(corners);
+            all += area;
+            good += if stretch.is_some_and(|ratio| (0.5..=2.0).contains(&ratio)) { area } else { 0.0 };
+        }
+        assert!(good >= 0.95 * all, "{name}: {:.1} % of the area", 100.0 * good / all);
+    }
+}
+
+#[test]
+fn bark_runs_on_through_forks() {
+    let tree = pleach_generators::preset("acer").unwrap().grow_bare(1).unwrap();
+    let mesher = Mesher::new(&tree, MeshSettings::default());
+    let mesh = Mesh::new(&tree, MeshSettings::default());
+    let bark = &mesh.part(Material::Bark).unwrap().vertices;
+    let mut forks = 0;
+    for (i, stem) in tree.stems.iter().enumerate() {
+        let (StemKind::Fork, Some(parent)) = (stem.kind, stem.parent) else { continue };
+        // The parent's corner that is nearest to where the fork begins.
+        let first = mesher.first_vertex(i) as usize;
+        let foot = bark[first].uv.y;
+        let of_parent =
+            mesher.first_vertex(parent as usize) as usize..mesher.first_vertex(parent as usize + 1) as usize;
+        let place = tree.knots_of(stem)[0].point.as_vec3();
+        let nearest = bark[of_parent]
+            .iter()
+            .min_by(|a, b| a.position.distance_squared(place).total_cmp(&b.position.distance_squared(place)));
+        let apart = (nearest.unwrap().uv.y - foot).abs();
+        assert!(apart < 1.5, "fork {i} begins {apart} tiles from where its parent is left");
+        forks += usize::from(foot < -1.0);
+    }
+    assert!(forks > 5, "{forks}");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::option_error::{OptionError, from_json};
 use pleach_mesh::weld::WeldSettings;
 use pleach_mesh::write::{Feature, Format};
 use pleach_mesh::{LeafStyle, MeshSettings, Palette, lod};
-use pleach_render::billboard;
+use pleach_render::{bark_picture, billboard};
 use pleach_tree::{Parts, Season, Species};
 use serde::{Deserialize, Serialize};
 
@@ -96,6 +96,8 @@ pub struct Export {
     pub roots: bool,
     /// How leaves are drawn.
     pub leaves: LeafForm,
+    /// Pictures of the bark of so many pixels a side, 512, 1024 or 2048: colour, normals, roughness and occlusion.
+    pub textures: Option<u32>,
     /// Season; by default the species file's own, or summer with all its blossom. In JSON its name.
     #[serde(with = "season")]
     pub season: Option<Season>,
@@ -115,6 +117,7 @@ impl Default for Export {
             fillet: 0.0,
             roots: false,
             leaves: LeafForm::default(),
+            textures: None,
             season: None,
             wind: false,
             sway: false,
@@ -183,6 +186,10 @@ impl Export {
         if let Some(cell) = self.weld.filter(|cell| !(1.0..=1000.0).contains(cell)) {
             return error("weld", format!("has cells of {cell} mm, expected from 1 to 1000"));
         }
+        if let Some(side) = self.textures.filter(|side| !bark_picture::SIDES.contains(side)) {
+            let sides = bark_picture::SIDES.map(|side| side.to_string()).join(", ");
+            return error("textures", format!("is {side} pixels, expected one of {sides}"));
+        }
         if !(0.0..=WeldSettings::MAX_FILLET).contains(&self.fillet) {
             let most = WeldSettings::MAX_FILLET;
             return error("fillet", format!("is {}, expected a ratio from 0 to {most}", self.fillet));
@@ -200,6 +207,9 @@ impl Export {
         let asked = |names: &[&str]| {
             asks.iter().find(|(name, asked)| *asked && names.contains(name)).map(|(name, _)| *name)
         };
+        if self.weld.is_some() && self.textures.is_some() {
+            return Err(OptionError::new("textures", "cannot be laid on one surface, which `weld` makes"));
+        }
         if self.weld.is_some()
             && let Some(other) = asked(&["lod", "sway", "wind"])
         {
@@ -220,6 +230,7 @@ impl Export {
     fn features(&self) -> impl Iterator<Item = (&'static str, Feature)> {
         let asked = [
             ("leaves", self.leaves.feature()),
+            ("textures", self.textures.map(|_| Feature::Textures)),
             ("wind", self.wind.then_some(Feature::Wind)),
             ("lod", (self.lod > 1).then_some(Feature::Levels)),
             ("billboard", (self.billboard > 0).then_some(Feature::Billboard)),
@@ -258,7 +269,7 @@ mod tests {
     #[test]
     fn options_read_back_from_json_and_unknown_ones_are_refused() {
         let other = r#"{ "lod": 2, "billboard": 3, "tolerance": 5.0, "weld": 30.0, "fillet": 1.0, "roots": true,
-            "leaves": "cards", "season": "autumn", "wind": true, "sway": true }"#;
+            "leaves": "cards", "textures": 512, "season": "autumn", "wind": true, "sway": true }"#;
         let other = Export::from_json(other).unwrap();
         let written = serde_json::to_value(&other).unwrap();
         assert_eq!(serde_json::from_value::<Export>(written.clone()).unwrap(), other);
@@ -290,6 +301,7 @@ mod tests {
             assert_eq!(wrong(format, |e| e.weld = Some(0.5)), "weld");
             assert_eq!(wrong(format, |e| (e.weld, e.fillet) = (Some(5.0), 4.5)), "fillet");
             assert_eq!(wrong(format, |e| e.fillet = 1.0), "fillet");
+            assert_eq!(wrong(format, |e| e.textures = Some(65_536)), "textures");
             assert_eq!(wrong(format, |e| (e.weld, e.wind) = (Some(5.0), true)), "weld");
             assert_eq!(wrong(format, |e| (e.sway, e.lod) = (true, 2)), "sway");
         }
@@ -297,6 +309,8 @@ mod tests {
         assert_eq!(wrong(Format::Obj, |e| e.wind = true), "wind");
         assert_eq!(wrong(Format::Ply, |e| e.leaves = LeafForm::Cards), "leaves");
         assert_eq!(wrong(Format::Usda, |e| e.billboard = 2), "billboard");
+        assert_eq!(wrong(Format::Stl, |e| e.textures = Some(512)), "textures");
+        assert_eq!(wrong(Format::Ply, |e| e.textures = Some(512)), "textures");
         let message = Export { lod: 2, ..Export::default() }.check(Format::Obj).unwrap_err().to_string();
         assert_eq!(message, "`lod` is for .glb, and .obj cannot hold it");
     }

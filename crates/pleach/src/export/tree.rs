@@ -7,8 +7,8 @@ use pleach_mesh::lod::{self, Level};
 use pleach_mesh::weld::{self, WeldSettings};
 use pleach_mesh::write::glb::{Glb, Placed, Scene};
 use pleach_mesh::write::{Format, obj, ply, stl, usda};
-use pleach_mesh::{Block, Card, Cards, Material, Mesher, Palette, Rig, Source, Welded, send};
-use pleach_render::{Billboards, leaf_picture, png_file};
+use pleach_mesh::{Block, Card, Cards, Material, Mesher, Palette, Pictures, Rig, Source, Welded, send};
+use pleach_render::{Billboards, Picture, bark_picture, leaf_picture, png_file};
 use pleach_tree::{Species, Tree};
 use serde_json::json;
 use std::io::{Cursor, Seek, Write};
@@ -124,22 +124,26 @@ impl Export {
         lod::levels(tree, self.settings(), self.lod)
     }
 
-    /// PNG files that leaves, blossom and billboards show.
+    /// PNG files that bark, leaves, blossom and billboards show.
     pub(super) fn pictures(
         &self,
         tree: &Tree,
         palette: &Palette,
         billboards: Option<&Billboards>,
-    ) -> Result<Vec<(Material, Vec<u8>)>, ExportError> {
+    ) -> Result<Vec<Pictures<Vec<u8>>>, ExportError> {
+        let png = |picture: &Picture| png_file::bytes(picture).map_err(ExportError::Picture);
         let mut pictures = Vec::new();
+        if let Some(side) = self.textures {
+            let bark = bark_picture::bark(palette.pattern, palette.bark, side);
+            pictures.push(bark.try_map(|_, picture| png(&picture))?);
+        }
         if self.leaves == LeafForm::Cards {
             for (material, picture) in leaf_picture::leaf_pictures(tree, palette) {
-                pictures.push((material, png_file::bytes(&picture).map_err(ExportError::Picture)?));
+                pictures.push(Pictures::colors(material, png(&picture)?));
             }
         }
         if let Some(billboards) = billboards {
-            let png = png_file::bytes(&billboards.picture).map_err(ExportError::Picture)?;
-            pictures.push((Material::Card, png));
+            pictures.push(Pictures::colors(Material::Card, png(&billboards.picture)?));
         }
         Ok(pictures)
     }
@@ -209,18 +213,28 @@ impl One<'_> {
         Ok(beside)
     }
 
-    /// The pictures of leaves and blossom, as files and by name.
-    fn pictures_beside(&self) -> Result<(Vec<Beside>, Vec<(Material, String)>), ExportError> {
+    /// The pictures of bark, leaves and blossom, as files and by name.
+    fn pictures_beside(&self) -> Result<(Vec<Beside>, Vec<Pictures<String>>), ExportError> {
         let (mut beside, mut names) = (Vec::new(), Vec::new());
         let Some(stem) = self.stem else { return Ok((beside, names)) };
-        for (material, bytes) in self.export.pictures(self.tree, &self.palette, None)? {
-            let placed = if material == Material::Blossom { &self.tree.blossoms } else { &self.tree.leaves };
-            if placed.is_empty() {
+        for pictures in self.export.pictures(self.tree, &self.palette, None)? {
+            let is_shown = match pictures.material {
+                Material::Blossom => !self.tree.blossoms.is_empty(),
+                Material::Leaf => !self.tree.leaves.is_empty(),
+                Material::Bark | Material::Card => true,
+            };
+            if !is_shown {
                 continue;
             }
-            let name = format!("{stem}-{}.png", material.name());
-            names.push((material, name.clone()));
-            beside.push(Beside { name, bytes });
+            let material = pictures.material.name();
+            names.push(pictures.try_map(|what, bytes| {
+                let name = match what {
+                    "color" => format!("{stem}-{material}.png"),
+                    what => format!("{stem}-{material}-{what}.png"),
+                };
+                beside.push(Beside { name: name.clone(), bytes });
+                Ok::<String, ExportError>(name)
+            })?);
         }
         Ok((beside, names))
     }

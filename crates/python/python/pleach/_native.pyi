@@ -58,6 +58,7 @@ class Species(Mapping[str, Any]):
         billboard: int = 0,
         tolerance: float = 2.0,
         leaves: _LeafForm = "outline",
+        textures: Optional[int] = None,
         season: Optional[_Season] = None,
         wind: bool = False,
     ) -> int: ...
@@ -125,6 +126,7 @@ class Tree:
         fillet: float = 0.0,
         roots: bool = False,
         leaves: _LeafForm = "outline",
+        textures: Optional[int] = None,
         season: Optional[_Season] = None,
         wind: bool = False,
         sway: bool = False,
@@ -139,6 +141,7 @@ class Tree:
         fillet: float = 0.0,
         roots: bool = False,
         leaves: _LeafForm = "outline",
+        textures: Optional[int] = None,
         season: Optional[_Season] = None,
         wind: bool = False,
         sway: bool = False,

@@ -4,7 +4,7 @@
 //! lit by a sun with shadows and by a sky that the crown hides in part. The same tree, palette and
 //! settings give the same picture, for any number of threads.
 
-mod bark;
+pub(crate) mod bark;
 mod camera;
 mod crown;
 mod flat;

@@ -173,7 +173,7 @@ impl View<'_> {
         };
         // Below a pixel or two markings only flicker.
         let seen = smooth(2.0, 8.0, radius * self.camera.scale_at(at) / SAMPLES as f32);
-        let marks = 1.0 + (bark::shade(palette.pattern, u, v, radius) - 1.0) * seen * old;
+        let marks = 1.0 + (bark::shade(palette.pattern, u, v) - 1.0) * seen * old;
         let albedo = young.lerp(bark, old) * marks;
         let facing = if normal.dot(ray) > 0.0 { -normal } else { normal };
         let sky = self.scene.crown.sky_at(at + facing * 0.05);

@@ -66,8 +66,8 @@ impl Choice {
 
 /// The table. `--no-leaves`, `--leafy`, `--seed`, `--seeds` and the limits apply to every output.
 #[rustfmt::skip]
-static CHOICES: [Choice; 14] = {
-    use MeshFeature::{Billboard, Forest, LeafCards, LeafInstances, Levels, Sway, Wind};
+static CHOICES: [Choice; 15] = {
+    use MeshFeature::{Billboard, Forest, LeafCards, LeafInstances, Levels, Sway, Textures, Wind};
     use Takes::{All, AllButPng, Holding, Meshes, Png};
 
     const fn choice(flag: &'static str, what: &'static str, takes: Takes, given: fn(&Grow) -> bool) -> Choice {
@@ -82,6 +82,7 @@ static CHOICES: [Choice; 14] = {
         choice("--leaves simple", "leaves of two triangles", Meshes, |g| g.mesh.leaves == Some(LeafForm::Simple)),
         choice("--leaves cards", "cards with a leaf's picture", Holding(LeafCards), |g| g.mesh.leaves == Some(LeafForm::Cards)),
         choice("--leaves instances", "placed leaves", Holding(LeafInstances), |g| g.mesh.leaves == Some(LeafForm::Instances)),
+        choice("--textures", "pictures of bark", Holding(Textures), |g| g.mesh.textures.is_some()),
         choice("--weld", "one watertight surface", Meshes, |g| g.mesh.weld.is_some()),
         choice("--wind", "data for wind shaders", Holding(Wind), |g| g.mesh.wind),
         choice("--lod", "levels of detail", Holding(Levels), |g| g.mesh.lod.is_some()),

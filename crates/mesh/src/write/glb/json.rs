@@ -4,6 +4,7 @@ use super::layout::{Layout, PartLayout, SKIN_BYTES};
 use super::{Placed, Scene, animation, upright};
 use crate::palette::linear;
 use crate::part::Material;
+use crate::pictures::Pictures;
 use glam::Vec3;
 use pleach_plant::math;
 use serde_json::{Map, Value, json};
@@ -53,11 +54,11 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
         root["animations"] = Value::Array(file.animations);
     }
     if !textures.is_empty() {
-        let texture = |i: usize| json!({"source": i, "sampler": 0});
         root["images"] = Value::Array(file.images);
-        // Linear, with mipmaps; clamped at the edges.
-        root["samplers"] = json!([{"magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071}]);
-        root["textures"] = Value::Array((0..textures.len()).map(texture).collect());
+        // Linear, with mipmaps; clamped at the edges, and repeating.
+        let sampler = |wrap: u32| json!({"magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap});
+        root["samplers"] = [33_071, 10_497].map(sampler).into_iter().collect();
+        root["textures"] = Value::Array(file.textures);
     }
     if !file.used.is_empty() {
         root["extensionsUsed"] = json!(file.used);
@@ -71,8 +72,25 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 const LEVELS: &str = "MSFT_lod";
 
-fn material(scene: &Scene<'_>, textures: &[Material], material: Material) -> Value {
-    if let Some(texture) = textures.iter().position(|m| *m == material) {
+fn material(scene: &Scene<'_>, textures: &[Textures], material: Material) -> Value {
+    let own = textures.iter().find(|textures| textures.material == material);
+    if let Some(Textures { color, normal, roughness, .. }) = own.filter(|_| material == Material::Bark) {
+        let mut value = json!({
+            "name": material.name(),
+            "pbrMetallicRoughness": {
+                "baseColorTexture": {"index": color}, "metallicFactor": 0.0, "roughnessFactor": 1.0,
+            },
+        });
+        if let Some(normal) = normal {
+            value["normalTexture"] = json!({"index": normal});
+        }
+        if let Some(roughness) = roughness {
+            value["occlusionTexture"] = json!({"index": roughness});
+            value["pbrMetallicRoughness"]["metallicRoughnessTexture"] = json!({"index": roughness});
+        }
+        return value;
+    }
+    if let Some(Textures { color: texture, .. }) = own {
         let roughness = if material == Material::Card { 1.0 } else { 0.7 };
         return json!({
             "name": material.name(), "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.4,
@@ -102,6 +120,9 @@ struct Drawn {
     instanced: Vec<(usize, Value)>,
 }
 
+/// Numbers of the textures of a material.
+type Textures = Pictures<usize>;
+
 #[derive(Default)]
 struct File {
     views: Vec<Value>,
@@ -112,6 +133,7 @@ struct File {
     animations: Vec<Value>,
     materials: Vec<Material>,
     images: Vec<Value>,
+    textures: Vec<Value>,
     used: Vec<&'static str>,
 }
 
@@ -127,18 +149,34 @@ impl File {
         }
     }
 
-    /// One image and texture a picture that some part shows; returns whose they are.
-    fn textures(&mut self, scene: &Scene<'_>, layout: &Layout) -> Vec<Material> {
-        let mut textures = Vec::new();
-        for ((material, png), offset) in scene.pictures.iter().zip(&layout.pictures) {
-            if let Some(offset) = offset {
+    /// One image and texture for each PNG file of what some part shows; returns their numbers.
+    fn textures(&mut self, scene: &Scene<'_>, layout: &Layout) -> Vec<Textures> {
+        let shown = scene.pictures.iter().zip(&layout.pictures).filter(|(_, offsets)| !offsets.is_empty());
+        let of_each = shown.map(|(pictures, offsets)| {
+            let mut numbers = pictures.all().zip(offsets).map(|((what, png), offset)| {
+                let name = match what {
+                    "color" => pictures.material.name().to_owned(),
+                    what => format!("{} {what}", pictures.material.name()),
+                };
                 let view = self.view(*offset, png.len() as u64, None, None);
-                let image = json!({"name": material.name(), "mimeType": "image/png", "bufferView": view});
-                self.images.push(image);
-                textures.push(*material);
+                let image = push(
+                    &mut self.images,
+                    json!({"name": name, "mimeType": "image/png", "bufferView": view}),
+                );
+                let sampler = u8::from(pictures.repeats());
+                push(&mut self.textures, json!({"source": image, "sampler": sampler}))
+            });
+            // In the order of `all`.
+            let color = numbers.next().unwrap_or_default();
+            let mut further = |there: bool| if there { numbers.next() } else { None };
+            Textures {
+                material: pictures.material,
+                color,
+                normal: further(pictures.normal.is_some()),
+                roughness: further(pictures.roughness.is_some()),
             }
-        }
-        textures
+        });
+        of_each.collect()
     }
 
     fn view(&mut self, offset: u64, bytes: u64, stride: Option<u64>, target: Option<u32>) -> usize {

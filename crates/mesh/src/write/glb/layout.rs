@@ -57,8 +57,8 @@ pub(super) struct Layout {
     pub(super) bind_matrices: u64,
     pub(super) times: u64,
     pub(super) rotations: u64,
-    /// Offset of each of the scene's pictures; `None` for a picture that no part shows.
-    pub(super) pictures: Vec<Option<u64>>,
+    /// Offsets of the PNG files of each of the scene's pictures; none of those that no part shows.
+    pub(super) pictures: Vec<Vec<u64>>,
     /// Size of the whole, a multiple of 4.
     pub(super) bytes: u64,
 }
@@ -96,7 +96,10 @@ impl Layout {
         let pictures = scene
             .pictures
             .iter()
-            .map(|(material, png)| shown(*material).then(|| take(png.len() as u64)))
+            .map(|pictures| {
+                let files = pictures.all().filter(|_| shown(pictures.material));
+                files.map(|(_, png)| take(png.len() as u64)).collect()
+            })
             .collect();
         Self { parts, bind_matrices, times, rotations, pictures, bytes: at }
     }
@@ -110,8 +113,8 @@ impl Layout {
             fixed.push((self.times, floats(&animation::times())));
             fixed.push((self.rotations, floats(&animation::rotations(rig))));
         }
-        for ((_, png), offset) in scene.pictures.iter().zip(&self.pictures) {
-            if let Some(offset) = offset {
+        for (pictures, offsets) in scene.pictures.iter().zip(&self.pictures) {
+            for ((_, png), offset) in pictures.all().zip(offsets) {
                 let mut bytes = png.clone();
                 bytes.resize(bytes.len().next_multiple_of(4), 0);
                 fixed.push((*offset, bytes));

@@ -6,7 +6,7 @@
 //! | what | how |
 //! | --- | --- |
 //! | corners | interleaved position, normal, texture coordinates; wind in `_WIND_PIVOT`, `_WIND_SWAY` |
-//! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided; cards show pictures with alpha masks |
+//! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided; cards show pictures with alpha masks, bark tiles with normals, roughness and occlusion |
 //! | levels of detail | `MSFT_lod` on the node of the finest; viewers that do not know it show that one |
 //! | leaves as instances | `EXT_mesh_gpu_instancing`, then required: without it there is no crown |
 //! | forests | many nodes that share few meshes |
@@ -19,7 +19,8 @@ mod layout;
 use crate::block::{Block, Vertex, Wind};
 use crate::mesher::Mesher;
 use crate::palette::Palette;
-use crate::part::{Material, MeshError, Part, Sink};
+use crate::part::{MeshError, Part, Sink};
+use crate::pictures::Pictures;
 use crate::rig::Rig;
 use crate::settings::MeshSettings;
 use crate::stream::send;
@@ -65,8 +66,8 @@ pub struct Scene<'a> {
     pub placed: Vec<Placed>,
     /// Joints and their sway, for a mesh that was made with this rig.
     pub rig: Option<&'a Rig>,
-    /// PNG files that materials show instead of their colour; what is not opaque there is cut out.
-    pub pictures: Vec<(Material, Vec<u8>)>,
+    /// PNG files that materials show instead of their colour.
+    pub pictures: Vec<Pictures<Vec<u8>>>,
 }
 
 /// Writes GLB.

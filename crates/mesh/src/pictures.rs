@@ -1,0 +1,53 @@
+//! The pictures that a material shows instead of its colour.
+
+use crate::part::Material;
+
+/// Pictures of one material: the bytes of PNG files, or their names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pictures<P> {
+    /// Whose they are. Those of bark are tiles that repeat; of the others what is not opaque is cut out.
+    pub material: Material,
+    /// Colours, as sRGB.
+    pub color: P,
+    /// Directions in tangent space, x to the right, y up.
+    pub normal: Option<P>,
+    /// Occlusion in red, roughness in green.
+    pub roughness: Option<P>,
+}
+
+impl<P> Pictures<P> {
+    /// A picture of colours alone.
+    pub const fn colors(material: Material, color: P) -> Self {
+        Self { material, color, normal: None, roughness: None }
+    }
+
+    /// Whether the picture repeats.
+    #[must_use]
+    pub const fn repeats(&self) -> bool {
+        matches!(self.material, Material::Bark)
+    }
+
+    /// Those that there are, with what each is called.
+    pub fn all(&self) -> impl Iterator<Item = (&'static str, &P)> {
+        let further = [("normal", &self.normal), ("roughness", &self.roughness)];
+        let further = further.into_iter().filter_map(|(name, picture)| Some((name, picture.as_ref()?)));
+        std::iter::once(("color", &self.color)).chain(further)
+    }
+
+    /// The same with each picture replaced by what `replace` makes of it and what it is called.
+    ///
+    /// # Errors
+    /// The first error of `replace`.
+    pub fn try_map<Q, E>(
+        self,
+        mut replace: impl FnMut(&'static str, P) -> Result<Q, E>,
+    ) -> Result<Pictures<Q>, E> {
+        let Self { material, color, normal, roughness } = self;
+        Ok(Pictures {
+            material,
+            color: replace("color", color)?,
+            normal: normal.map(|picture| replace("normal", picture)).transpose()?,
+            roughness: roughness.map(|picture| replace("roughness", picture)).transpose()?,
+        })
+    }
+}
