@@ -10,6 +10,7 @@ mod fill;
 mod wide;
 
 use crate::bitmap::Bitmap;
+pub(super) use fill::SKEW;
 use std::ops::Range;
 
 /// Samples across each pixel, one byte of them.

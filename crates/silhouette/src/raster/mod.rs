@@ -5,6 +5,7 @@
 //! they cover, and a pixel is black from half coverage: the way in which the reference silhouettes
 //! were drawn, and the one that neither thickens nor loses twigs thinner than a pixel.
 
+mod depth;
 mod grid;
 mod layer;
 mod occlusion;

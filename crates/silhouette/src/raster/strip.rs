@@ -27,8 +27,32 @@ struct Rib {
     side: Vec2,
 }
 
+/// A part of a stem between two points of its axis, in metres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chord {
+    pub(super) from: DVec3,
+    pub(super) to: DVec3,
+    pub(super) radii: [f64; 2],
+}
+
+/// What stems are drawn on.
+pub(super) trait Canvas {
+    /// Fills a polygon, as [`Grid::fill`].
+    fn fill(&mut self, corners: &[Corner]);
+
+    /// The polygons that follow are seen of this part of a stem.
+    fn begin(&mut self, _chord: impl FnOnce() -> Chord) {}
+}
+
+impl Canvas for Grid {
+    #[inline]
+    fn fill(&mut self, corners: &[Corner]) {
+        Self::fill(self, corners);
+    }
+}
+
 /// Draws `stem`; `scale` turns pixels into samples.
-pub(super) fn draw(grid: &mut Grid, camera: &Camera, scale: Vec2, tree: &Tree, stem: &Stem) {
+pub(super) fn draw(canvas: &mut impl Canvas, camera: &Camera, scale: Vec2, tree: &Tree, stem: &Stem) {
     let mut last: Option<Rib> = None;
     let knots = tree.knots_of(stem);
     let straight = knots[knots.len() - 1].point - knots[0].point;
@@ -36,24 +60,32 @@ pub(super) fn draw(grid: &mut Grid, camera: &Camera, scale: Vec2, tree: &Tree, s
         let chords = piece.chords(TOLERANCE / camera.pixels_per_meter());
         if last.is_none() {
             last = rib(camera, &piece, 0.0, r0, straight);
-            cap(grid, camera, scale, &piece, 0.0, r0);
+            canvas.begin(|| Chord { from: piece.at(0.0), to: piece.at(0.0), radii: [r0, r0] });
+            cap(canvas, camera, scale, &piece, 0.0, r0);
         } else if k > 0 && is_sharp([&knots[k - 1], &knots[k], &knots[k + 1]]) {
             last = rib(camera, &piece, 0.0, r0, knots[k + 1].point - knots[k].point);
             if let Some(rib) = &last {
-                ball(grid, scale, rib);
+                canvas.begin(|| Chord { from: piece.at(0.0), to: piece.at(0.0), radii: [r0, r0] });
+                ball(canvas, scale, rib);
             }
         }
         for i in 1..=chords {
             let t = f64::from(i) / f64::from(chords);
-            let next = rib(camera, &piece, t, r0 + (r1 - r0) * t, straight);
+            let radius = |t: f64| r0 + (r1 - r0) * t;
+            let next = rib(camera, &piece, t, radius(t), straight);
             if let (Some(from), Some(to)) = (last, next) {
-                quad(grid, scale, &from, &to);
+                canvas.begin(|| {
+                    let before = f64::from(i - 1) / f64::from(chords);
+                    Chord { from: piece.at(before), to: piece.at(t), radii: [radius(before), radius(t)] }
+                });
+                quad(canvas, scale, &from, &to);
             }
             last = next;
         }
     }
     if let Some((piece, _, r1)) = tree.pieces_of(stem).last() {
-        cap(grid, camera, scale, &piece, 1.0, r1);
+        canvas.begin(|| Chord { from: piece.at(1.0), to: piece.at(1.0), radii: [r1, r1] });
+        cap(canvas, camera, scale, &piece, 1.0, r1);
     }
 }
 
@@ -80,22 +112,22 @@ fn rib(camera: &Camera, piece: &Cubic, t: f64, radius: f64, fallback: DVec3) -> 
 
 /// The strip between two ribs; where it bends more sharply than it is wide, two triangles, since the
 /// quadrilateral would cross itself.
-fn quad(grid: &mut Grid, scale: Vec2, from: &Rib, to: &Rib) {
+fn quad(canvas: &mut impl Canvas, scale: Vec2, from: &Rib, to: &Rib) {
     let corner = |p: Vec2| -> Corner { (p * scale).to_array() };
     let (a, b) = (from.center + from.side, from.center - from.side);
     let (c, d) = (to.center - to.side, to.center + to.side);
     let ahead = to.center - from.center;
     if (d - a).dot(ahead) >= 0.0 && (c - b).dot(ahead) >= 0.0 {
-        grid.fill(&[corner(a), corner(b), corner(c), corner(d)]);
+        canvas.fill(&[corner(a), corner(b), corner(c), corner(d)]);
     } else {
-        grid.fill(&[corner(a), corner(b), corner(c)]);
-        grid.fill(&[corner(a), corner(c), corner(d)]);
-        grid.fill(&[corner(a), corner(b), corner(d)]);
+        canvas.fill(&[corner(a), corner(b), corner(c)]);
+        canvas.fill(&[corner(a), corner(c), corner(d)]);
+        canvas.fill(&[corner(a), corner(b), corner(d)]);
     }
 }
 
 /// The ball at a corner, as wide as `rib`.
-fn ball(grid: &mut Grid, scale: Vec2, rib: &Rib) {
+fn ball(canvas: &mut impl Canvas, scale: Vec2, rib: &Rib) {
     const MAX_CORNERS: usize = 64;
     let radius = rib.side.length();
     // Edges stray from the circle by at most half of the tolerance, up to a radius of 40 pixels.
@@ -105,11 +137,11 @@ fn ball(grid: &mut Grid, scale: Vec2, rib: &Rib) {
         let (sin, cos) = math::sin_cos_f32(i as f32 * std::f32::consts::TAU / count as f32);
         ((rib.center + Vec2::new(cos, sin) * radius) * scale).to_array()
     });
-    grid.fill(&corners[..count]);
+    canvas.fill(&corners[..count]);
 }
 
 /// The cross-section at `t`, an ellipse where the stem points at the viewer or away.
-fn cap(grid: &mut Grid, camera: &Camera, scale: Vec2, piece: &Cubic, t: f64, radius: f64) {
+fn cap(canvas: &mut impl Canvas, camera: &Camera, scale: Vec2, piece: &Cubic, t: f64, radius: f64) {
     const CORNERS: usize = 16;
     // Most stems are thinner than this, and need no more than a look.
     let widest = radius * camera.pixels_per_meter();
@@ -128,5 +160,5 @@ fn cap(grid: &mut Grid, camera: &Camera, scale: Vec2, piece: &Cubic, t: f64, rad
         let (sin, cos) = math::sin_cos_f32(i as f32 * std::f32::consts::TAU / CORNERS as f32);
         ((rib.center + rib.side * cos + short * sin) * scale).to_array()
     });
-    grid.fill(&corners);
+    canvas.fill(&corners);
 }

@@ -13,7 +13,8 @@ const HIGH: usize = 64;
 /// How far the samples of a row lie to the right of the middle of their columns, in 65,536ths of a
 /// column: other places in each row, so that upright edges are seen eight times as finely. The mean is
 /// 0.
-pub(super) const SKEW: [i32; 8] = [-28_672, 4_096, -12_288, 20_480, -20_480, 12_288, -4_096, 28_672];
+pub(in crate::raster) const SKEW: [i32; 8] =
+    [-28_672, 4_096, -12_288, 20_480, -20_480, 12_288, -4_096, 28_672];
 
 /// [`SKEW`] of as many rows as are filled at once, from any row on.
 const SKEWS: [i32; HIGH + SKEW.len()] = {
