@@ -89,7 +89,7 @@ pub use method::{
     Shade, ShadeSettings, Start, UnknownOptimizer,
 };
 pub use posterior::{
-    HeldOut, Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings, Prior,
+    HeldOut, Interval, NoSample, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings, Prior,
 };
 pub use predictor::{PredictorError, Predictors};
 pub use problem::{

@@ -127,11 +127,11 @@ pub use pleach_fit::{
     Accuracy, Assessment, AssessmentSettings, Budget, COLUMNS, Candidate, Contradictions, Control, CostModel,
     Deadline, Drawings, DrawingsError, EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem,
     FitSettings, Fitted, FoundIndividual, Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary,
-    GuessSettings, Guessing, Identifiability, IndividualProgress, IndividualSettings, Interval, Objective,
-    Observer, ObserverError, Optimizer, Outcome, Placement, Posterior, PosteriorModel, PosteriorNumber,
-    PosteriorSettings, PredictorError, Predictors, PreparedSearch, Prior, Profile, Progress, Reserve, Row,
-    RulesSettings, Score, Scored, SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed, Unknown,
-    Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
+    GuessSettings, Guessing, Identifiability, IndividualProgress, IndividualSettings, Interval, NoSample,
+    Objective, Observer, ObserverError, Optimizer, Outcome, Placement, Posterior, PosteriorModel,
+    PosteriorNumber, PosteriorSettings, PredictorError, Predictors, PreparedSearch, Prior, Profile, Progress,
+    Reserve, Row, RulesSettings, Score, Scored, SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed,
+    Unknown, Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
 };
 #[cfg(feature = "fit")]
 pub use pleach_fit::{

@@ -10,5 +10,5 @@ mod ridge;
 
 pub(crate) use examples::features;
 pub use model::{HeldOut, Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings};
-pub use prior::Prior;
+pub use prior::{NoSample, Prior};
 pub(crate) use ridge::{Columns, Ridge, dot};

@@ -3,7 +3,8 @@
 use crate::problem::{FitProblem, Genome, Nuisance};
 use crate::run::FIT_LIMITS;
 use crate::space::{Freedom, Gene, Place, SearchSpace, SpaceError, Stream, TreeSeed};
-use pleach_tree::{Growth, Species, Tree};
+use pleach_tree::param::SlotError;
+use pleach_tree::{GrowError, Growth, Species, Tree};
 use std::sync::Arc;
 
 /// Purpose of the draws of a prior, for [`Stream::at`].
@@ -25,7 +26,21 @@ pub struct Prior {
     spread: f64,
 }
 
+/// Why a number of a [`Prior`] has no tree: of the reasons of its draws the last.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoSample {
+    /// The numbers do not belong together.
+    #[error("none of {} draws is a tree, the last because {_0}", Prior::DRAWS)]
+    Params(#[source] SlotError),
+    /// The tree is too large for a search.
+    #[error("none of {} draws grows, the last because {_0}", Prior::DRAWS)]
+    Growth(#[source] GrowError),
+}
+
 impl Prior {
+    /// Draws of one number of [`Prior::try_sample`], of which the first that grows is its tree.
+    pub const DRAWS: u32 = 16;
     /// Default standard deviation of a number, as a part of its plausible range.
     pub const SPREAD: f64 = 0.15;
     /// Largest standard deviation that is accepted: nearly uniform.
@@ -61,16 +76,33 @@ impl Prior {
     /// does. Each `number` has draws of its own.
     #[must_use]
     pub fn sample(&self, seed: u64, number: u32) -> Option<(Species, Tree)> {
-        const DRAWS: u64 = 16;
-        (0..DRAWS).find_map(|draw| {
-            let genome = self.draw(seed, u64::from(number) * DRAWS + draw);
-            let params = self.species.params.space().check(genome.values).ok()?;
-            let species = Species { params, tree_seed: Some(genome.tree_seed), ..self.species.clone() };
-            let growth =
-                Growth { limits: FIT_LIMITS, foliage: species.foliage, ..Growth::seed(genome.tree_seed) };
-            let tree = species.grow_with(&growth).ok()?;
-            Some((species, tree))
-        })
+        self.try_sample(seed, number).ok()
+    }
+
+    /// [`Prior::sample`] that says why there is no tree.
+    ///
+    /// # Errors
+    /// What is wrong with the last of [`Prior::DRAWS`] draws, if none grows.
+    pub fn try_sample(&self, seed: u64, number: u32) -> Result<(Species, Tree), NoSample> {
+        let first = u64::from(number) * u64::from(Self::DRAWS);
+        let mut grown = self.grown(seed, first);
+        for draw in 1..u64::from(Self::DRAWS) {
+            if grown.is_ok() {
+                break;
+            }
+            grown = self.grown(seed, first + draw);
+        }
+        grown
+    }
+
+    fn grown(&self, seed: u64, draw: u64) -> Result<(Species, Tree), NoSample> {
+        let genome = self.draw(seed, draw);
+        let params = self.species.params.space().check(genome.values).map_err(NoSample::Params)?;
+        let species = Species { params, tree_seed: Some(genome.tree_seed), ..self.species.clone() };
+        let growth =
+            Growth { limits: FIT_LIMITS, foliage: species.foliage, ..Growth::seed(genome.tree_seed) };
+        let tree = species.grow_with(&growth).map_err(NoSample::Growth)?;
+        Ok((species, tree))
     }
 
     /// Tree number `number` of the prior with this `seed`.
