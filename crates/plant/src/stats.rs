@@ -71,9 +71,17 @@ impl Bounds {
             }
         }
         if parts.contains(Parts::LEAVES) {
+            let reaches: Vec<[f32; 2]> =
+                tree.leaf_shapes.iter().map(|shape| reach(shape.corners())).collect();
+            let mut inner = bounds.inner();
             for leaf in &tree.leaves {
+                // Most leaves of a crown are not at its rim.
+                if inner.holds(leaf, reaches[usize::from(leaf.shape)]) {
+                    continue;
+                }
                 let corners = tree.outline_of(leaf).corners();
                 bounds.add_shape(leaf, corners.iter().map(|p| Vec3::new(p[0], p[1], 0.0)));
+                inner = bounds.inner();
             }
         }
         if parts.contains(Parts::BLOSSOMS) {
@@ -88,12 +96,38 @@ impl Bounds {
         (bounds.min.x <= bounds.max.x).then_some(bounds)
     }
 
+    fn inner(&self) -> Inner {
+        Inner { min: self.min.as_vec3(), max: self.max.as_vec3() }
+    }
+
     fn add_shape(&mut self, leaf: &Leaf, corners: impl Iterator<Item = Vec3>) {
         let normal = leaf.normal();
         for corner in corners {
             let point = leaf.position + leaf.across * corner.x + leaf.along * corner.y + normal * corner.z;
             self.add(point.as_dvec3());
         }
+    }
+}
+
+/// How far the corners of a unit shape reach along u and along v, to either side.
+fn reach(corners: &[[f32; 2]]) -> [f32; 2] {
+    corners.iter().fold([0.0; 2], |[u, v], corner| [corner[0].abs().max(u), corner[1].abs().max(v)])
+}
+
+/// Bounds in single precision, for a quick look.
+struct Inner {
+    min: Vec3,
+    max: Vec3,
+}
+
+impl Inner {
+    /// Whether a flat shape that reaches so far lies inside for certain, by more than rounding may hide.
+    fn holds(&self, leaf: &Leaf, [u, v]: [f32; 2]) -> bool {
+        const ROUNDING: f32 = 1e-5;
+        let reach = leaf.across.abs() * u + leaf.along.abs() * v;
+        let reach = reach + Vec3::splat((leaf.position.abs() + reach).max_element() * ROUNDING + ROUNDING);
+        // Also false where a number is none.
+        (leaf.position - reach).cmpgt(self.min).all() && (leaf.position + reach).cmplt(self.max).all()
     }
 }
 
@@ -144,5 +178,33 @@ impl TreeStats {
         // The sum of no floats at all is -0.
         stats.leaf_area_m2 = areas.fold(0.0, |sum, area| sum + area);
         stats
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::leaf_shape::LeafShape;
+    use std::sync::Arc;
+
+    #[test]
+    fn bounds_are_those_of_every_corner() {
+        let shapes: Vec<_> = LeafShape::ALL.iter().map(|leaf| Arc::clone(leaf.outline())).collect();
+        let mut tree = Tree { leaf_shapes: shapes, ..Tree::default() };
+        let mut all = Bounds::EMPTY;
+        for i in 0..4000_u32 {
+            let unit = |k: u32| ((f64::from(i * 16 + k) * 0.618_034).fract() - 0.5) as f32;
+            let vec = |k: u32, size: f32| Vec3::new(unit(k), unit(k + 1), unit(k + 2)) * size;
+            let shape = (i % tree.leaf_shapes.len() as u32) as u16;
+            let size = [0.01, 0.3, 3.0][i as usize % 3];
+            let leaf =
+                Leaf { position: vec(0, 20.0), along: vec(3, size), across: vec(6, size), stem: 0, shape };
+            let corners = tree.leaf_shapes[usize::from(shape)].corners();
+            all.add_shape(&leaf, corners.iter().map(|p| Vec3::new(p[0], p[1], 0.0)));
+            tree.leaves.push(leaf);
+            if i % 100 == 0 || i < 10 {
+                assert_eq!(Bounds::new(&tree, Parts::LEAFY), Some(all), "{i} leaves");
+            }
+        }
     }
 }

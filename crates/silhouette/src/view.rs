@@ -77,7 +77,14 @@ impl Frame {
     /// Seen from above or below the foot moves up as far as the tree reaches below it.
     #[must_use]
     pub fn automatic(tree: &Tree, view: &View, parts: Parts, width: u32, height: u32) -> Self {
-        let Some(bounds) = Bounds::new(tree, parts) else {
+        Self::around(Bounds::new(tree, parts).as_ref(), view, width, height)
+    }
+
+    /// [`Frame::automatic`] of a tree of these bounds, which are found once for several views; `None` for a tree
+    /// without parts.
+    #[must_use]
+    pub fn around(bounds: Option<&Bounds>, view: &View, width: u32, height: u32) -> Self {
+        let Some(bounds) = bounds else {
             return Self {
                 width,
                 height,
