@@ -4,7 +4,7 @@ use crate::problem::{FitProblem, Genome, Nuisance};
 use crate::run::FIT_LIMITS;
 use crate::space::{Freedom, Gene, Place, SearchSpace, SpaceError, Stream, TreeSeed};
 use pleach_tree::param::SlotError;
-use pleach_tree::{GrowError, Growth, Species, Tree};
+use pleach_tree::{GrowError, Growth, Species, Tree, Workspace};
 use std::sync::Arc;
 
 /// Purpose of the draws of a prior, for [`Stream::at`].
@@ -84,25 +84,47 @@ impl Prior {
     /// # Errors
     /// What is wrong with the last of [`Prior::DRAWS`] draws, if none grows.
     pub fn try_sample(&self, seed: u64, number: u32) -> Result<(Species, Tree), NoSample> {
+        let mut tree = Tree::default();
+        let species = self.sample_into(seed, number, &mut Workspace::default(), &mut tree)?;
+        Ok((species, tree))
+    }
+
+    /// [`Prior::try_sample`] into `tree`, for many trees in one memory.
+    ///
+    /// # Errors
+    /// As [`Prior::try_sample`]; then `tree` holds nothing of use.
+    pub fn sample_into(
+        &self,
+        seed: u64,
+        number: u32,
+        workspace: &mut Workspace,
+        tree: &mut Tree,
+    ) -> Result<Species, NoSample> {
         let first = u64::from(number) * u64::from(Self::DRAWS);
-        let mut grown = self.grown(seed, first);
+        let mut grown = self.grow(seed, first, workspace, tree);
         for draw in 1..u64::from(Self::DRAWS) {
             if grown.is_ok() {
                 break;
             }
-            grown = self.grown(seed, first + draw);
+            grown = self.grow(seed, first + draw, workspace, tree);
         }
         grown
     }
 
-    fn grown(&self, seed: u64, draw: u64) -> Result<(Species, Tree), NoSample> {
+    fn grow(
+        &self,
+        seed: u64,
+        draw: u64,
+        workspace: &mut Workspace,
+        tree: &mut Tree,
+    ) -> Result<Species, NoSample> {
         let genome = self.draw(seed, draw);
         let params = self.species.params.space().check(genome.values).map_err(NoSample::Params)?;
         let species = Species { params, tree_seed: Some(genome.tree_seed), ..self.species.clone() };
         let growth =
             Growth { limits: FIT_LIMITS, foliage: species.foliage, ..Growth::seed(genome.tree_seed) };
-        let tree = species.grow_with(&growth).map_err(NoSample::Growth)?;
-        Ok((species, tree))
+        species.generator.grow(&species.params, &growth, workspace, tree).map_err(NoSample::Growth)?;
+        Ok(species)
     }
 
     /// Tree number `number` of the prior with this `seed`.
