@@ -1,6 +1,7 @@
 //! What the end-to-end tests of the program (`crates/cli/tests`) and tests of files share: the program, a fresh
 //! directory, and readable failures.
 
+pub mod arrays;
 pub mod tool;
 
 use std::ffi::OsStr;

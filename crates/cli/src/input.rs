@@ -1,6 +1,7 @@
 //! What several commands read from their arguments.
 
 use crate::output;
+use pleach_fit::Prior;
 use pleach_generators::RegistryError;
 use pleach_silhouette::View;
 use pleach_silhouette::goal::{Encoded, GoalError};
@@ -44,6 +45,13 @@ pub(crate) fn seed(text: &str) -> Result<u64, String> {
         Ok(seed) if seed <= most => Ok(seed),
         _ => Err(format!("a seed is a whole number from 0 to {most}")),
     }
+}
+
+/// How far numbers of a prior lie from those of its species.
+pub(crate) fn spread(text: &str) -> Result<f64, String> {
+    let most = Prior::MAX_SPREAD;
+    let value = text.parse().ok().filter(|value| (0.0..=most).contains(value));
+    value.ok_or_else(|| format!("`{text}` is not a number from 0 to {most}"))
 }
 
 /// `A..B`: from A up to but not including B.

@@ -4,6 +4,7 @@ mod blend;
 mod collect;
 mod completions;
 mod corrections;
+mod dataset;
 mod describe;
 mod experiment;
 mod export;
@@ -58,6 +59,7 @@ enum Command {
     Read(read::Read),
     Blend(Box<blend::BlendCommand>),
     Sample(sample::Sample),
+    Dataset(Box<dataset::Dataset>),
     Species(species::SpeciesCommand),
     Params(params::Params),
     Grammar(grammar::GrammarCommand),
@@ -99,6 +101,7 @@ impl Arguments {
             Command::Read(command) => command.run(),
             Command::Blend(command) => command.run(),
             Command::Sample(command) => command.run(),
+            Command::Dataset(command) => command.run(),
             Command::Species(command) => command.run(),
             Command::Params(command) => command.run(),
             Command::Grammar(command) => command.run(),

@@ -33,7 +33,7 @@ pub(crate) struct Sample {
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     count: u32,
     /// Standard deviation of each number, as a part of its plausible range, from 0 to 10
-    #[arg(long, value_name = "PART", default_value_t = Prior::SPREAD, value_parser = spread)]
+    #[arg(long, value_name = "PART", default_value_t = Prior::SPREAD, value_parser = input::spread)]
     spread: f64,
     /// Patterns of the numbers that vary, as in `pleach fit`; all by default
     #[arg(long, value_name = "PATTERN")]
@@ -47,12 +47,6 @@ pub(crate) struct Sample {
     /// The folder for 1.toml and so on, samples.csv and samples.png
     #[arg(short, long, value_name = "DIR")]
     out: PathBuf,
-}
-
-fn spread(text: &str) -> Result<f64, String> {
-    let most = Prior::MAX_SPREAD;
-    let value = text.parse().ok().filter(|value| (0.0..=most).contains(value));
-    value.ok_or_else(|| format!("`{text}` is not a number from 0 to {most}"))
 }
 
 impl Sample {

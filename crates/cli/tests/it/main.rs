@@ -25,6 +25,7 @@ mod blend;
 mod bounds;
 mod cluster;
 mod collect;
+mod dataset;
 mod evolve;
 mod experiment_runs;
 mod experiments;
