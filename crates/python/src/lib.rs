@@ -5,6 +5,7 @@
 
 mod arrays;
 mod blend;
+mod dataset;
 mod error;
 mod event;
 mod fit;
@@ -30,6 +31,8 @@ mod native {
 
     #[pymodule_export]
     use crate::blend::{NativeMap, map_species, mix};
+    #[pymodule_export]
+    use crate::dataset::write_dataset;
     #[pymodule_export]
     use crate::error::{FitError, GoalError, GrowError, PleachError, SpeciesError};
     #[pymodule_export]

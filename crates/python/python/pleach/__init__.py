@@ -14,6 +14,7 @@ numbers in both, on any number of threads.
 from __future__ import annotations
 
 from ._blend import Map, blend
+from ._dataset import Dataset, dataset
 from ._fit import Fit, Interval, Posterior, PosteriorNumber, fit
 from ._native import (
     FitError,
@@ -33,6 +34,7 @@ from ._species import species
 
 __all__ = [
     "Card",
+    "Dataset",
     "Fit",
     "FitError",
     "GoalError",
@@ -52,6 +54,7 @@ __all__ = [
     "Tree",
     "__version__",
     "blend",
+    "dataset",
     "fit",
     "generators",
     "mask",

@@ -197,6 +197,24 @@ def species_named(name: str) -> Species: ...
 def generators() -> list[str]: ...
 def map_species() -> list[Species]: ...
 def mix(species: list[Species], shares: list[float], name: str) -> Species: ...
+def write_dataset(
+    species: list[Species],
+    out: str,
+    count: int,
+    view: list[float],
+    size: int,
+    layers: list[str],
+    format: str,
+    shard: int,
+    spread: float,
+    free: list[str],
+    fix: list[str],
+    seed: int,
+    resume: bool,
+    overwrite: bool,
+    threads: Optional[int],
+    progress: Optional[Callable[[int, int], object]],
+) -> dict[str, int]: ...
 def score(picture: Any, goal: Any) -> dict[str, Any]: ...
 def mask(
     photo: Any, seed_point: Optional[tuple[int, int]], hints: str
