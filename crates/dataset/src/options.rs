@@ -199,7 +199,7 @@ impl DatasetOptions {
         let one = self.picture_bytes();
         let trees = u64::from(self.shard).min(self.draws(species));
         if one * trees > Self::MAX_SHARD_BYTES {
-            let (megabytes, most) = (one * trees >> 20, Self::MAX_SHARD_BYTES / one);
+            let (megabytes, most) = ((one * trees) >> 20, Self::MAX_SHARD_BYTES / one);
             let problem = format!(
                 "is {}: the pictures of a shard would have {megabytes} MB in memory, at most {} MB are \
                  allowed; {}",

@@ -152,7 +152,7 @@ fn all_that_is_ink_has_a_distance_within_the_tree() {
             rasterizer.depth(&tree, &view, &frame, Parts::LEAFY, &picture, &mut depth);
             let seen = depth.iter().filter(|depth| depth.is_finite());
             assert_eq!(seen.clone().count() as u64, picture.ink(), "{name} at {azimuth}");
-            let far = reach + (elevation > 0.0).then_some(bounds.max.z as f32).unwrap_or(0.0);
+            let far = reach + if elevation > 0.0 { bounds.max.z as f32 } else { 0.0 };
             assert!(seen.clone().all(|depth| depth.abs() <= far), "{name} at {azimuth}: beyond {far} m");
         }
     }
