@@ -206,7 +206,7 @@ impl NativeProblem {
         py: Python<'_>,
         genomes: &[Genome],
         threads: Option<usize>,
-        work: impl Fn(&Genome) -> T + Sync,
+        work: impl Fn(&Genome) -> T + Send + Sync,
     ) -> PyResult<Vec<T>> {
         pool::check(threads)?;
         if genomes.len() <= FEW {

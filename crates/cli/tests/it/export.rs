@@ -176,7 +176,8 @@ fn bark_has_pictures_of_the_size_that_was_asked_for() {
     }
     dir.run(["grow", "palm", "--textures", "512", "--weld", "40", "-o", "x.glb"]).fails(2, &["--weld"]);
     dir.run(["grow", "palm", "--textures", "512", "-o", "x.stl"]).fails(2, &["--textures"]);
-    dir.run(["grow", "palm", "--textures", "512", "-o", "-", "--format", "obj"]).fails(1, &["--textures", ".glb"]);
+    dir.run(["grow", "palm", "--textures", "512", "-o", "-", "--format", "obj"])
+        .fails(1, &["--textures", ".glb"]);
 }
 
 #[test]
