@@ -24,6 +24,7 @@
 //! | [`forest`] | where many trees stand |
 //! | [`mod@write`] | GLB, OBJ, PLY, STL, USDA |
 //! | [`palette`] | colours of species and seasons |
+//! | [`Pictures`] | pictures that materials show instead |
 //! | [`weld`] | all stems as one watertight surface |
 //! | [`wind`], [`rig`] | how stems sway |
 //!

@@ -67,7 +67,8 @@ impl WeldSettings {
 }
 
 /// The stems of `tree` as one closed surface, found on a grid; nothing for a tree without stems. Texture
-/// coordinates are 0 and the height in metres: a surface without seams cannot be unrolled.
+/// coordinates are 0 and the height in metres: a surface without seams cannot be unrolled, so that it shows no pictures
+/// of bark.
 ///
 /// # Errors
 /// See [`WeldError`].
