@@ -54,7 +54,7 @@ impl<'a> Mesher<'a> {
     pub fn new(tree: &'a Tree, settings: MeshSettings) -> Self {
         let settings = settings.clamped();
         let tubes = Tubes::new(settings);
-        let forks = Forks::of(tree);
+        let forks = Forks::new(tree);
         let measured: Vec<Measured> = tree
             .stems
             .par_iter()
@@ -188,7 +188,7 @@ struct Forks {
 }
 
 impl Forks {
-    fn of(tree: &Tree) -> Self {
+    fn new(tree: &Tree) -> Self {
         let parent = |stem: &Stem| stem.parent.filter(|_| stem.kind == StemKind::Fork).map(|p| p as usize);
         let parents: Vec<Option<usize>> = tree.stems.iter().map(parent).collect();
         let numbered = parents.iter().enumerate();

@@ -108,7 +108,7 @@ def test_numbers_need_no_goal(problem: pleach.Problem) -> None:
     assert isinstance(problem, pleach.Numbers)
     for own, of_problem in zip(vars(alone).values(), (getattr(problem, name) for name in vars(alone))):
         assert np.array_equal(own, of_problem)
-    assert pleach.Numbers("acer", free=["length"], fix=["length[0]"]).names == ["length[1]", "length[2]"]
+    assert pleach.Numbers("acer", free=["length"], fix=["length[0]"]).names == ["length[1]", "length[2]", "length[3]"]
     wide = pleach.Numbers("acer", wide=True)
     assert (wide.upper >= alone.upper[0]).any() and len(wide) >= len(alone)
     with pytest.raises(pleach.FitError, match="did you mean `length`"):
@@ -123,11 +123,13 @@ def test_further_views_count_as_much_as_the_goal() -> None:
     odd = pleach.Problem(front, "acer", size=64, seed=3, views=[(other, 90)])
     assert [goal.shape for goal in both.goals] == [(64, 64)] * 2 and np.array_equal(both.goals[1], side)
     own = both.start[None]
-    assert both.evaluate(own)[0] < 0.1 < odd.evaluate(own)[0]
+    assert both.evaluate(own)[0] + 0.15 < odd.evaluate(own)[0]
     again = pickle.loads(pickle.dumps(odd))
     assert np.array_equal(again.evaluate(own), odd.evaluate(own)) and np.array_equal(again.goals[1], other)
     seen = both.silhouettes(own, view=1)[0]
-    assert (seen == side).mean() > 0.98 and not np.array_equal(seen, both.silhouettes(own)[0])
+    # Where the tree stands is read off each picture to a pixel.
+    assert (seen == side).mean() > max(0.9, (seen == front).mean() + 0.05)
+    assert not np.array_equal(seen, both.silhouettes(own)[0])
     for wrong in ([(side, 90, 3)], [(side, "left")], [side]):
         with pytest.raises((TypeError, ValueError)):
             pleach.Problem(front, "acer", views=wrong)  # type: ignore[arg-type]

