@@ -76,7 +76,8 @@ pub struct FitOptions {
     pub from: StartFrom,
     /// The generators whose species take part in a first guess, and that random lists are drawn for; by default the
     /// one of the species in `from`; for a picture Weber and Penn's and space colonisation, for a drawing in flat colours
-    /// stylised trees; and Weber and Penn's where no picture is asked.
+    /// stylised trees; and Weber and Penn's for silhouettes of less than 100 pixels of height, and where no picture is
+    /// asked.
     #[serde(with = "json::optional_text")]
     pub generator: Option<GeneratorChoice>,
     /// Start from a tree of least-cost paths in the outline of a picture.

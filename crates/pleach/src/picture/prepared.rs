@@ -150,7 +150,7 @@ impl FitOptions {
         let has_colors = reading.colors.as_ref().is_some_and(|colors| colors.leaves.is_some());
         let generator = if reading.colors.as_ref().is_some_and(Colors::is_drawn) {
             GeneratorChoice::DRAWINGS
-        } else if has_colors || goal.ink_box().is_some_and(|(_, top, _, bottom)| bottom - top >= SHOWN) {
+        } else if has_colors || goal.ink_box().is_some_and(|(_, top, _, bottom)| bottom + 1 - top >= SHOWN) {
             GeneratorChoice::Trees
         } else {
             return Cow::Borrowed(self);

@@ -25,8 +25,8 @@ impl Rasterizer {
     ///
     /// Distances are metres along the direction of view from the plane through the trunk's foot that faces the viewer:
     /// negative in front of it, positive behind. Of all surfaces in a pixel the nearest counts, in the middle of the
-    /// pixel where it reaches that far. Leaves, blossoms and blobs are planes; stems are round, and exact where they do not taper. NaN where `picture`, the silhouette of the
-    /// same parts in the same frame, has no ink.
+    /// pixel where it reaches that far. Leaves, blossoms and blobs are planes; stems are round, and exact where they do
+    /// not taper. NaN where `picture`, the silhouette of the same parts in the same frame, has no ink.
     ///
     /// ```
     /// use pleach_plant::Parts;
