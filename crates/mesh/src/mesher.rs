@@ -180,21 +180,23 @@ impl<'a> Mesher<'a> {
 }
 
 /// The forks of each stem, whose bark goes on from it.
-struct Forks {
+struct Forks<'a> {
+    tree: &'a Tree,
     /// Parent and number of each fork, by parent.
     all: Vec<(usize, usize)>,
-    /// The parent of each stem that is a fork.
-    parents: Vec<Option<usize>>,
 }
 
-impl Forks {
-    fn new(tree: &Tree) -> Self {
-        let parent = |stem: &Stem| stem.parent.filter(|_| stem.kind == StemKind::Fork).map(|p| p as usize);
-        let parents: Vec<Option<usize>> = tree.stems.iter().map(parent).collect();
-        let numbered = parents.iter().enumerate();
-        let mut all: Vec<_> = numbered.filter_map(|(i, parent)| Some(((*parent)?, i))).collect();
+/// The parent of a stem that is a fork.
+fn left(stem: &Stem) -> Option<usize> {
+    stem.parent.filter(|_| stem.kind == StemKind::Fork).map(|parent| parent as usize)
+}
+
+impl<'a> Forks<'a> {
+    fn new(tree: &'a Tree) -> Self {
+        let numbered = tree.stems.iter().enumerate();
+        let mut all: Vec<_> = numbered.filter_map(|(i, stem)| Some((left(stem)?, i))).collect();
         all.sort_unstable();
-        Self { all, parents }
+        Self { tree, all }
     }
 
     /// Number of the first fork of stem number `stem`.
@@ -204,7 +206,7 @@ impl Forks {
 
     /// The parent of stem number `stem` and which of its forks it is; `None` if it is no fork.
     fn place(&self, stem: usize) -> Option<(usize, usize)> {
-        let parent = self.parents[stem]?;
+        let parent = left(&self.tree.stems[stem])?;
         let place = self.all.binary_search(&(parent, stem)).ok()?;
         Some((parent, place - self.first_of(parent)))
     }

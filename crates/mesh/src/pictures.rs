@@ -34,7 +34,26 @@ impl<P> Pictures<P> {
         std::iter::once(("color", &self.color)).chain(further)
     }
 
-    /// The same with each picture replaced by what `replace` makes of it and what it is called.
+    /// The same by reference.
+    #[must_use]
+    pub const fn as_ref(&self) -> Pictures<&P> {
+        let Self { material, color, normal, roughness } = self;
+        Pictures { material: *material, color, normal: normal.as_ref(), roughness: roughness.as_ref() }
+    }
+
+    /// The same with each picture replaced by what `replace` makes of what it is called and of it, in the order of
+    /// [`Pictures::all`].
+    pub fn map<Q>(self, mut replace: impl FnMut(&'static str, P) -> Q) -> Pictures<Q> {
+        let Self { material, color, normal, roughness } = self;
+        Pictures {
+            material,
+            color: replace("color", color),
+            normal: normal.map(|picture| replace("normal", picture)),
+            roughness: roughness.map(|picture| replace("roughness", picture)),
+        }
+    }
+
+    /// [`Pictures::map`] that may fail.
     ///
     /// # Errors
     /// The first error of `replace`.
@@ -42,12 +61,12 @@ impl<P> Pictures<P> {
         self,
         mut replace: impl FnMut(&'static str, P) -> Result<Q, E>,
     ) -> Result<Pictures<Q>, E> {
-        let Self { material, color, normal, roughness } = self;
+        let Pictures { material, color, normal, roughness } = self.map(&mut replace);
         Ok(Pictures {
             material,
-            color: replace("color", color)?,
-            normal: normal.map(|picture| replace("normal", picture)).transpose()?,
-            roughness: roughness.map(|picture| replace("roughness", picture)).transpose()?,
+            color: color?,
+            normal: normal.transpose()?,
+            roughness: roughness.transpose()?,
         })
     }
 }

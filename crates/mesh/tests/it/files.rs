@@ -13,13 +13,13 @@ use std::io::{Cursor, Write};
 use std::path::Path;
 use std::process::Command;
 
-fn grow(name: &str) -> (Species, Tree) {
+pub(crate) fn grow(name: &str) -> (Species, Tree) {
     let species = pleach_generators::preset(name).unwrap();
     let tree = species.grow(1).unwrap();
     (species, tree)
 }
 
-fn scene<'a>(species: &Species, _: &Tree, levels: usize) -> Scene<'a> {
+pub(crate) fn scene<'a>(species: &Species, _: &Tree, levels: usize) -> Scene<'a> {
     Scene {
         name: species.name.clone(),
         palette: Palette::new(&species.appearance, None),
@@ -30,7 +30,7 @@ fn scene<'a>(species: &Species, _: &Tree, levels: usize) -> Scene<'a> {
     }
 }
 
-fn glb(meshers: &[impl Source], scene: &Scene<'_>) -> Vec<u8> {
+pub(crate) fn glb(meshers: &[impl Source], scene: &Scene<'_>) -> Vec<u8> {
     let mut out = Cursor::new(Vec::new());
     send(meshers, &mut Glb::new(&mut out, scene)).unwrap();
     out.into_inner()
@@ -62,7 +62,7 @@ fn instanced(name: &str) -> Vec<u8> {
 }
 
 /// A picture of one pixel.
-fn dot() -> Vec<u8> {
+pub(crate) fn dot() -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 1, 1);
     encoder.set_color(png::ColorType::Rgba);
@@ -213,55 +213,6 @@ fn cards_show_the_pictures_of_their_scene() {
         assert_eq!(uv.len(), corners);
         assert!(uv.flatten().all(|c| c.abs() < 1e-5 || (c - 1.0).abs() < 1e-5));
     }
-}
-
-#[test]
-fn bark_shows_tiles_with_their_relief() {
-    let (species, tree) = grow("acer");
-    let bark =
-        Pictures { normal: Some(dot()), roughness: Some(dot()), ..Pictures::colors(Material::Bark, dot()) };
-    let card = Pictures::colors(Material::Card, dot());
-    let scene = Scene { pictures: vec![card, bark], ..scene(&species, &tree, 1) };
-    let bytes = glb(&[Mesher::new(&tree, MeshSettings::default())], &scene);
-    let file = gltf::Gltf::from_slice(&bytes).unwrap();
-    assert_eq!(file.images().count(), 3, "no part is a card");
-    let names: Vec<_> = file.images().map(|image| image.name().unwrap_or_default().to_owned()).collect();
-    assert_eq!(names, ["bark", "bark normal", "bark roughness"]);
-    let material = file.materials().next().unwrap();
-    let physical = material.pbr_metallic_roughness();
-    let textures = [
-        physical.base_color_texture().unwrap().texture(),
-        material.normal_texture().unwrap().texture(),
-        physical.metallic_roughness_texture().unwrap().texture(),
-        material.occlusion_texture().unwrap().texture(),
-    ];
-    assert_eq!(textures.each_ref().map(|texture| texture.source().index()), [0, 1, 2, 2]);
-    for texture in textures {
-        assert_eq!(texture.sampler().wrap_s(), gltf::texture::WrappingMode::Repeat);
-        assert_eq!(texture.sampler().wrap_t(), gltf::texture::WrappingMode::Repeat);
-    }
-    assert!(!material.double_sided() && material.alpha_mode() == gltf::material::AlphaMode::Opaque);
-
-    let of = |what: &str| format!("acer-{what}.png");
-    let named = Pictures {
-        material: Material::Bark,
-        color: of("bark"),
-        normal: Some(of("normal")),
-        roughness: Some(of("roughness")),
-    };
-    let palette = Palette::new(&species.appearance, None);
-    let materials = obj::materials(&palette, std::slice::from_ref(&named));
-    for line in ["map_Kd acer-bark.png", "norm acer-normal.png", "map_Pr acer-roughness.png"] {
-        assert!(materials.lines().any(|one| one == line), "{line}: {materials}");
-    }
-    assert!(!materials.contains("map_d"), "bark is not cut out");
-    let notes = usda::Notes { name: "acer".into(), pictures: vec![named], ..usda::Notes::default() };
-    let mut bytes = Vec::new();
-    let mesher = Mesher::new(&tree, MeshSettings::default()).with_instanced_leaves();
-    send(&[mesher], &mut usda::Usda::new(&mut bytes, &notes, palette)).unwrap();
-    let text = String::from_utf8(bytes).unwrap();
-    assert_eq!(text.matches("\"repeat\"").count(), 6);
-    assert!(text.contains("inputs:normal.connect = </acer/materials/bark/normal.outputs:rgb>"));
 }
 
 #[test]

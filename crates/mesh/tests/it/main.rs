@@ -4,5 +4,6 @@
 
 mod files;
 mod mesh;
+mod pictures;
 mod silhouettes;
 mod stems;

@@ -36,7 +36,7 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
         let root = file.rig(rig, layout);
         roots.push(root);
     }
-    let textures = file.textures(scene, layout);
+    let textures = file.textures(layout);
     let materials: Vec<Value> = file.materials.iter().map(|&m| material(scene, &textures, m)).collect();
     let mut root = json!({
         "asset": {"version": "2.0", "generator": concat!("pleach ", env!("CARGO_PKG_VERSION"))},
@@ -150,33 +150,19 @@ impl File {
     }
 
     /// One image and texture for each PNG file of what some part shows; returns their numbers.
-    fn textures(&mut self, scene: &Scene<'_>, layout: &Layout) -> Vec<Textures> {
-        let shown = scene.pictures.iter().zip(&layout.pictures).filter(|(_, offsets)| !offsets.is_empty());
-        let of_each = shown.map(|(pictures, offsets)| {
-            let mut numbers = pictures.all().zip(offsets).map(|((what, png), offset)| {
-                let name = match what {
-                    "color" => pictures.material.name().to_owned(),
-                    what => format!("{} {what}", pictures.material.name()),
-                };
-                let view = self.view(*offset, png.len() as u64, None, None);
-                let image = push(
-                    &mut self.images,
-                    json!({"name": name, "mimeType": "image/png", "bufferView": view}),
-                );
-                let sampler = u8::from(pictures.repeats());
+    fn textures(&mut self, layout: &Layout) -> Vec<Textures> {
+        let numbered = |pictures: &Pictures<(u64, u64)>| {
+            let sampler = u8::from(pictures.repeats());
+            let material = pictures.material.name();
+            pictures.as_ref().map(|what, &(offset, length)| {
+                let name = if what == "color" { material.to_owned() } else { format!("{material} {what}") };
+                let view = self.view(offset, length, None, None);
+                let image = json!({"name": name, "mimeType": "image/png", "bufferView": view});
+                let image = push(&mut self.images, image);
                 push(&mut self.textures, json!({"source": image, "sampler": sampler}))
-            });
-            // In the order of `all`.
-            let color = numbers.next().unwrap_or_default();
-            let mut further = |there: bool| if there { numbers.next() } else { None };
-            Textures {
-                material: pictures.material,
-                color,
-                normal: further(pictures.normal.is_some()),
-                roughness: further(pictures.roughness.is_some()),
-            }
-        });
-        of_each.collect()
+            })
+        };
+        layout.pictures.iter().map(numbered).collect()
     }
 
     fn view(&mut self, offset: u64, bytes: u64, stride: Option<u64>, target: Option<u32>) -> usize {

@@ -3,6 +3,7 @@
 use super::{Scene, animation};
 use crate::block::{Block, Placement};
 use crate::part::Part;
+use crate::pictures::Pictures;
 use glam::Vec3;
 
 /// Bytes of a vertex' joint numbers and weights.
@@ -57,8 +58,8 @@ pub(super) struct Layout {
     pub(super) bind_matrices: u64,
     pub(super) times: u64,
     pub(super) rotations: u64,
-    /// Offsets of the PNG files of each of the scene's pictures; none of those that no part shows.
-    pub(super) pictures: Vec<Vec<u64>>,
+    /// Offset and length of the PNG files of each of the scene's pictures that a part shows.
+    pub(super) pictures: Vec<Pictures<(u64, u64)>>,
     /// Size of the whole, a multiple of 4.
     pub(super) bytes: u64,
 }
@@ -96,9 +97,12 @@ impl Layout {
         let pictures = scene
             .pictures
             .iter()
+            .filter(|pictures| shown(pictures.material))
             .map(|pictures| {
-                let files = pictures.all().filter(|_| shown(pictures.material));
-                files.map(|(_, png)| take(png.len() as u64)).collect()
+                pictures.as_ref().map(|_, png| {
+                    let length = png.len() as u64;
+                    (take(length), length)
+                })
             })
             .collect();
         Self { parts, bind_matrices, times, rotations, pictures, bytes: at }
@@ -113,8 +117,12 @@ impl Layout {
             fixed.push((self.times, floats(&animation::times())));
             fixed.push((self.rotations, floats(&animation::rotations(rig))));
         }
-        for (pictures, offsets) in scene.pictures.iter().zip(&self.pictures) {
-            for ((_, png), offset) in pictures.all().zip(offsets) {
+        let shown = scene
+            .pictures
+            .iter()
+            .filter(|pictures| self.parts.iter().any(|part| part.part.material == pictures.material));
+        for (pictures, places) in shown.zip(&self.pictures) {
+            for ((_, png), (_, (offset, _))) in pictures.all().zip(places.all()) {
                 let mut bytes = png.clone();
                 bytes.resize(bytes.len().next_multiple_of(4), 0);
                 fixed.push((*offset, bytes));
