@@ -20,6 +20,7 @@ fn meshes(criterion: &mut Criterion) {
             palette: Palette::new(&species.appearance, None),
             extras: serde_json::Value::Null,
             placed: vec![Placed::at_origin(name, 1)],
+            lod_extension: false,
             rig: None,
             pictures: Vec::new(),
         };

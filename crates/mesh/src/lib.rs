@@ -20,6 +20,7 @@
 //! | [`stream`] | from the one to the other, block by block |
 //! | [`block`] | corners and triangles |
 //! | [`lod`] | levels of detail |
+//! | [`twigs`] | cards that show pictures of twigs |
 //! | [`card`] | the last level: cards with pictures of the tree |
 //! | [`forest`] | where many trees stand |
 //! | [`mod@write`] | GLB, OBJ, PLY, STL, USDA |
@@ -51,6 +52,7 @@ pub mod rig;
 pub mod settings;
 pub mod stream;
 mod tube;
+pub mod twigs;
 pub mod weld;
 mod welded;
 pub mod wind;
@@ -68,4 +70,5 @@ pub use rig::Rig;
 pub use settings::{LeafStyle, MeshSettings};
 pub use stream::send;
 pub use tube::TILE as BARK_TILE;
+pub use twigs::{TwigModel, Twigs};
 pub use welded::Welded;

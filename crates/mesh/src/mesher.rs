@@ -8,6 +8,7 @@ use crate::placed::{self, Placed};
 use crate::rig::Rig;
 use crate::settings::{LeafStyle, MeshSettings};
 use crate::tube::{Rings, Tubes};
+use crate::twigs::Twigs;
 use crate::wind;
 use pleach_plant::{Leaf, Parts, Stem, StemKind, Tree};
 use rayon::prelude::*;
@@ -25,6 +26,9 @@ pub struct Mesher<'a> {
     tubes: Tubes,
     leaves: Placed<'a>,
     blossoms: Placed<'a>,
+    /// Cards that stand for twigs, and what they are.
+    cards: Placed<'a>,
+    twigs: Option<&'a Twigs>,
     /// Vertices and triangles of the blobs, which follow the leaves.
     blobs: Count,
     /// Corners before each stem's, and texture tiles below it.
@@ -100,6 +104,8 @@ impl<'a> Mesher<'a> {
             rig: None,
             leaves: Placed::new(leaves, leaf_shapes.collect(), BLOCK_VERTICES),
             blossoms: Placed::new(blossoms, blossom_shapes.collect(), BLOCK_VERTICES),
+            cards: Placed::new(&[], Vec::new(), BLOCK_VERTICES),
+            twigs: None,
             blobs,
             tubes,
             stems,
@@ -114,6 +120,15 @@ impl<'a> Mesher<'a> {
     #[must_use]
     pub fn with_instanced_leaves(mut self) -> Self {
         self.instanced = true;
+        self
+    }
+
+    /// Adds cards that stand for twigs; their stems are those of the tree.
+    #[must_use]
+    pub fn with_twigs(mut self, twigs: &'a Twigs) -> Self {
+        let shapes = twigs.cells().into_iter().map(UnitMesh::card).collect();
+        self.cards = Placed::new(&twigs.cards, shapes, BLOCK_VERTICES);
+        self.twigs = Some(twigs);
         self
     }
 
@@ -146,13 +161,15 @@ impl<'a> Mesher<'a> {
             Material::Bark | Material::Card => None,
             Material::Leaf => Some(&self.leaves),
             Material::Blossom => Some(&self.blossoms),
+            Material::Twig => Some(&self.cards),
         }
     }
 
     /// The one shape of which `material` is made, if it is sent as instances.
     fn instanced(&self, material: Material) -> Option<&UnitMesh> {
         let has_blobs = material == Material::Leaf && self.blobs.triangles > 0;
-        let placed = self.placed(material).filter(|_| self.instanced && !has_blobs)?;
+        let is_placed = self.instanced && !has_blobs && material != Material::Twig;
+        let placed = self.placed(material).filter(|_| is_placed)?;
         placed.only_shape()
     }
 
@@ -269,7 +286,14 @@ impl Source for Mesher<'_> {
             }
             block.instances.extend(placed.leaves[range].iter().map(placed::placement));
         } else if range.start < placed.leaves.len() {
-            placed.fill(range, block, |i, block| self.sway_leaf(&placed.leaves[i], i, block));
+            let twigs = self.twigs.filter(|_| material == Material::Twig);
+            placed.fill(range, block, |i, block| {
+                if let Some(twigs) = twigs {
+                    let corners = block.vertices.iter_mut().rev().take(4);
+                    corners.for_each(|corner| corner.normal = twigs.normal(corner.position));
+                }
+                self.sway_leaf(&placed.leaves[i], i, block);
+            });
         } else {
             self.fill_blobs(placed.count.vertices, block);
         }

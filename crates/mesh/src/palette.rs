@@ -79,7 +79,7 @@ impl Palette {
     pub const fn color(&self, material: Material) -> Color {
         match material {
             Material::Bark => self.bark,
-            Material::Leaf => self.leaf,
+            Material::Leaf | Material::Twig => self.leaf,
             Material::Blossom => self.blossom,
             Material::Card => Color([255; 3]),
         }

@@ -28,13 +28,15 @@ pub enum Material {
     Leaf,
     /// Blossoms.
     Blossom,
+    /// Cards that show pictures of twigs with their leaves.
+    Twig,
     /// Upright cards that show a picture of the whole tree.
     Card,
 }
 
 impl Material {
     /// Those of a meshed tree, in the order of its parts.
-    pub const ALL: [Self; 3] = [Self::Bark, Self::Leaf, Self::Blossom];
+    pub const ALL: [Self; 4] = [Self::Bark, Self::Leaf, Self::Blossom, Self::Twig];
 
     /// The material's name in files.
     #[must_use]
@@ -43,6 +45,7 @@ impl Material {
             Self::Bark => "bark",
             Self::Leaf => "leaves",
             Self::Blossom => "blossom",
+            Self::Twig => "twigs",
             Self::Card => "card",
         }
     }

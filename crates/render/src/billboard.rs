@@ -49,7 +49,7 @@ impl Billboards {
             trees.iter().map(|tree| paint(tree, palette, sides)).collect();
         let widest = painted.iter().flatten().map(|(_, p)| p.width).max().unwrap_or(1);
         let (width, height) = (widest * sides, HEIGHT * painted.len().max(1) as u32);
-        let mut picture = Picture { width, height, rgba: vec![0; (width * height * 4) as usize] };
+        let mut picture = Picture::transparent(width, height);
         let mut cards = Vec::new();
         for (row, views) in (0..).zip(painted) {
             let place = |column: u32, mut card: Card, view: &Picture, whole: &mut Picture| {
@@ -64,7 +64,7 @@ impl Billboards {
                 (0..).zip(&views).map(|(i, (card, view))| place(i, *card, view, &mut picture)).collect(),
             );
         }
-        bleed(&mut picture);
+        picture.bleed();
         Self { picture, cards }
     }
 
@@ -99,18 +99,4 @@ fn paint(tree: &Tree, palette: &Palette, sides: u32) -> Vec<(Card, Picture)> {
         .collect();
     let is_seen = |(_, view): &(Card, Picture)| view.rgba.chunks_exact(4).any(|pixel| pixel[3] > 0);
     if views.iter().any(is_seen) { views } else { Vec::new() }
-}
-
-/// Gives transparent pixels the mean colour of the others: filters mix it into the edges.
-fn bleed(picture: &mut Picture) {
-    let (mut sum, mut weight) = ([0_u64; 3], 0);
-    for pixel in picture.rgba.chunks_exact(4) {
-        let alpha = u64::from(pixel[3]);
-        (0..3).for_each(|c| sum[c] += u64::from(pixel[c]) * alpha);
-        weight += alpha;
-    }
-    let mean = sum.map(|s| (s / weight.max(1)) as u8);
-    for pixel in picture.rgba.chunks_exact_mut(4).filter(|p| p[3] == 0) {
-        pixel[..3].copy_from_slice(&mean);
-    }
 }

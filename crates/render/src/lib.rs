@@ -17,6 +17,7 @@
 //! | --- | --- |
 //! | [`preview`] | shaded pictures without a graphics card |
 //! | [`billboard`] | a tree from a few sides, for the cards of a last level of detail |
+//! | [`twig_sheet`] | some of a tree's twigs, for the cards of a level with few triangles |
 //! | [`bark_picture`] | pictures of bark that repeat: colour, relief, roughness |
 //! | [`leaf_picture`] | pictures of leaves and blossoms for cards |
 //! | [`picture`], [`png_file`] | pixels in memory and in files |
@@ -34,6 +35,7 @@ pub mod leaf_picture;
 pub mod picture;
 pub mod png_file;
 pub mod preview;
+pub mod twig_sheet;
 
 pub use billboard::Billboards;
 pub use picture::Picture;

@@ -12,6 +12,25 @@ pub struct Picture {
 }
 
 impl Picture {
+    /// A picture that shows nothing.
+    pub(crate) fn transparent(width: u32, height: u32) -> Self {
+        Self { width, height, rgba: vec![0; (width * height * 4) as usize] }
+    }
+
+    /// Gives transparent pixels the mean colour of the others: filters mix it into the edges.
+    pub(crate) fn bleed(&mut self) {
+        let (mut sum, mut weight) = ([0_u64; 3], 0);
+        for pixel in self.rgba.chunks_exact(4) {
+            let alpha = u64::from(pixel[3]);
+            (0..3).for_each(|c| sum[c] += u64::from(pixel[c]) * alpha);
+            weight += alpha;
+        }
+        let mean = sum.map(|s| (s / weight.max(1)) as u8);
+        for pixel in self.rgba.chunks_exact_mut(4).filter(|p| p[3] == 0) {
+            pixel[..3].copy_from_slice(&mean);
+        }
+    }
+
     /// Copies `other` with its upper left corner at (`x`, `y`); pixels beyond the edge are left out.
     pub fn paste(&mut self, other: &Self, x: u32, y: u32) {
         let width = other.width.min(self.width.saturating_sub(x)) as usize * 4;

@@ -7,6 +7,7 @@ use anyhow::{Context, bail};
 use pleach::{Export, Forest, LeafForm, MeshFormat};
 use pleach_mesh::lod;
 use pleach_mesh::weld::WeldSettings;
+use pleach_mesh::write::glb::level_name;
 use pleach_render::{bark_picture, billboard};
 use pleach_tree::Season;
 use pleach_tree::{Foliage, GrowError, Species, Tree};
@@ -39,6 +40,17 @@ pub(crate) struct MeshArgs {
     /// Levels of detail in a .glb, the finest included [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(lod::MAX_LEVELS)))]
     pub(super) lod: Option<u32>,
+    /// Levels of detail of so many triangles each, such as 30000,8000,2000: one or, in a .glb, up to 6. Where leaves
+    /// have no room, twigs become cards that show pictures of them (.glb, .obj, .usda)
+    #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = budget, conflicts_with_all = ["lod", "weld", "sway"])]
+    pub(super) triangles: Vec<u32>,
+    /// Write each level of detail into a file of its own, NAME_LOD0 and so on
+    #[arg(long, conflicts_with = "forest")]
+    pub(super) lod_files: bool,
+    /// Hang coarser levels on the finest by MSFT_lod, out of sight, instead of putting all of them into the scene as
+    /// NAME_LOD0, NAME_LOD1, … (.glb)
+    #[arg(long, conflicts_with = "lod_files")]
+    pub(super) lod_extension: bool,
     /// Weld all stems into one watertight surface, on a grid with cells of this many millimetres; what
     /// is thinner becomes as thick as a cell
     #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "wind", "forest", "tolerance"])]
@@ -75,12 +87,21 @@ pub(crate) struct MeshArgs {
     /// A forest on a field of this size in metres, such as 40x40m, instead of one tree (.glb)
     #[arg(long, value_name = "WxD", value_parser = field)]
     pub(super) forest: Option<(f64, f64)>,
+    /// Give each tree of a forest a node of its own, instead of one for all that look alike (EXT_mesh_gpu_instancing)
+    #[arg(long, requires = "forest")]
+    separate: bool,
     /// Metres between the trees of a forest
     #[arg(long, value_name = "METRES", default_value_t = 6.0, requires = "forest")]
     spacing: f64,
     /// Different trees in a forest
     #[arg(long, value_name = "N", default_value_t = 4, requires = "forest", value_parser = clap::value_parser!(u32).range(1..=i64::from(Forest::MAX_VARIANTS)))]
     variants: u32,
+}
+
+fn budget(text: &str) -> Result<u32, String> {
+    let (least, most) = (lod::BUDGETS.start(), lod::BUDGETS.end());
+    let budget = text.parse().ok().filter(|budget| lod::BUDGETS.contains(budget));
+    budget.ok_or_else(|| format!("triangles from {least} to {most}"))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -136,6 +157,9 @@ impl MeshArgs {
         let usual = Export::default();
         Export {
             lod: self.lod.unwrap_or(usual.lod),
+            triangles: self.triangles.clone(),
+            level: None,
+            lod_extension: self.lod_extension,
             billboard: self.billboard.unwrap_or(usual.billboard),
             tolerance: self.tolerance.unwrap_or(usual.tolerance),
             weld: self.weld,
@@ -159,6 +183,8 @@ impl MeshArgs {
             "--leaves cards"
         } else if self.textures.is_some() {
             "--textures"
+        } else if !self.triangles.is_empty() {
+            "--triangles"
         } else {
             return Ok(());
         };
@@ -182,15 +208,18 @@ impl MeshArgs {
         tree: &Tree,
     ) -> anyhow::Result<()> {
         self.check_alone(path, Format::Mesh(format))?;
+        let export = self.export();
+        if !self.lod_files {
+            return write_one(path, format, &export, species, seed, tree);
+        }
+        if files::is_stdout(path) {
+            bail!("`--lod-files` writes several files, which standard output cannot have");
+        }
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let stem = (!files::is_stdout(path)).then_some(&*stem);
-        let mut beside = Vec::new();
-        files::write_out(path, |out| {
-            beside = self.export().write(format, species, seed, tree, stem, out)?;
-            Ok(())
-        })?;
-        for file in beside {
-            files::write_whole(&path.with_file_name(&file.name), |out| Ok(out.write_all(&file.bytes)?))?;
+        for level in 0..export.level_count() {
+            let name = format!("{}.{}", level_name(&stem, level as usize), format.suffix());
+            let export = Export { level: Some(level), ..export.clone() };
+            write_one(&path.with_file_name(name), format, &export, species, seed, tree)?;
         }
         Ok(())
     }
@@ -204,7 +233,8 @@ impl MeshArgs {
         grow: impl Fn(u64) -> Result<Tree, GrowError>,
     ) -> anyhow::Result<usize> {
         let (width, depth) = self.forest.context("no forest was asked for")?;
-        let forest = Forest { width, depth, spacing: self.spacing, variants: self.variants };
+        let (spacing, variants, separate) = (self.spacing, self.variants, self.separate);
+        let forest = Forest { width, depth, spacing, variants, separate };
         let mut trees = 0;
         files::write_out(path, |out| {
             trees = self.export().write_forest(&forest, species, seed, grow, out)?;
@@ -212,4 +242,26 @@ impl MeshArgs {
         })?;
         Ok(trees)
     }
+}
+
+/// Writes a mesh to `path` and the files that it names beside it.
+fn write_one(
+    path: &Path,
+    format: MeshFormat,
+    export: &Export,
+    species: &Species,
+    seed: u64,
+    tree: &Tree,
+) -> anyhow::Result<()> {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let stem = (!files::is_stdout(path)).then_some(&*stem);
+    let mut beside = Vec::new();
+    files::write_out(path, |out| {
+        beside = export.write(format, species, seed, tree, stem, out)?;
+        Ok(())
+    })?;
+    for file in beside {
+        files::write_whole(&path.with_file_name(&file.name), |out| Ok(out.write_all(&file.bytes)?))?;
+    }
+    Ok(())
 }

@@ -90,6 +90,20 @@ impl UnitMesh {
         Self { corners, triangles: vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]] }
     }
 
+    /// One card across the middle of a rectangle, which shows the part of a picture between the left, top, right and
+    /// bottom that `cell` gives.
+    pub(crate) fn card(cell: [f32; 4]) -> Self {
+        let [left, top, right, bottom] = cell;
+        let corners = [
+            (-0.5, 0.0, left, bottom),
+            (0.5, 0.0, right, bottom),
+            (0.5, 1.0, right, top),
+            (-0.5, 1.0, left, top),
+        ];
+        let corners = corners.map(|(x, y, u, v)| Corner { at: vec3(x, y, 0.0), normal: Vec3::Z, uv: [u, v] });
+        Self { corners: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] }
+    }
+
     /// One card across the blossom's axis, which shows it from above.
     fn level_card(shape: BlossomShape) -> Self {
         let (reach, high) = blossom_spread(shape);

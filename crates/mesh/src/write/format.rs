@@ -26,6 +26,8 @@ pub enum Feature {
     LeafInstances,
     /// Data for shaders of wind at each vertex.
     Wind,
+    /// So many triangles, which may need cards with pictures of twigs.
+    Budget,
     /// Levels of detail.
     Levels,
     /// Crossing cards that show the whole tree.
@@ -75,12 +77,13 @@ impl Format {
     pub const fn holds(self, feature: Feature) -> bool {
         match self {
             Self::Glb => true,
-            Self::Obj => matches!(feature, Feature::LeafCards | Feature::Textures),
+            Self::Obj => matches!(feature, Feature::Budget | Feature::LeafCards | Feature::Textures),
             Self::Ply => matches!(feature, Feature::Wind),
             Self::Stl => false,
-            Self::Usda => {
-                matches!(feature, Feature::LeafCards | Feature::LeafInstances | Feature::Textures)
-            }
+            Self::Usda => matches!(
+                feature,
+                Feature::Budget | Feature::LeafCards | Feature::LeafInstances | Feature::Textures
+            ),
         }
     }
 }

@@ -44,6 +44,9 @@ pub fn materials(palette: &Palette, pictures: &[Pictures<String>]) -> String {
     let mut text = String::from("# materials of a tree\n");
     for material in Material::ALL {
         let picture = pictures.iter().find(|pictures| pictures.material == material);
+        if material == Material::Twig && picture.is_none() {
+            continue;
+        }
         let [r, g, b] = if picture.is_some() { [1.0; 3] } else { linear(palette.color(material)) };
         text.push_str(&format!(
             "\nnewmtl {}\nKd {r:.4} {g:.4} {b:.4}\nKs 0 0 0\nNs 0\nd 1\nillum 1\n",

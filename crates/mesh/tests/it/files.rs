@@ -1,7 +1,7 @@
 //! Every file format, read back by somebody else's reader or byte by byte.
 
 use pleach_mesh::lod::{self, Level};
-use pleach_mesh::write::glb::{Glb, Placed, Scene};
+use pleach_mesh::write::glb::{Glb, Placed, Scene, Site};
 use pleach_mesh::write::{obj, ply, stl, usda};
 use pleach_mesh::{
     Card, Cards, LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Pictures, Rig, Sink,
@@ -25,6 +25,7 @@ pub(crate) fn scene<'a>(species: &Species, _: &Tree, levels: usize) -> Scene<'a>
         palette: Palette::new(&species.appearance, None),
         extras: serde_json::json!({"species": species.name, "seed": 1}),
         placed: vec![Placed::at_origin(&species.name, levels)],
+        lod_extension: false,
         rig: None,
         pictures: Vec::new(),
     }
@@ -44,7 +45,7 @@ fn plain(name: &str, settings: MeshSettings) -> Vec<u8> {
 fn levels_glb(name: &str, count: u32) -> Vec<u8> {
     let (species, tree) = grow(name);
     let levels: Vec<Level<'_>> = lod::levels(&tree, MeshSettings::default(), count);
-    let meshers: Vec<Mesher<'_>> = levels.iter().map(|l| Mesher::new(&l.tree, l.settings)).collect();
+    let meshers: Vec<Mesher<'_>> = levels.iter().map(Level::mesher).collect();
     glb(&meshers, &scene(&species, &tree, levels.len()))
 }
 
@@ -98,14 +99,15 @@ fn forest() -> Vec<u8> {
     let (species, tree) = grow("acer");
     let (_, palm) = grow("palm");
     let meshers = [&tree, &palm].map(|tree| Mesher::new(tree, MeshSettings::default()));
-    let at = |i: u16| Placed {
-        meshes: vec![usize::from(i % 2)],
-        position: glam::vec3(f32::from(i) * 6.0, 0.0, 0.0),
-        turn: f32::from(i),
-        scale: 0.9,
-        ..Placed::at_origin(&format!("tree {i}"), 1)
+    let site =
+        |i: u16| Site { position: glam::vec3(f32::from(i) * 6.0, 0.0, 0.0), turn: f32::from(i), scale: 0.9 };
+    let variant = |mesh: usize, sites: &[u16]| Placed {
+        name: format!("tree {mesh}"),
+        meshes: vec![mesh],
+        sites: sites.iter().copied().map(site).collect(),
     };
-    glb(&meshers, &Scene { placed: (0..5).map(at).collect(), ..scene(&species, &tree, 1) })
+    let placed = vec![variant(0, &[0, 2, 4]), variant(1, &[1])];
+    glb(&meshers, &Scene { placed, ..scene(&species, &tree, 1) })
 }
 
 #[test]
@@ -149,9 +151,27 @@ fn the_same_tree_is_the_same_file() {
 }
 
 #[test]
-fn levels_hang_on_the_finest_and_extras_name_the_tree() {
-    let bytes = levels_glb("acer", 4);
-    let json = json_of(&bytes);
+fn levels_are_named_nodes_below_the_tree() {
+    let json = json_of(&levels_glb("acer", 4));
+    let nodes = &json["scenes"][0]["nodes"];
+    assert_eq!(nodes.as_array().unwrap().len(), 1);
+    let tree = &json["nodes"][nodes[0].as_u64().unwrap() as usize];
+    assert_eq!(tree["name"], "acer");
+    for (level, node) in tree["children"].as_array().unwrap().iter().enumerate() {
+        let node = &json["nodes"][node.as_u64().unwrap() as usize];
+        let mesh = &json["meshes"][node["mesh"].as_u64().unwrap() as usize];
+        assert_eq!(node["name"], format!("acer_LOD{level}"));
+        assert_eq!(node["name"], mesh["name"]);
+    }
+    assert!(json["extensionsUsed"].is_null(), "nothing that a program may not know");
+}
+
+#[test]
+fn levels_of_the_extension_hang_on_the_finest_and_extras_name_the_tree() {
+    let (species, tree) = grow("acer");
+    let levels = lod::levels(&tree, MeshSettings::default(), 4);
+    let meshers: Vec<Mesher<'_>> = levels.iter().map(Level::mesher).collect();
+    let json = json_of(&glb(&meshers, &Scene { lod_extension: true, ..scene(&species, &tree, 4) }));
     let root = &json["nodes"][json["scenes"][0]["nodes"][0].as_u64().unwrap() as usize];
     let levels = root["extensions"]["MSFT_lod"]["ids"].as_array().unwrap();
     assert_eq!(levels.len(), 3);

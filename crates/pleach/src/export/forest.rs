@@ -2,14 +2,13 @@
 
 use super::ExportError;
 use super::extras::extras;
-use super::options::Export;
+use super::options::{Export, LeafForm};
 use super::tree::cards;
 use crate::option_error::{OptionError, from_json};
 use pleach_mesh::forest;
 use pleach_mesh::send;
 use pleach_mesh::write::Format;
-use pleach_mesh::write::glb::{Glb, Placed, Scene};
-use pleach_render::Billboards;
+use pleach_mesh::write::glb::{Glb, Placed, Scene, Site};
 use pleach_tree::{GrowError, Species, Tree};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -27,11 +26,14 @@ pub struct Forest {
     pub spacing: f64,
     /// Different trees, 1 to 64: those of consecutive seeds.
     pub variants: u32,
+    /// Whether each tree is a node of its own, which every program reads, instead of one node for all that look alike
+    /// (`EXT_mesh_gpu_instancing`), which engines draw at once.
+    pub separate: bool,
 }
 
 impl Default for Forest {
     fn default() -> Self {
-        Self { width: 40.0, depth: 40.0, spacing: 6.0, variants: 4 }
+        Self { width: 40.0, depth: 40.0, spacing: 6.0, variants: 4, separate: false }
     }
 }
 
@@ -99,34 +101,48 @@ impl Export {
             Ok(tree)
         });
         let trees = grown.collect::<Result<Vec<Tree>, ExportError>>()?;
-        let levels: Vec<_> = trees.iter().map(|tree| self.levels(tree)).collect();
-        let billboards = (self.billboard > 0).then(|| {
-            let trees: Vec<&Tree> = trees.iter().collect();
-            Billboards::paint(&trees, &palette, self.billboard)
-        });
+        let trees: Vec<&Tree> = trees.iter().collect();
+        let levels = self.levels(&trees)?;
+        let billboards = self.billboards(&trees, &palette);
         let mut sources = Vec::new();
         for (i, levels) in levels.iter().enumerate() {
             sources.extend(self.sources(levels, None, None));
             sources.extend(billboards.iter().map(|billboards| cards(&billboards.cards[i])));
         }
-        let each = self.lod as usize + usize::from(billboards.is_some());
-        let placed = sites.iter().enumerate().map(|(i, site)| {
-            let first = used.binary_search(&site.variant).unwrap_or(0) * each;
-            Placed {
-                name: format!("{} {}", species.name, i + 1),
-                meshes: (first..first + each).collect(),
-                position: site.position.as_vec2().extend(0.0),
-                turn: site.turn as f32,
-                scale: site.scale as f32,
+        let each = sources.len() / trees.len().max(1);
+        let meshes = |variant: usize| (variant * each..(variant + 1) * each).collect();
+        // An instance cannot hold instances.
+        let is_separate = forest.separate || self.leaves == LeafForm::Instances;
+        let mut placed: Vec<Placed> = Vec::new();
+        for (variant, number) in used.iter().enumerate() {
+            let own = sites.iter().enumerate().filter(|(_, site)| site.variant == *number);
+            let own = own.map(|(i, site)| {
+                let position = site.position.as_vec2().extend(0.0);
+                (i, Site { position, turn: site.turn as f32, scale: site.scale as f32 })
+            });
+            if is_separate {
+                placed.extend(own.map(|(i, site)| Placed {
+                    name: format!("{} {}", species.name, i + 1),
+                    meshes: meshes(variant),
+                    sites: vec![site],
+                }));
+            } else {
+                let name = format!("{} {}", species.name, variant + 1);
+                placed.push(Placed {
+                    name,
+                    meshes: meshes(variant),
+                    sites: own.map(|(_, site)| site).collect(),
+                });
             }
-        });
+        }
         let scene = Scene {
             name: format!("{} forest", species.name),
             palette,
             extras: extras(species, json!(seeds)),
-            placed: placed.collect(),
+            placed,
+            lod_extension: self.lod_extension,
             rig: None,
-            pictures: self.pictures(&trees[0], &palette, billboards.as_ref())?,
+            pictures: self.pictures(&trees, &levels, &palette, billboards.as_ref())?,
         };
         send(&sources, &mut Glb::new(out, &scene))?;
         Ok(sites.len())

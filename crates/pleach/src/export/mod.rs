@@ -17,6 +17,7 @@ pub use tree::{Beside, ExportedFile};
 use crate::option_error::OptionError;
 use pleach_mesh::MeshError;
 use pleach_mesh::forest::ForestError;
+use pleach_mesh::lod::TooFew;
 use pleach_mesh::weld::WeldError;
 use pleach_tree::GrowError;
 
@@ -30,6 +31,9 @@ pub enum ExportError {
     /// The stems cannot be welded.
     #[error(transparent)]
     Weld(#[from] WeldError),
+    /// A level of so few triangles is not to be had.
+    #[error(transparent)]
+    Budget(#[from] TooFew),
     /// The mesh cannot be written.
     #[error(transparent)]
     Mesh(#[from] MeshError),

@@ -83,6 +83,13 @@ impl LeafForm {
 pub struct Export {
     /// Levels of detail, the finest included, 1 to 6.
     pub lod: u32,
+    /// Budgets of levels of detail in triangles, the largest first, up to 6, instead of `lod`; twigs become cards where
+    /// leaves have no room.
+    pub triangles: Vec<u32>,
+    /// Only this level of detail, counted from 0; cards that show the whole tree are the last.
+    pub level: Option<u32>,
+    /// Whether coarser levels hang on the finest by `MSFT_lod`, out of sight, instead of standing in the scene as nodes.
+    pub lod_extension: bool,
     /// A last level of detail: this many crossing cards that show the tree, 1 to 8; 0 for none.
     pub billboard: u32,
     /// How far bark may stray from its true surface, in millimetres, 0.01 to 1000.
@@ -111,6 +118,9 @@ impl Default for Export {
     fn default() -> Self {
         Self {
             lod: 1,
+            triangles: Vec::new(),
+            level: None,
+            lod_extension: false,
             billboard: 0,
             tolerance: 2.0,
             weld: None,
@@ -176,6 +186,21 @@ impl Export {
         if !(1..=lod::MAX_LEVELS).contains(&self.lod) {
             return error("lod", format!("is {}, expected from 1 to {} levels", self.lod, lod::MAX_LEVELS));
         }
+        let (least, most) = (*lod::BUDGETS.start(), *lod::BUDGETS.end());
+        if let Some(wrong) = self.triangles.iter().find(|budget| !lod::BUDGETS.contains(budget)) {
+            return error("triangles", format!("has a level of {wrong}, expected from {least} to {most}"));
+        }
+        if let Some(pair) = self.triangles.windows(2).find(|pair| pair[1] >= pair[0]) {
+            return error("triangles", format!("has {} after {}, expected fewer", pair[1], pair[0]));
+        }
+        if self.triangles.len() > lod::MAX_LEVELS as usize {
+            let (found, most) = (self.triangles.len(), lod::MAX_LEVELS);
+            return error("triangles", format!("has {found} levels, expected up to {most}"));
+        }
+        if let Some(level) = self.level.filter(|level| *level >= self.level_count()) {
+            let last = self.level_count() - 1;
+            return error("level", format!("is {level}, expected from 0 to {last}"));
+        }
         if self.billboard > billboard::MAX_SIDES {
             let most = billboard::MAX_SIDES;
             return error("billboard", format!("is {}, expected up to {most} cards", self.billboard));
@@ -198,8 +223,22 @@ impl Export {
     }
 
     fn check_together(&self) -> Result<(), OptionError> {
+        let has_budget = !self.triangles.is_empty();
+        if has_budget && self.lod > 1 {
+            return Err(OptionError::new("triangles", "gives each level a budget: leave out `lod`"));
+        }
+        if has_budget && !matches!(self.leaves, LeafForm::Outline | LeafForm::None) {
+            return Err(OptionError::new("triangles", "decides how leaves are drawn: leave out `leaves`"));
+        }
+        if self.lod_extension && self.shown_levels() < 2 {
+            return Err(OptionError::new(
+                "lod_extension",
+                "is about several levels of detail, and there is one",
+            ));
+        }
         let asks = [
             ("lod", self.lod > 1),
+            ("triangles", has_budget),
             ("billboard", self.billboard > 0),
             ("sway", self.sway),
             ("wind", self.wind),
@@ -211,12 +250,12 @@ impl Export {
             return Err(OptionError::new("textures", "cannot be laid on one surface, which `weld` makes"));
         }
         if self.weld.is_some()
-            && let Some(other) = asked(&["lod", "sway", "wind"])
+            && let Some(other) = asked(&["lod", "triangles", "sway", "wind"])
         {
             return Err(OptionError::new("weld", format!("makes one surface, which `{other}` cannot have")));
         }
         if self.sway
-            && let Some(other) = asked(&["lod", "billboard"])
+            && let Some(other) = asked(&["lod", "triangles", "billboard"])
         {
             return Err(OptionError::new("sway", format!("is of one mesh: leave out `{other}`")));
         }
@@ -232,11 +271,35 @@ impl Export {
             ("leaves", self.leaves.feature()),
             ("textures", self.textures.map(|_| Feature::Textures)),
             ("wind", self.wind.then_some(Feature::Wind)),
-            ("lod", (self.lod > 1).then_some(Feature::Levels)),
-            ("billboard", (self.billboard > 0).then_some(Feature::Billboard)),
+            ("triangles", (!self.triangles.is_empty()).then_some(Feature::Budget)),
+            ("triangles", (self.triangles.len() > 1 && self.level.is_none()).then_some(Feature::Levels)),
+            ("lod", (self.lod > 1 && self.level.is_none()).then_some(Feature::Levels)),
+            ("lod_extension", self.lod_extension.then_some(Feature::Levels)),
+            ("billboard", (self.billboard > 0 && self.shows_billboard()).then_some(Feature::Billboard)),
             ("sway", self.sway.then_some(Feature::Sway)),
         ];
         asked.into_iter().filter_map(|(option, feature)| feature.map(|feature| (option, feature)))
+    }
+
+    /// How many levels of detail there are, the cards that show the whole tree included, whichever are written.
+    #[must_use]
+    pub fn level_count(&self) -> u32 {
+        self.tree_levels() + u32::from(self.billboard > 0)
+    }
+
+    /// Levels without the cards that show the whole tree.
+    pub(super) fn tree_levels(&self) -> u32 {
+        self.lod.max(self.triangles.len() as u32)
+    }
+
+    /// How many levels are written.
+    pub(super) fn shown_levels(&self) -> u32 {
+        if self.level.is_some() { 1 } else { self.level_count() }
+    }
+
+    /// Whether the cards that show the whole tree are written.
+    pub(super) fn shows_billboard(&self) -> bool {
+        self.billboard > 0 && self.level.is_none_or(|level| level == self.tree_levels())
     }
 
     /// What of a tree is drawn.
@@ -268,7 +331,7 @@ mod tests {
 
     #[test]
     fn options_read_back_from_json_and_unknown_ones_are_refused() {
-        let other = r#"{ "lod": 2, "billboard": 3, "tolerance": 5.0, "weld": 30.0, "fillet": 1.0, "roots": true,
+        let other = r#"{ "lod": 2, "triangles": [900], "level": 0, "lod_extension": true, "billboard": 3, "tolerance": 5.0, "weld": 30.0, "fillet": 1.0, "roots": true,
             "leaves": "cards", "textures": 512, "season": "autumn", "wind": true, "sway": true }"#;
         let other = Export::from_json(other).unwrap();
         let written = serde_json::to_value(&other).unwrap();
@@ -287,16 +350,33 @@ mod tests {
 
     #[test]
     fn each_wrong_option_is_named() {
-        let wrong = |format, change: fn(&mut Export)| {
+        fn wrong(format: Format, change: impl FnOnce(&mut Export)) -> String {
             let mut export = Export::default();
             change(&mut export);
             export.check(format).unwrap_err().option.into_owned()
-        };
+        }
         for format in Format::ALL {
             assert_eq!(Export::default().check(format), Ok(()));
             assert_eq!(wrong(format, |e| e.lod = 0), "lod");
             assert_eq!(wrong(format, |e| e.lod = 7), "lod");
             assert_eq!(wrong(format, |e| e.billboard = 9), "billboard");
+            for triangles in [
+                &[0][..],
+                &[10],
+                &[2_000, 2_000],
+                &[21_000_000],
+                &[7_000, 6_000, 5_000, 4_000, 3_000, 2_000, 1_000],
+            ] {
+                assert_eq!(wrong(format, |e| e.triangles = triangles.to_vec()), "triangles", "{triangles:?}");
+            }
+            assert_eq!(wrong(format, |e| (e.triangles, e.lod) = (vec![2_000], 2)), "triangles");
+            assert_eq!(
+                wrong(format, |e| (e.triangles, e.leaves) = (vec![2_000], LeafForm::Cards)),
+                "triangles"
+            );
+            assert_eq!(wrong(format, |e| (e.triangles, e.weld) = (vec![2_000], Some(5.0))), "weld");
+            assert_eq!(wrong(format, |e| e.level = Some(1)), "level");
+            assert_eq!(wrong(format, |e| e.lod_extension = true), "lod_extension");
             assert_eq!(wrong(format, |e| e.tolerance = f64::NAN), "tolerance");
             assert_eq!(wrong(format, |e| e.weld = Some(0.5)), "weld");
             assert_eq!(wrong(format, |e| (e.weld, e.fillet) = (Some(5.0), 4.5)), "fillet");
@@ -306,6 +386,10 @@ mod tests {
             assert_eq!(wrong(format, |e| (e.sway, e.lod) = (true, 2)), "sway");
         }
         assert_eq!(wrong(Format::Stl, |e| e.lod = 2), "lod");
+        assert_eq!(wrong(Format::Stl, |e| e.triangles = vec![2_000]), "triangles");
+        assert_eq!(wrong(Format::Obj, |e| e.triangles = vec![4_000, 2_000]), "triangles");
+        let one_level = Export { triangles: vec![4_000, 2_000], level: Some(1), ..Export::default() };
+        assert_eq!(one_level.check(Format::Obj), Ok(()));
         assert_eq!(wrong(Format::Obj, |e| e.wind = true), "wind");
         assert_eq!(wrong(Format::Ply, |e| e.leaves = LeafForm::Cards), "leaves");
         assert_eq!(wrong(Format::Usda, |e| e.billboard = 2), "billboard");

@@ -5,10 +5,10 @@ use super::extras::extras;
 use super::options::{Export, LeafForm};
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::weld::{self, WeldSettings};
-use pleach_mesh::write::glb::{Glb, Placed, Scene};
+use pleach_mesh::write::glb::{Glb, Placed, Scene, level_name};
 use pleach_mesh::write::{Format, obj, ply, stl, usda};
 use pleach_mesh::{Block, Card, Cards, Material, Mesher, Palette, Pictures, Rig, Source, Welded, send};
-use pleach_render::{Billboards, Picture, bark_picture, leaf_picture, png_file};
+use pleach_render::{Billboards, Picture, bark_picture, leaf_picture, png_file, twig_sheet};
 use pleach_tree::{Species, Tree};
 use serde_json::json;
 use std::io::{Cursor, Seek, Write};
@@ -66,7 +66,9 @@ impl Export {
         let palette = self.palette(species);
         let tree = &*palette.dressed(tree);
         let bark = self.welded(tree)?;
-        let one = One { export: self, species, seed, tree, palette, bark: bark.as_ref(), stem };
+        let levels = self.levels(&[tree])?;
+        let one =
+            One { export: self, species, seed, tree, levels: &levels, palette, bark: bark.as_ref(), stem };
         match format {
             Format::Glb => one.write_glb(out).map(|()| Vec::new()),
             Format::Obj => one.write_obj(out),
@@ -108,7 +110,7 @@ impl Export {
         bark: Option<&'a Block>,
     ) -> Vec<Box<dyn Source + 'a>> {
         let mesher = |level: &'a Level<'a>| {
-            let mut mesher = Mesher::new(&level.tree, level.settings);
+            let mut mesher = level.mesher();
             if let Some(rig) = rig {
                 mesher = mesher.with_rig(rig);
             }
@@ -120,14 +122,31 @@ impl Export {
         levels.iter().map(mesher).collect()
     }
 
-    pub(super) fn levels<'a>(&self, tree: &'a Tree) -> Vec<Level<'a>> {
-        lod::levels(tree, self.settings(), self.lod)
+    /// The levels of detail that are written of each of `trees`.
+    pub(super) fn levels<'a>(&self, trees: &[&'a Tree]) -> Result<Vec<Vec<Level<'a>>>, ExportError> {
+        let all = 0..self.tree_levels();
+        let shown = self.level.map_or(all.clone(), |level| level..level + 1);
+        let shown = shown.start.min(all.end)..shown.end.min(all.end);
+        if !self.triangles.is_empty() {
+            let budgets = &self.triangles[shown.start as usize..shown.end as usize];
+            return Ok(lod::budgets(trees, self.settings(), budgets)?);
+        }
+        let of_tree =
+            |tree: &&'a Tree| shown.clone().map(|level| lod::level(tree, self.settings(), level)).collect();
+        Ok(trees.iter().map(of_tree).collect())
     }
 
-    /// PNG files that bark, leaves, blossom and billboards show.
+    /// Cards that show each of `trees`, where they are asked for.
+    pub(super) fn billboards(&self, trees: &[&Tree], palette: &Palette) -> Option<Billboards> {
+        let billboards = self.shows_billboard().then(|| Billboards::paint(trees, palette, self.billboard));
+        billboards.filter(|billboards| !billboards.is_empty())
+    }
+
+    /// PNG files that bark, leaves, blossom, twigs and billboards show.
     pub(super) fn pictures(
         &self,
-        tree: &Tree,
+        trees: &[&Tree],
+        levels: &[Vec<Level<'_>>],
         palette: &Palette,
         billboards: Option<&Billboards>,
     ) -> Result<Vec<Pictures<Vec<u8>>>, ExportError> {
@@ -138,9 +157,13 @@ impl Export {
             pictures.push(bark.try_map(|_, picture| png(&picture))?);
         }
         if self.leaves == LeafForm::Cards {
-            for (material, picture) in leaf_picture::leaf_pictures(tree, palette) {
+            for (material, picture) in leaf_picture::leaf_pictures(trees[0], palette) {
                 pictures.push(Pictures::colors(material, png(&picture)?));
             }
+        }
+        if lod::painted(trees, levels).next().is_some() {
+            let picture = twig_sheet::paint(palette, lod::painted(trees, levels));
+            pictures.push(Pictures::colors(Material::Twig, png(&picture)?));
         }
         if let Some(billboards) = billboards {
             pictures.push(Pictures::colors(Material::Card, png(&billboards.picture)?));
@@ -155,40 +178,50 @@ struct One<'a> {
     species: &'a Species,
     seed: u64,
     tree: &'a Tree,
+    levels: &'a [Vec<Level<'a>>],
     palette: Palette,
     bark: Option<&'a Block>,
     stem: Option<&'a str>,
 }
 
 impl One<'_> {
+    /// The one level of formats that hold one.
+    fn mesher(&self) -> Mesher<'_> {
+        self.levels[0].first().map_or_else(|| Mesher::new(self.tree, self.export.settings()), Level::mesher)
+    }
+
     fn source(&self) -> Box<dyn Source + '_> {
-        with_bark(Mesher::new(self.tree, self.export.settings()), self.bark)
+        with_bark(self.mesher(), self.bark)
     }
 
     fn write_glb<W: Write + Seek + ?Sized>(&self, out: &mut W) -> Result<(), ExportError> {
-        let Self { export, species, tree, palette, .. } = *self;
-        let levels = export.levels(tree);
+        let Self { export, species, tree, levels, palette, .. } = *self;
         let rig = export.sway.then(|| Rig::new(tree));
-        let billboards =
-            (export.billboard > 0).then(|| Billboards::paint(&[tree], &palette, export.billboard));
-        let billboards = billboards.filter(|billboards| !billboards.is_empty());
-        let mut sources = export.sources(&levels, rig.as_ref(), self.bark);
+        let billboards = export.billboards(&[tree], &palette);
+        let mut sources = export.sources(&levels[0], rig.as_ref(), self.bark);
         sources.extend(billboards.iter().map(|billboards| cards(&billboards.cards[0])));
         let scene = Scene {
             name: species.name.clone(),
             palette,
             extras: extras(species, json!(self.seed)),
-            placed: vec![Placed::at_origin(&species.name, sources.len())],
+            placed: vec![Placed::at_origin(&self.mesh_name(), sources.len())],
+            lod_extension: export.lod_extension,
             rig: rig.as_ref(),
-            pictures: export.pictures(tree, &palette, billboards.as_ref())?,
+            pictures: export.pictures(&[tree], levels, &palette, billboards.as_ref())?,
         };
         Ok(send(&sources, &mut Glb::new(out, &scene))?)
+    }
+
+    /// The tree's name; that of its level where only one of several is written.
+    fn mesh_name(&self) -> String {
+        let name = &self.species.name;
+        self.export.level.map_or_else(|| name.clone(), |level| level_name(name, level as usize))
     }
 
     fn write_obj<W: Write + ?Sized>(&self, out: &mut W) -> Result<Vec<Beside>, ExportError> {
         let materials = self.stem.map(|stem| format!("{stem}.mtl"));
         let name = materials.as_deref().unwrap_or_default();
-        send(&[self.source()], &mut obj::Obj::new(out, &self.species.name, name))?;
+        send(&[self.source()], &mut obj::Obj::new(out, &self.mesh_name(), name))?;
         let Some(name) = materials else { return Ok(Vec::new()) };
         let (mut beside, pictures) = self.pictures_beside()?;
         let bytes = obj::materials(&self.palette, &pictures).into_bytes();
@@ -198,14 +231,14 @@ impl One<'_> {
 
     fn write_usda<W: Write + ?Sized>(&self, out: &mut W) -> Result<Vec<Beside>, ExportError> {
         let (beside, pictures) = self.pictures_beside()?;
-        let mesher = Mesher::new(self.tree, self.export.settings()).with_instanced_leaves();
+        let mesher = self.mesher().with_instanced_leaves();
         let about = [
             ("generator", self.species.generator.family().to_owned()),
             ("seed", self.seed.to_string()),
             ("species", self.species.name.clone()),
         ];
         let notes = usda::Notes {
-            name: self.species.name.clone(),
+            name: self.mesh_name(),
             about: about.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
             pictures,
         };
@@ -217,11 +250,11 @@ impl One<'_> {
     fn pictures_beside(&self) -> Result<(Vec<Beside>, Vec<Pictures<String>>), ExportError> {
         let (mut beside, mut names) = (Vec::new(), Vec::new());
         let Some(stem) = self.stem else { return Ok((beside, names)) };
-        for pictures in self.export.pictures(self.tree, &self.palette, None)? {
+        for pictures in self.export.pictures(&[self.tree], self.levels, &self.palette, None)? {
             let is_shown = match pictures.material {
                 Material::Blossom => !self.tree.blossoms.is_empty(),
                 Material::Leaf => !self.tree.leaves.is_empty(),
-                Material::Bark | Material::Card => true,
+                Material::Bark | Material::Twig | Material::Card => true,
             };
             if !is_shown {
                 continue;

@@ -4,8 +4,8 @@
 use glam::{IVec3, UVec3, Vec3, ivec3, uvec3, vec3};
 use rayon::prelude::*;
 
-/// Cells along the longest side.
-const CELLS: f32 = 44.0;
+/// Cells along the longest side of a whole crown.
+pub(crate) const CELLS: u32 = 44;
 /// Light that passes a cell: e to the minus this, per square metre of leaf and cubic metre of cell,
 /// and metre of way. Leaves at all angles hide half of their area (Monsi and Saeki 1953).
 const EXTINCTION: f32 = 0.5;
@@ -22,10 +22,10 @@ pub(crate) struct Crown {
 }
 
 impl Crown {
-    /// From points with the area in square metres that each stands for.
-    pub(crate) fn new(low: Vec3, high: Vec3, areas: impl Iterator<Item = (Vec3, f32)>) -> Self {
+    /// From points with the area in square metres that each stands for, with so many cells along the longest side.
+    pub(crate) fn new(low: Vec3, high: Vec3, cells: u32, areas: impl Iterator<Item = (Vec3, f32)>) -> Self {
         let extent = (high - low).max(Vec3::splat(1e-3));
-        let cell = extent.max_element() / CELLS;
+        let cell = extent.max_element() / cells as f32;
         let size = (extent / cell).ceil().as_uvec3() + uvec3(2, 2, 2);
         let mut crown = Self { origin: low - cell, cell, size, sky: Vec::new() };
         let mut density = vec![0.0_f32; (size.x * size.y * size.z) as usize];
@@ -136,7 +136,7 @@ mod tests {
                 areas.push((at, 0.01));
             }
         }
-        let crown = Crown::new(Vec3::splat(-2.0), Vec3::splat(2.0), areas.into_iter());
+        let crown = Crown::new(Vec3::splat(-2.0), Vec3::splat(2.0), CELLS, areas.into_iter());
         let [heart, side, top] = [Vec3::ZERO, Vec3::X * 1.9, Vec3::Z * 1.9].map(|p| crown.sky_at(p));
         assert!(heart < 0.7 * side && side < top && top <= 1.0, "{heart} {side} {top}");
         assert!(crown.sky_at(Vec3::splat(9.0)) > 0.99);

@@ -62,7 +62,12 @@ impl<'a> Preview<'a> {
     /// Prepares `parts` of `tree` for pictures of about `size` pixels in height.
     #[must_use]
     pub fn with_parts(tree: &'a Tree, palette: &Palette, size: u32, parts: Parts) -> Self {
-        Self { scene: Scene::new(tree, palette, size, parts) }
+        Self { scene: Scene::new(tree, palette, size, parts, crown::CELLS) }
+    }
+
+    /// Prepares a twig, whose light is reckoned more coarsely than that of a crown.
+    pub(crate) fn of_twig(tree: &'a Tree, palette: &Palette, size: u32) -> Self {
+        Self { scene: Scene::new(tree, palette, size, Parts::LEAFY, 10) }
     }
 
     /// The smallest and largest coordinates of what is drawn, in metres.

@@ -3,6 +3,7 @@
 use super::crown::Crown;
 use super::raster::DepthBuffer;
 use glam::Vec3;
+use pleach_mesh::palette::linear;
 use pleach_mesh::{
     Block, Count, LeafStyle, Material, MeshError, MeshSettings, Mesher, Palette, Part, Sink, Source as _,
     Vertex, send,
@@ -11,11 +12,27 @@ use pleach_plant::Bounds;
 use pleach_plant::{Parts, Tree};
 use std::ops::Range;
 
+/// The palette as intensities of light.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Colors {
+    pub(super) bark: Vec3,
+    pub(super) leaf: Vec3,
+    pub(super) blossom: Vec3,
+}
+
+impl Colors {
+    fn new(palette: &Palette) -> Self {
+        let [bark, leaf, blossom] = [palette.bark, palette.leaf, palette.blossom].map(linear).map(Vec3::from);
+        Self { bark, leaf, blossom }
+    }
+}
+
 /// A tree about to be looked at. Its triangles are made again for each pass over them, block by block: all of them
 /// would take several times as much memory as the tree.
 #[derive(Debug)]
 pub(super) struct Scene<'a> {
     pub(super) palette: Palette,
+    pub(super) colors: Colors,
     mesher: Mesher<'a>,
     /// First triangle of each part, what it is, and how many triangles each of its leaves has.
     parts: Vec<(u32, Material, u32)>,
@@ -34,7 +51,8 @@ pub(super) struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    pub(super) fn new(tree: &'a Tree, palette: &Palette, size: u32, parts: Parts) -> Self {
+    /// Prepares `parts` of `tree` for pictures of about `size` pixels; its light is reckoned in so many cells.
+    pub(super) fn new(tree: &'a Tree, palette: &Palette, size: u32, parts: Parts, cells: u32) -> Self {
         let bounds = Bounds::new(tree, parts);
         let (low, high) = bounds.map_or((Vec3::ZERO, Vec3::ONE), |b| (b.min.as_vec3(), b.max.as_vec3()));
         let pixel = f64::from((high - low).max_element().max(1e-3)) / f64::from(size.max(1));
@@ -50,10 +68,11 @@ impl<'a> Scene<'a> {
         let mesher = Mesher::new(tree, settings);
         let mut scene = Self {
             palette: *palette,
+            colors: Colors::new(palette),
             parts: Vec::new(),
             blobs: 0..0,
             stems: stems(tree, &mesher),
-            crown: Crown::new(low, high, areas(tree)),
+            crown: Crown::new(low, high, cells, areas(tree)),
             low,
             high,
             has_roots: parts.contains(Parts::ROOTS),
@@ -222,7 +241,7 @@ mod tests {
         };
         let mesh = Mesher::new(&tree, MeshSettings::default());
         for size in [64, 512] {
-            let scene = Scene::new(&tree, &Palette::new(&species.appearance, None), size, Parts::LEAFY);
+            let scene = Scene::new(&tree, &Palette::new(&species.appearance, None), size, Parts::LEAFY, 8);
             assert_eq!(
                 triangles(&scene.mesher, Material::Blossom),
                 triangles(&mesh, Material::Blossom),

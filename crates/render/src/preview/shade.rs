@@ -157,11 +157,11 @@ impl View<'_> {
     }
 
     fn bark(&self, at: Vec3, normal: Vec3, ray: Vec3, (radius, level): (f32, u16), u: f32, v: f32) -> Vec3 {
-        let palette = &self.scene.palette;
-        let bark = Vec3::from(linear(palette.bark));
+        let (palette, colors) = (&self.scene.palette, &self.scene.colors);
+        let bark = colors.bark;
         // Young wood is darker and browner; palms and bamboo carry green stalks.
         let young = match palette.pattern {
-            BarkPattern::Ringed if level > 0 => Vec3::from(linear(palette.leaf)) * 0.9,
+            BarkPattern::Ringed if level > 0 => colors.leaf * 0.9,
             BarkPattern::Banded => vec3(0.115, 0.075, 0.055),
             BarkPattern::Plain => bark,
             _ => bark * vec3(0.62, 0.52, 0.46),
@@ -185,7 +185,7 @@ impl View<'_> {
 
     fn leaf(&self, at: Vec3, normal: Vec3, ray: Vec3, material: Material, number: u32) -> Vec3 {
         let scene = self.scene;
-        let base = Vec3::from(linear(scene.palette.color(material)));
+        let base = if material == Material::Blossom { scene.colors.blossom } else { scene.colors.leaf };
         // Leaves of one tree differ: evenly spread steps in brightness and warmth.
         let spread = |step: f32| (number as f32 * step).fract() - 0.5;
         let varied =
@@ -210,7 +210,7 @@ impl View<'_> {
 
     /// A closed surface of foliage: one flat colour in soft light.
     fn blob(&self, at: Vec3, normal: Vec3) -> Vec3 {
-        let color = Vec3::from(linear(self.scene.palette.leaf));
+        let color = self.scene.colors.leaf;
         // Seen from outside only. A smooth normal at the rim may look away, and is still the right one.
         let sky = self.scene.crown.sky_at(at + normal * 0.05);
         let Some(sun) = &self.sun else { return color * even(sky) };

@@ -66,8 +66,8 @@ impl Choice {
 
 /// The table. `--no-leaves`, `--leafy`, `--seed`, `--seeds` and the limits apply to every output.
 #[rustfmt::skip]
-static CHOICES: [Choice; 15] = {
-    use MeshFeature::{Billboard, Forest, LeafCards, LeafInstances, Levels, Sway, Textures, Wind};
+static CHOICES: [Choice; 18] = {
+    use MeshFeature::{Billboard, Budget, Forest, LeafCards, LeafInstances, Levels, Sway, Textures, Wind};
     use Takes::{All, AllButPng, Holding, Meshes, Png};
 
     const fn choice(flag: &'static str, what: &'static str, takes: Takes, given: fn(&Grow) -> bool) -> Choice {
@@ -85,7 +85,10 @@ static CHOICES: [Choice; 15] = {
         choice("--textures", "pictures of bark", Holding(Textures), |g| g.mesh.textures.is_some()),
         choice("--weld", "one watertight surface", Meshes, |g| g.mesh.weld.is_some()),
         choice("--wind", "data for wind shaders", Holding(Wind), |g| g.mesh.wind),
-        choice("--lod", "levels of detail", Holding(Levels), |g| g.mesh.lod.is_some()),
+        choice("--lod", "levels of detail", Holding(Levels), |g| g.mesh.lod.is_some() && !g.mesh.lod_files),
+        choice("--triangles", "a budget of triangles", Holding(Budget), |g| !g.mesh.triangles.is_empty()),
+        choice("--lod-files", "a file for each level", Meshes, |g| g.mesh.lod_files),
+        choice("--lod-extension", "levels by MSFT_lod", Holding(Levels), |g| g.mesh.lod_extension),
         choice("--billboard", "billboards", Holding(Billboard), |g| g.mesh.billboard.is_some()),
         choice("--sway", "an animation", Holding(Sway), |g| g.mesh.sway),
         choice("--forest", "a forest", Holding(Forest), |g| g.mesh.forest.is_some()),

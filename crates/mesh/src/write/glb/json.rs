@@ -1,6 +1,6 @@
 //! The JSON part of a GLB file.
 
-use super::layout::{Layout, PartLayout, SKIN_BYTES};
+use super::layout::{Layout, PartLayout, Placements, SKIN_BYTES};
 use super::{Placed, Scene, animation, upright};
 use crate::palette::linear;
 use crate::part::Material;
@@ -25,11 +25,13 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
     let meshes = layout.parts.iter().map(|p| p.part.mesh + 1).max().unwrap_or(0);
     let mut drawn = Vec::new();
     for mesh in 0..meshes {
-        drawn.push(file.mesh(layout.parts.iter().filter(|p| p.part.mesh == mesh)));
+        let name = mesh_name(scene, mesh);
+        drawn.push(file.mesh(&name, layout.parts.iter().filter(|p| p.part.mesh == mesh)));
     }
     let mut roots = Vec::new();
-    for placed in &scene.placed {
-        let node = file.placed(placed, &drawn, scene.rig.is_some());
+    for (placed, sites) in scene.placed.iter().zip(&layout.sites) {
+        let sites = sites.map(|sites| file.placements(sites));
+        let node = file.placed(placed, &drawn, sites.as_ref(), scene);
         roots.push(node);
     }
     if let Some(rig) = scene.rig {
@@ -69,6 +71,12 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
     root.to_string()
 }
 
+/// The name of mesh number `mesh`: that of the first tree that has it, and its level.
+fn mesh_name(scene: &Scene<'_>, mesh: usize) -> String {
+    let level = |placed: &Placed| Some(placed.level_name(placed.meshes.iter().position(|&m| m == mesh)?));
+    scene.placed.iter().find_map(level).unwrap_or_else(|| scene.name.clone())
+}
+
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 const LEVELS: &str = "MSFT_lod";
 
@@ -91,7 +99,7 @@ fn material(scene: &Scene<'_>, textures: &[Textures], material: Material) -> Val
         return value;
     }
     if let Some(Textures { color: texture, .. }) = own {
-        let roughness = if material == Material::Card { 1.0 } else { 0.7 };
+        let roughness = if matches!(material, Material::Card) { 1.0 } else { 0.7 };
         return json!({
             "name": material.name(), "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.4,
             "pbrMetallicRoughness": {
@@ -116,8 +124,22 @@ fn material(scene: &Scene<'_>, textures: &[Textures], material: Material) -> Val
 #[derive(Default)]
 struct Drawn {
     mesh: Option<usize>,
-    /// Mesh and its instance accessors.
-    instanced: Vec<(usize, Value)>,
+    /// Mesh, its name, and the extension that places it.
+    instanced: Vec<(usize, String, Value)>,
+}
+
+/// Puts a node where a tree stands that is not instanced.
+fn put(node: &mut Value, placed: &Placed) {
+    let [site] = &placed.sites[..] else { return };
+    if site.position != Vec3::ZERO {
+        node["translation"] = json!(upright(site.position).to_array());
+    }
+    if site.turn != 0.0 {
+        node["rotation"] = json!(glam::Quat::from_rotation_y(site.turn).to_array());
+    }
+    if site.scale != 1.0 {
+        node["scale"] = json!(vec![site.scale; 3]);
+    }
 }
 
 /// Numbers of the textures of a material.
@@ -183,25 +205,29 @@ impl File {
         push(&mut self.accessors, accessor)
     }
 
-    fn mesh<'p>(&mut self, parts: impl Iterator<Item = &'p PartLayout>) -> Drawn {
+    fn mesh<'p>(&mut self, name: &str, parts: impl Iterator<Item = &'p PartLayout>) -> Drawn {
         let mut drawn = Drawn::default();
         let mut primitives = Vec::new();
-        let mut number = 0;
         for layout in parts {
-            number = layout.part.mesh;
             let primitive = self.primitive(layout);
             if layout.part.instances == 0 {
                 primitives.push(primitive);
                 continue;
             }
             self.uses(INSTANCING);
-            let name = layout.part.material.name();
+            let name = format!("{name} {}", layout.part.material.name());
             let mesh = push(&mut self.meshes, json!({"name": name, "primitives": [primitive]}));
-            let attributes = self.instances(layout);
-            drawn.instanced.push((mesh, json!({(INSTANCING): {"attributes": attributes}})));
+            let place = layout.place;
+            let placed = self.placements(Placements {
+                translations: place.translations,
+                rotations: place.rotations,
+                scales: place.scales,
+                count: layout.part.instances,
+            });
+            drawn.instanced.push((mesh, name, placed));
         }
         if !primitives.is_empty() {
-            let mesh = json!({"name": format!("mesh {number}"), "primitives": primitives});
+            let mesh = json!({"name": name, "primitives": primitives});
             drawn.mesh = Some(push(&mut self.meshes, mesh));
         }
         drawn
@@ -251,48 +277,69 @@ impl File {
         self.materials.len() - 1
     }
 
-    fn instances(&mut self, layout: &PartLayout) -> Value {
-        let (count, place) = (layout.part.instances, layout.place);
+    /// The extension that places a mesh many times.
+    fn placements(&mut self, places: Placements) -> Value {
+        self.uses(INSTANCING);
         let mut run = |offset, size, kind| {
-            let view = self.view(offset, count * size, None, None);
-            self.accessor(view, 0, FLOAT, kind, count)
+            let view = self.view(offset, places.count * size, None, None);
+            self.accessor(view, 0, FLOAT, kind, places.count)
         };
-        json!({
-            "TRANSLATION": run(place.translations, 12, "VEC3"),
-            "ROTATION": run(place.rotations, 16, "VEC4"),
-            "SCALE": run(place.scales, 12, "VEC3"),
-        })
+        let attributes = json!({
+            "TRANSLATION": run(places.translations, 12, "VEC3"),
+            "ROTATION": run(places.rotations, 16, "VEC4"),
+            "SCALE": run(places.scales, 12, "VEC3"),
+        });
+        json!({(INSTANCING): {"attributes": attributes}})
     }
 
-    /// The node of a placed tree, whose coarser levels become nodes outside the scene.
-    fn placed(&mut self, placed: &Placed, drawn: &[Drawn], rigged: bool) -> usize {
-        let coarse: Vec<usize> = placed.meshes[1..]
-            .iter()
-            .enumerate()
-            .map(|(i, &mesh)| self.node(&format!("{} level {}", placed.name, i + 1), &drawn[mesh], placed))
-            .collect();
-        let node = self.node(&placed.name, &drawn[placed.meshes[0]], placed);
-        if rigged {
-            self.nodes[node]["skin"] = json!(0);
+    /// The node of a tree: its mesh, or the parent of its levels.
+    fn placed(
+        &mut self,
+        placed: &Placed,
+        drawn: &[Drawn],
+        sites: Option<&Value>,
+        scene: &Scene<'_>,
+    ) -> usize {
+        let mut levels = Vec::new();
+        for (level, &mesh) in placed.meshes.iter().enumerate() {
+            let mut node = self.node(&placed.level_name(level), &drawn[mesh]);
+            if let Some(sites) = sites {
+                node["extensions"] = sites.clone();
+            }
+            levels.push(node);
         }
-        if !coarse.is_empty() {
-            self.uses(LEVELS);
-            // What part of the screen's height a level is good for; below the last, nothing is drawn.
-            let covers: Vec<f64> = (0..=coarse.len()).map(|i| 0.5 / math::powi(2.5, i as i32)).collect();
-            let covers: Vec<f64> = covers.iter().map(|c| (c * 1e3).round() / 1e3).collect();
-            self.nodes[node]["extensions"] = json!({(LEVELS): {"ids": coarse}});
-            self.nodes[node]["extras"] = json!({"MSFT_screencoverage": covers});
+        if let [node] = &mut levels[..] {
+            put(node, placed);
+            if scene.rig.is_some() {
+                node["skin"] = json!(0);
+            }
+            return push(&mut self.nodes, node.take());
         }
-        node
+        if !scene.lod_extension {
+            let children: Vec<usize> = levels.into_iter().map(|node| push(&mut self.nodes, node)).collect();
+            let mut parent = json!({"name": placed.name, "children": children});
+            put(&mut parent, placed);
+            return push(&mut self.nodes, parent);
+        }
+        levels.iter_mut().for_each(|node| put(node, placed));
+        let mut finest = levels.remove(0);
+        self.uses(LEVELS);
+        let coarse: Vec<usize> = levels.into_iter().map(|node| push(&mut self.nodes, node)).collect();
+        // What part of the screen's height a level is good for; below the last, nothing is drawn.
+        let covers: Vec<f64> = (0..=coarse.len()).map(|i| 0.5 / math::powi(2.5, i as i32)).collect();
+        let covers: Vec<f64> = covers.iter().map(|c| (c * 1e3).round() / 1e3).collect();
+        finest["extensions"][LEVELS] = json!({"ids": coarse});
+        finest["extras"] = json!({"MSFT_screencoverage": covers});
+        push(&mut self.nodes, finest)
     }
 
-    fn node(&mut self, name: &str, drawn: &Drawn, placed: &Placed) -> usize {
+    /// A node that shows a mesh where it is; what is instanced becomes nodes below it.
+    fn node(&mut self, name: &str, drawn: &Drawn) -> Value {
         let children: Vec<usize> = drawn
             .instanced
             .iter()
-            .map(|(mesh, extensions)| {
-                let child = json!({"name": format!("{name} {mesh}"), "mesh": mesh, "extensions": extensions});
-                push(&mut self.nodes, child)
+            .map(|(mesh, name, placed)| {
+                push(&mut self.nodes, json!({"name": name, "mesh": mesh, "extensions": placed}))
             })
             .collect();
         let mut node = json!({"name": name});
@@ -302,16 +349,7 @@ impl File {
         if !children.is_empty() {
             node["children"] = json!(children);
         }
-        if placed.position != Vec3::ZERO {
-            node["translation"] = json!(upright(placed.position).to_array());
-        }
-        if placed.turn != 0.0 {
-            node["rotation"] = json!(glam::Quat::from_rotation_y(placed.turn).to_array());
-        }
-        if placed.scale != 1.0 {
-            node["scale"] = json!(vec![placed.scale; 3]);
-        }
-        push(&mut self.nodes, node)
+        node
     }
 
     /// Joints, skin and animation; returns the joints' common root.

@@ -1,6 +1,6 @@
 //! Where everything lies in the binary chunk.
 
-use super::{Scene, animation};
+use super::{Scene, Site, animation};
 use crate::block::{Block, Placement};
 use crate::part::Part;
 use crate::pictures::Pictures;
@@ -19,6 +19,21 @@ pub(super) struct Place {
     pub(super) translations: u64,
     pub(super) rotations: u64,
     pub(super) scales: u64,
+}
+
+/// Offsets of a run of placements, and how many there are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placements {
+    pub(super) translations: u64,
+    pub(super) rotations: u64,
+    pub(super) scales: u64,
+    pub(super) count: u64,
+}
+
+impl Placements {
+    fn new(count: u64, take: &mut impl FnMut(u64) -> u64) -> Self {
+        Self { translations: take(count * 12), rotations: take(count * 16), scales: take(count * 12), count }
+    }
 }
 
 /// A part, its place, how much of it is written, and its bounds so far.
@@ -58,6 +73,8 @@ pub(super) struct Layout {
     pub(super) bind_matrices: u64,
     pub(super) times: u64,
     pub(super) rotations: u64,
+    /// Of each of the scene's trees, if it is instanced, where it stands.
+    pub(super) sites: Vec<Option<Placements>>,
     /// Offset and length of the PNG files of each of the scene's pictures that a part shows.
     pub(super) pictures: Vec<Pictures<(u64, u64)>>,
     /// Size of the whole, a multiple of 4.
@@ -93,6 +110,10 @@ impl Layout {
         let bind_matrices = take(joints * 64);
         let times = take(keys * 4);
         let rotations = take(joints * keys * 16);
+        let sites = scene.placed.iter().map(|placed| {
+            placed.is_instanced().then(|| Placements::new(placed.sites.len() as u64, &mut take))
+        });
+        let sites = sites.collect();
         let shown = |material| parts.iter().any(|p| p.part.material == material);
         let pictures = scene
             .pictures
@@ -105,7 +126,7 @@ impl Layout {
                 })
             })
             .collect();
-        Self { parts, bind_matrices, times, rotations, pictures, bytes: at }
+        Self { parts, bind_matrices, times, rotations, sites, pictures, bytes: at }
     }
 
     /// What does not come in blocks: offset and bytes.
@@ -116,6 +137,14 @@ impl Layout {
             fixed.push((self.bind_matrices, floats(&animation::bind_matrices(rig))));
             fixed.push((self.times, floats(&animation::times())));
             fixed.push((self.rotations, floats(&animation::rotations(rig))));
+        }
+        for (placed, at) in scene.placed.iter().zip(&self.sites) {
+            let Some(at) = at else { continue };
+            let sites: Vec<Placement> = placed.sites.iter().map(Site::upright).collect();
+            let offsets = [at.translations, at.rotations, at.scales];
+            for (offset, numbers) in offsets.into_iter().zip(placements(&sites)) {
+                fixed.push((offset, bytemuck::cast_slice(&numbers).to_vec()));
+            }
         }
         let shown = scene
             .pictures

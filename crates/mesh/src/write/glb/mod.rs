@@ -7,16 +7,16 @@
 //! | --- | --- |
 //! | corners | interleaved position, normal, texture coordinates; wind in `_WIND_PIVOT`, `_WIND_SWAY` |
 //! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided; cards show pictures with alpha masks, bark tiles with normals, roughness and occlusion |
-//! | levels of detail | `MSFT_lod` on the node of the finest; viewers that do not know it show that one |
+//! | levels of detail | nodes and meshes `NAME_LOD0`, `NAME_LOD1`, … under one of the tree's name, all in the scene; or, if asked for, `MSFT_lod` on the node of the finest |
 //! | leaves as instances | `EXT_mesh_gpu_instancing`, then required: without it there is no crown |
-//! | forests | many nodes that share few meshes |
+//! | forests | a node for each mesh, instanced (`EXT_mesh_gpu_instancing`), or many nodes that share few meshes |
 //! | sway | a skin of rigid joints with one looping animation |
 
 mod animation;
 mod json;
 mod layout;
 
-use crate::block::{Block, Vertex, Wind};
+use crate::block::{Block, Placement, Vertex, Wind};
 use crate::mesher::Mesher;
 use crate::palette::Palette;
 use crate::part::{MeshError, Part, Sink};
@@ -29,13 +29,9 @@ use layout::Layout;
 use pleach_plant::Tree;
 use std::io::{Seek, SeekFrom, Write};
 
-/// Where a tree stands in a scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Placed {
-    /// The node's name.
-    pub name: String,
-    /// Numbers of its meshes from fine to coarse; the first is shown.
-    pub meshes: Vec<usize>,
+/// Where a tree stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
     /// In metres, z up.
     pub position: Vec3,
     /// Turn about the vertical, in radians, counter-clockwise from above.
@@ -44,13 +40,52 @@ pub struct Placed {
     pub scale: f32,
 }
 
+impl Site {
+    /// The origin.
+    pub const ORIGIN: Self = Self { position: Vec3::ZERO, turn: 0.0, scale: 1.0 };
+
+    /// The same in the file's axes.
+    fn upright(&self) -> Placement {
+        Placement {
+            translation: upright(self.position),
+            rotation: Quat::from_rotation_y(self.turn),
+            scale: Vec3::splat(self.scale),
+        }
+    }
+}
+
+/// A tree in a scene, once or many times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placed {
+    /// The name of its node and mesh; with `_LOD0`, `_LOD1` and so on behind it where there are levels of detail.
+    pub name: String,
+    /// Numbers of its meshes from fine to coarse.
+    pub meshes: Vec<usize>,
+    /// Where it stands; at more than one place it is instanced.
+    pub sites: Vec<Site>,
+}
+
 impl Placed {
     /// One tree at the origin with meshes 0 to `levels` as its levels of detail.
     #[must_use]
     pub fn at_origin(name: &str, levels: usize) -> Self {
-        let (position, meshes) = (Vec3::ZERO, (0..levels).collect());
-        Self { name: name.to_owned(), meshes, position, turn: 0.0, scale: 1.0 }
+        Self { name: name.to_owned(), meshes: (0..levels).collect(), sites: vec![Site::ORIGIN] }
     }
+
+    fn is_instanced(&self) -> bool {
+        self.sites.len() > 1
+    }
+
+    /// The name of one of its levels.
+    fn level_name(&self, level: usize) -> String {
+        if self.meshes.len() > 1 { level_name(&self.name, level) } else { self.name.clone() }
+    }
+}
+
+/// The name of a level of detail of a tree of this name, as engines look for it.
+#[must_use]
+pub fn level_name(name: &str, level: usize) -> String {
+    format!("{name}_LOD{level}")
 }
 
 /// What a file says beside triangles.
@@ -62,8 +97,11 @@ pub struct Scene<'a> {
     pub palette: Palette,
     /// Free data about the scene: species, parameters, seed.
     pub extras: serde_json::Value,
-    /// Where trees stand.
+    /// The trees.
     pub placed: Vec<Placed>,
+    /// Whether the coarser levels of detail hang on the finest by `MSFT_lod`, outside the scene, instead of standing
+    /// in it as nodes.
+    pub lod_extension: bool,
     /// Joints and their sway, for a mesh that was made with this rig.
     pub rig: Option<&'a Rig>,
     /// PNG files that materials show instead of their colour.
@@ -90,6 +128,7 @@ pub fn write<W: Write + Seek>(out: W, name: &str, tree: &Tree, palette: &Palette
         palette: *palette,
         extras: serde_json::Value::Null,
         placed: vec![Placed::at_origin(name, 1)],
+        lod_extension: false,
         rig: None,
         pictures: Vec::new(),
     };

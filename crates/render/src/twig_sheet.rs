@@ -1,0 +1,119 @@
+//! The picture that cards of twigs show: a few of the tree's own twigs, each stretched over a cell.
+//!
+//! The pictures hold the twigs' own colours, without sun, since the engine lights them again.
+
+use crate::picture::Picture;
+use crate::preview::{Frame, Preview};
+use glam::{DVec3, Vec3};
+use pleach_mesh::twigs::{MARGIN, Sheet};
+use pleach_mesh::{Palette, TwigModel, Twigs};
+use pleach_plant::{Knot, Leaf, Stem, StemKind, Tree};
+
+/// Width and height of a cell in pixels.
+const CELL: u32 = 256;
+
+/// Paints the models of the levels of some trees, which share a sheet; see [`pleach_mesh::lod::painted`].
+///
+/// ```
+/// use pleach_mesh::{MeshSettings, Palette, lod};
+///
+/// let species = pleach_generators::species("quaking_aspen")?;
+/// let tree = species.grow(1)?;
+/// let levels = lod::budgets(&[&tree], MeshSettings::default(), &[8_000, 2_000])?;
+/// let palette = Palette::new(&species.appearance, None);
+/// let picture = pleach_render::twig_sheet::paint(&palette, lod::painted(&[&tree], &levels));
+/// assert!(picture.width.is_power_of_two() && picture.height.is_power_of_two());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn paint<'a>(palette: &Palette, levels: impl IntoIterator<Item = (&'a Tree, &'a Twigs)>) -> Picture {
+    let mut whole: Option<Picture> = None;
+    for (tree, twigs) in levels {
+        let Sheet { columns, rows } = twigs.sheet;
+        let whole = whole.get_or_insert_with(|| Picture::transparent(columns * CELL, rows * CELL));
+        for (cell, model) in (twigs.first_cell as u32..).zip(&twigs.models) {
+            whole.paste(&twig(tree, palette, model), cell % columns * CELL, cell / columns * CELL);
+        }
+    }
+    let mut whole = whole.unwrap_or_else(|| Picture::transparent(1, 1));
+    whole.bleed();
+    whole
+}
+
+/// One twig, stretched so that its card fills a cell but for the margin.
+fn twig(tree: &Tree, palette: &Palette, model: &TwigModel) -> Picture {
+    let stretched = stretched(tree, model);
+    let half = 0.5 / (1.0 - 2.0 * MARGIN);
+    let frame = Frame { middle: Vec3::Z * 0.5, azimuth: 0.0, half: [half; 2], pixels: [CELL; 2] };
+    Preview::of_twig(&stretched, palette, CELL).flat(&frame)
+}
+
+/// The parts of `model`, moved so that its card is the unit square from x = −0.5 and z = 0, seen along y.
+fn stretched(tree: &Tree, model: &TwigModel) -> Tree {
+    let card = &model.card;
+    let (width, height) = (card.across.length().max(1e-6), card.along.length().max(1e-6));
+    let depth = (width * height).sqrt();
+    // Seen along y, x is to the right and z up.
+    let axes =
+        [card.across / (width * width), card.normal() / (height * depth), card.along / (height * height)];
+    let turn = |v: Vec3| Vec3::from(axes.map(|axis| axis.dot(v)));
+    let place = |point: DVec3| turn((point - card.position.as_dvec3()).as_vec3()).as_dvec3();
+    let leaf = |leaf: &Leaf| Leaf {
+        position: place(leaf.position.as_dvec3()).as_vec3(),
+        along: turn(leaf.along),
+        across: turn(leaf.across),
+        stem: 0,
+        ..*leaf
+    };
+    let mut moved = Tree {
+        leaves: model.leaves.iter().map(|&i| leaf(&tree.leaves[i as usize])).collect(),
+        blossoms: model.blossoms.iter().map(|&i| leaf(&tree.blossoms[i as usize])).collect(),
+        leaf_shapes: tree.leaf_shapes.clone(),
+        blossom_shapes: tree.blossom_shapes.clone(),
+        ..Tree::default()
+    };
+    for &i in &model.stems {
+        let stem = &tree.stems[i as usize];
+        let first_knot = moved.knots.len() as u32;
+        moved.knots.extend(tree.knots_of(stem).iter().map(|knot| Knot {
+            point: place(knot.point),
+            handle_in: place(knot.handle_in),
+            handle_out: place(knot.handle_out),
+            radius: knot.radius / f64::from(width),
+        }));
+        moved.stems.push(Stem { parent: None, kind: StemKind::Trunk, offset: 0.0, first_knot, ..*stem });
+    }
+    moved
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pleach_mesh::{MeshSettings, lod};
+
+    /// Leaves reach the four sides of their cell and nothing lies in the margin but what is cut off there.
+    #[test]
+    fn a_twig_fills_its_cell() {
+        for name in ["quaking_aspen", "hill_cherry", "small_pine"] {
+            let species = pleach_generators::preset(name).unwrap();
+            let tree = species.grow(1).unwrap();
+            let levels = lod::budgets(&[&tree], MeshSettings::default(), &[5_000]).unwrap();
+            let twigs = levels[0][0].twigs.as_ref().unwrap();
+            let palette = Palette::new(&species.appearance, None);
+            for model in &twigs.models {
+                let picture = twig(&tree, &palette, model);
+                let shown: Vec<(u32, u32)> = (0..CELL * CELL)
+                    .filter(|i| picture.rgba[(*i * 4 + 3) as usize] > 100)
+                    .map(|i| (i % CELL, i / CELL))
+                    .collect();
+                assert!(shown.len() > 500, "{name}: {}", shown.len());
+                let margin = (CELL as f32 * MARGIN) as u32;
+                for side in [|p: &(u32, u32)| p.0, |p: &(u32, u32)| p.1] {
+                    let (low, high) =
+                        (shown.iter().map(side).min().unwrap(), shown.iter().map(side).max().unwrap());
+                    assert!(low <= margin + 16 && high + 17 >= CELL - margin, "{name}: {low} to {high}");
+                }
+            }
+        }
+    }
+}
