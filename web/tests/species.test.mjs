@@ -133,6 +133,28 @@ test("the GLB is valid", async () => {
   await context.close();
 });
 
+test("a file has the triangles that were chosen, and its bark and twigs have pictures", async () => {
+  const { page, context } = await species("#species?s=quaking_aspen");
+  await page.getByLabel("Download", { exact: true }).first().check();
+  const file = async (budget) => {
+    await page.getByTestId("budget").selectOption(budget);
+    const waiting = page.waitForEvent("download");
+    await page.getByTestId("export-glb").click();
+    const bytes = new Uint8Array(await readFile(await (await waiting).path()));
+    return { bytes, report: await validator.validateBytes(bytes) };
+  };
+  const near = await file("near");
+  assert.equal(near.report.issues.numErrors, 0, JSON.stringify(near.report.issues.messages.slice(0, 5)));
+  const { totalTriangleCount } = near.report.info;
+  assert.ok(totalTriangleCount <= 50_000 && totalTriangleCount >= 42_500, `${totalTriangleCount}`);
+  const images = near.report.info.resources.filter(({ mimeType }) => mimeType === "image/png");
+  assert.equal(images.length, 4, "bark in three pictures, and twigs");
+  const levels = await file("levels");
+  const json = new TextDecoder().decode(levels.bytes.subarray(20, 20_000));
+  for (const level of [0, 1, 2, 3]) assert.ok(json.includes(`quaking_aspen_LOD${level}`), `level ${level}`);
+  await context.close();
+});
+
 test("fifty trees leave nothing on the graphics card", async () => {
   const { page, problems, context } = await species();
   await page.getByRole("radio", { name: "LOD 3" }).check();

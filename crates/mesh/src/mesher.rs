@@ -286,13 +286,12 @@ impl Source for Mesher<'_> {
             }
             block.instances.extend(placed.leaves[range].iter().map(placed::placement));
         } else if range.start < placed.leaves.len() {
-            let twigs = self.twigs.filter(|_| material == Material::Twig);
             placed.fill(range, block, |i, block| {
-                if let Some(twigs) = twigs {
+                if let (Material::Twig, Some(twigs)) = (material, self.twigs) {
                     let corners = block.vertices.iter_mut().rev().take(4);
                     corners.for_each(|corner| corner.normal = twigs.normal(corner.position));
                 }
-                self.sway_leaf(&placed.leaves[i], i, block);
+                self.sway_leaf(material, &placed.leaves[i], i, block);
             });
         } else {
             self.fill_blobs(placed.count.vertices, block);
@@ -302,15 +301,15 @@ impl Source for Mesher<'_> {
 
 impl Mesher<'_> {
     /// Wind data and joints of the vertices of `leaf`, which were added last.
-    fn sway_leaf(&self, leaf: &Leaf, index: usize, block: &mut Block) {
+    fn sway_leaf(&self, material: Material, leaf: &Leaf, index: usize, block: &mut Block) {
         if self.settings.wind {
             let wind = wind::of_leaf(leaf, index, &self.tree.stems[leaf.stem as usize]);
             let first = block.wind.len();
-            block.wind.extend(block.vertices[first..].iter().map(|v| {
-                let mut wind = wind;
-                // The tip, at v = 0, moves most.
-                wind.place = 1.0 - v.uv.y;
-                wind
+            block.wind.extend(block.vertices[first..].iter().enumerate().map(|(corner, vertex)| {
+                // The tip moves most: v = 0 of a leaf, and the last two corners of a card.
+                let is_tip = if corner < 2 { 0.0 } else { 1.0 };
+                let place = if material == Material::Twig { is_tip } else { 1.0 - vertex.uv.y };
+                Wind { place, ..wind }
             }));
         }
         if let Some(rig) = self.rig {

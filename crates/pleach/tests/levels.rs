@@ -1,125 +1,24 @@
 //! Levels of detail with a budget look like the tree that they are of.
 
-use glam::{Vec2, vec2};
-use pleach_mesh::{Material, Mesh, MeshSettings, Palette, lod, send};
-use pleach_render::{Picture, twig_sheet};
-use pleach_silhouette::Bitmap;
-use pleach_silhouette::score::Likeness;
-use pleach_tree::Tree;
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-const SIDE: usize = 256;
-/// Samples of a pixel, across and down.
-const SAMPLES: usize = 3;
+#[path = "../examples/levels/compared.rs"]
+mod compared;
 
-/// A mesh from the front, as a picture that is compared: a pixel is set where half of it is covered.
-struct Canvas {
-    samples: Vec<bool>,
-    scale: f32,
-    middle: f32,
-    top: f32,
-}
-
-impl Canvas {
-    /// One that `tree` fills.
-    fn new(tree: &Tree) -> Self {
-        let mesh = Mesh::new(tree, MeshSettings::default());
-        let points =
-            || mesh.parts.iter().flat_map(|(_, block)| &block.vertices).map(|vertex| vertex.position);
-        let low = points().fold(glam::Vec3::INFINITY, glam::Vec3::min);
-        let high = points().fold(glam::Vec3::NEG_INFINITY, glam::Vec3::max);
-        let size = (high - low).max_element() * 1.1;
-        let side = (SIDE * SAMPLES) as f32;
-        let (middle, top) = ((low.x + high.x) / 2.0, (low.z + high.z) / 2.0 + size / 2.0);
-        Self { samples: vec![false; SIDE * SAMPLES * SIDE * SAMPLES], scale: side / size, middle, top }
-    }
-
-    fn draw(&mut self, mesh: &Mesh, sheet: Option<&Picture>) {
-        for (part, block) in &mesh.parts {
-            let sheet = sheet.filter(|_| part.material == Material::Twig);
-            for triangle in &block.triangles {
-                let corners = triangle.map(|i| block.vertices[i as usize]);
-                let at = corners.map(|corner| {
-                    let side = (SIDE * SAMPLES) as f32 / 2.0;
-                    vec2(
-                        side + (corner.position.x - self.middle) * self.scale,
-                        (self.top - corner.position.z) * self.scale,
-                    )
-                });
-                self.fill(at, |weights| {
-                    let Some(sheet) = sheet else { return true };
-                    let uv: Vec2 = (0..3).map(|k| corners[k].uv * weights[k]).sum();
-                    let (x, y) = ((uv.x * sheet.width as f32) as u32, (uv.y * sheet.height as f32) as u32);
-                    sheet.rgba[((y * sheet.width + x) * 4 + 3) as usize] > 102
-                });
-            }
-        }
-    }
-
-    fn fill(&mut self, [a, b, c]: [Vec2; 3], covers: impl Fn([f32; 3]) -> bool) {
-        let side = SIDE * SAMPLES;
-        let whole = (b - a).perp_dot(c - a);
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        if whole.abs() < 1e-9 {
-            return;
-        }
-        let range = |low: f32, high: f32| (low.max(0.0) as usize)..(high.max(0.0).ceil() as usize).min(side);
-        for y in range(low.y, high.y) {
-            for x in range(low.x, high.x) {
-                let at = vec2(x as f32 + 0.5, y as f32 + 0.5);
-                let (wb, wc) = ((at - a).perp_dot(c - a) / whole, (b - a).perp_dot(at - a) / whole);
-                let weights = [1.0 - wb - wc, wb, wc];
-                if weights.iter().all(|weight| *weight >= 0.0) && covers(weights) {
-                    self.samples[y * side + x] = true;
-                }
-            }
-        }
-    }
-
-    fn picture(&self) -> (Bitmap, f64) {
-        let covered = |x: usize, y: usize| {
-            let samples = (0..SAMPLES * SAMPLES).filter(|k| {
-                let (x, y) = (x * SAMPLES + k % SAMPLES, y * SAMPLES + k / SAMPLES);
-                self.samples[y * SIDE * SAMPLES + x]
-            });
-            samples.count()
-        };
-        let picture = Bitmap::from_fn(SIDE as u32, SIDE as u32, |x, y| {
-            2 * covered(x as usize, y as usize) > SAMPLES * SAMPLES
-        });
-        (picture, self.samples.iter().filter(|covered| **covered).count() as f64)
-    }
-}
-
-/// Likeness of each level to the tree, and its ink over the tree's.
-fn compare(name: &str, budgets: &[u32]) -> Vec<(f64, f64)> {
-    let species = pleach_generators::species(name).unwrap();
-    let palette = Palette::new(&species.appearance, None);
-    let tree = species.grow(1).unwrap();
-    let blank = || Canvas::new(&tree);
-    let mut goal = blank();
-    goal.draw(&Mesh::new(&tree, MeshSettings::default()), None);
-    let (goal, ink) = goal.picture();
-    let levels = lod::budgets(&[&tree], MeshSettings::default(), budgets).unwrap();
-    let sheet = twig_sheet::paint(&palette, lod::painted(&[&tree], &levels));
-    let compare = |level: &lod::Level<'_>| {
-        let mut mesh = Mesh::default();
-        send(&[level.mesher()], &mut mesh).unwrap();
-        let mut canvas = blank();
-        canvas.draw(&mesh, Some(&sheet));
-        let (picture, own) = canvas.picture();
-        (Likeness::between(&picture, &goal).value(), own / ink)
-    };
-    levels[0].iter().map(compare).collect()
-}
+use compared::compare;
 
 #[test]
 fn levels_look_like_the_tree() {
-    let names = std::env::var("NAMES").unwrap_or_else(|_| "acer".to_owned());
-    for name in names.split(',') {
-        for (budget, (likeness, ink)) in
-            [50_000, 30_000, 8_000, 2_000].into_iter().zip(compare(name, &[50_000, 30_000, 8_000, 2_000]))
-        {
-            println!("{name:20} {budget:6} likeness {likeness:.3} ink {ink:.3}");
+    for (name, budgets) in [("acer", [8_000, 2_000]), ("hill_cherry", [8_000, 2_000])] {
+        let levels = compare(name, &budgets).unwrap();
+        for (budget, level) in budgets.into_iter().zip(&levels) {
+            assert!(
+                level.triangles <= budget.into() && level.triangles * 100 >= u64::from(budget) * 85,
+                "{name} {level:?}"
+            );
+            assert!(level.likeness > 0.8, "{name} {budget}: {level:?}");
+            assert!((0.95..1.05).contains(&level.ink), "{name} {budget}: {level:?}");
         }
+        assert!(levels.iter().any(|level| level.has_cards), "{name}: {levels:?}");
     }
 }

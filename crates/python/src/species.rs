@@ -224,13 +224,14 @@ impl Species {
 
     /// Writes a forest of trees of this species to a GLB file, `width` × `depth` metres with a tree every `spacing`
     /// metres, and returns how many trees stand there. They share `variants` meshes, the trees of `seed` and of those
-    /// after it; `seed` is by default that of `grow`. Options are those of `Tree.export`.
+    /// after it; `seed` is by default that of `grow`. Trees that look alike are instances of one node, or, if `separate`,
+    /// nodes of their own. Options are those of `Tree.export`.
     ///
     /// >>> import pleach, tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "wood.glb"
     /// >>> pleach.species("palm").export_forest(file, 40, 30, spacing=10, variants=2, leaves="simple") > 5
     /// True
-    #[pyo3(signature = (path, width, depth, *, spacing = 6.0, variants = 4, seed = None, **options))]
+    #[pyo3(signature = (path, width, depth, *, spacing = 6.0, variants = 4, seed = None, separate = false, **options))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords")]
     fn export_forest(
         &self,
@@ -241,11 +242,12 @@ impl Species {
         spacing: f64,
         variants: u32,
         seed: Option<Seed>,
+        separate: bool,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<usize> {
         let seed = seed.map(|Seed(seed)| seed).or(self.inner.tree_seed).unwrap_or(1);
         let export = Export::from_json(&json::from_dict(options)?).map_err(of_export)?;
-        let forest = Forest { width, depth, spacing, variants };
+        let forest = Forest { width, depth, spacing, variants, separate };
         let grow = |seed| self.inner.grow_with(&Growth { foliage: self.inner.foliage, ..Growth::seed(seed) });
         let mut glb = Cursor::new(Vec::new());
         let planted = pool::on(py, None, || export.write_forest(&forest, &self.inner, seed, grow, &mut glb))?;

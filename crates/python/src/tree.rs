@@ -199,8 +199,9 @@ impl Tree {
     /// Writes the tree to a mesh file, and returns the files that were written: the mesh, and the materials and
     /// pictures that it names. The suffix of `path` says the format: glb, obj, ply, stl or usda.
     ///
-    /// Options are those of `pleach grow`: `lod` (levels of detail, 1 to 6), `billboard` (a last level of this many cards,
-    /// 1 to 8), `tolerance` (how far bark may stray, in millimetres), `leaves` (outline, simple, cards, instances, none),
+    /// Options are those of `pleach grow`: `lod` (levels of detail, 1 to 6), or `triangles` (a list of budgets, the largest
+    /// first; twigs become cards where leaves have no room), `billboard` (a last level of this many cards, 1 to 8), `level`
+    /// (only this one, from 0), `lod_extension` (levels by `MSFT_lod` instead of nodes), `tolerance` (how far bark may stray, in millimetres), `leaves` (outline, simple, cards, instances, none),
     /// `textures` (pictures of the bark, 512, 1024 or 2048 pixels a side: colour, normals, roughness and occlusion),
     /// `season` (spring, summer, autumn, winter), `weld` (one surface on a grid with cells of this many millimetres) and
     /// `fillet`, `roots`, `wind`, `sway`. A format that cannot hold an option refuses it with `PleachError`.

@@ -45,7 +45,29 @@ fn twig(tree: &Tree, palette: &Palette, model: &TwigModel) -> Picture {
     let stretched = stretched(tree, model);
     let half = 0.5 / (1.0 - 2.0 * MARGIN);
     let frame = Frame { middle: Vec3::Z * 0.5, azimuth: 0.0, half: [half; 2], pixels: [CELL; 2] };
-    Preview::of_twig(&stretched, palette, CELL).flat(&frame)
+    let mut picture = Preview::of_twig(&stretched, palette, CELL).flat(&frame);
+    keep_coverage(&mut picture);
+    picture
+}
+
+/// Alpha from which a pixel is surely shown: a little more than the 0.4 of the materials.
+const SHOWN: u32 = 105;
+
+/// Scales alpha so that as many pixels are shown as are covered in all: needles and bare twigs that are thinner than a
+/// pixel would be cut out, since no pixel is covered enough.
+fn keep_coverage(picture: &mut Picture) {
+    let mut counts = [0_u64; 256];
+    picture.rgba.chunks_exact(4).for_each(|pixel| counts[usize::from(pixel[3])] += 1);
+    let covered = (0_u64..).zip(counts).map(|(alpha, count)| alpha * count).sum::<u64>() / 255;
+    let mut shown = 0;
+    let least = (1..=255_u32).rev().find(|alpha| {
+        shown += counts[*alpha as usize];
+        shown >= covered
+    });
+    let Some(least) = least.filter(|_| covered > 0) else { return };
+    for pixel in picture.rgba.chunks_exact_mut(4) {
+        pixel[3] = (u32::from(pixel[3]) * SHOWN).div_ceil(least).min(255) as u8;
+    }
 }
 
 /// The parts of `model`, moved so that its card is the unit square from x = −0.5 and z = 0, seen along y.
@@ -90,6 +112,21 @@ fn stretched(tree: &Tree, model: &TwigModel) -> Tree {
 mod tests {
     use super::*;
     use pleach_mesh::{MeshSettings, lod};
+
+    #[test]
+    fn what_is_thinner_than_a_pixel_is_shown() {
+        let mut picture = Picture::transparent(100, 100);
+        // A tenth of the pixels is covered by a third, as by needles.
+        picture.rgba.chunks_exact_mut(40).for_each(|pixels| pixels[3] = 85);
+        picture.rgba[3] = 120;
+        keep_coverage(&mut picture);
+        let shown = picture.rgba.chunks_exact(4).filter(|pixel| u32::from(pixel[3]) >= SHOWN).count();
+        assert!((330..=1000).contains(&shown), "{shown}");
+        let mut whole = Picture::transparent(10, 10);
+        whole.rgba.chunks_exact_mut(8).for_each(|pixels| pixels[3] = 255);
+        keep_coverage(&mut whole);
+        assert!(whole.rgba.chunks_exact(8).all(|pixels| pixels[3] >= 105 && pixels[7] == 0));
+    }
 
     /// Leaves reach the four sides of their cell and nothing lies in the margin but what is cut off there.
     #[test]

@@ -266,7 +266,9 @@ interface At {
 export type MeshFormat = "glb" | "obj" | "ply" | "stl" | "usda";
 /** Options of a mesh file: keys and words of the library's `Export`. What is left out has its default. */
 export interface ExportOptions {
-  lod?: number;
+  triangles?: readonly number[];
+  billboard?: number;
+  textures?: number;
   leaves?: string;
   season?: string | null;
   wind?: boolean;

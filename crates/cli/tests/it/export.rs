@@ -59,9 +59,62 @@ fn a_forest_is_a_few_meshes_in_many_places() {
     let _ = dir.run(forest).ok();
     let file = glb(&dir.path("f.glb"));
     assert_eq!(file["meshes"].as_array().unwrap().len(), 2);
-    let trees = file["scenes"][0]["nodes"].as_array().unwrap().len();
-    assert!((8..30).contains(&trees), "{trees} trees");
+    let nodes = |file: &serde_json::Value| file["scenes"][0]["nodes"].as_array().unwrap().len();
+    assert_eq!(nodes(&file), 2, "a node for each variant");
+    assert_eq!(file["extensionsRequired"][0], "EXT_mesh_gpu_instancing");
+    let _ =
+        dir.run(["grow", "acer", "--forest", "40x30m", "--variants", "2", "--separate", "-o", "s.glb"]).ok();
+    let separate = glb(&dir.path("s.glb"));
+    assert!(separate["extensionsRequired"].is_null());
+    assert!((8..30).contains(&nodes(&separate)), "{} trees", nodes(&separate));
     assert_eq!(file["scenes"][0]["extras"]["seed"].as_array().unwrap().len(), 2);
+}
+
+/// Triangles of each mesh of a GLB file.
+fn triangles(file: &serde_json::Value) -> Vec<u64> {
+    let count = |primitive: &serde_json::Value| {
+        file["accessors"][primitive["indices"].as_u64().unwrap() as usize]["count"].as_u64().unwrap() / 3
+    };
+    let meshes = file["meshes"].as_array().unwrap();
+    meshes.iter().map(|mesh| mesh["primitives"].as_array().unwrap().iter().map(count).sum()).collect()
+}
+
+#[test]
+fn levels_keep_to_budgets_of_triangles() {
+    let dir = Dir::new();
+    let levels = ["grow", "acer", "--triangles", "8000,2000", "--billboard", "2"];
+    let _ = dir.run([&levels[..], &["-o", "b.glb"]].concat()).ok();
+    let file = glb(&dir.path("b.glb"));
+    assert_eq!(names(&file["meshes"]), ["acer_LOD0", "acer_LOD1", "acer_LOD2"]);
+    let found = triangles(&file);
+    assert!((6_800..=8_000).contains(&found[0]) && (1_700..=2_000).contains(&found[1]), "{found:?}");
+    assert!(names(&file["materials"]).contains(&"twigs".to_owned()));
+    let threads = |threads: &str| {
+        let _ = dir.run([&["--threads", threads], &levels[..], &["-o", "t.glb"]].concat()).ok();
+        std::fs::read(dir.path("t.glb")).unwrap()
+    };
+    assert!(threads("1") == threads("2"));
+
+    let _ = dir.run([&levels[..], &["--lod-files", "-o", "own.glb"]].concat()).ok();
+    assert!(!dir.path("own.glb").exists());
+    for (level, expected) in found.iter().enumerate() {
+        let file = glb(&dir.path(&format!("own_LOD{level}.glb")));
+        assert_eq!(names(&file["meshes"]), [format!("acer_LOD{level}")]);
+        assert_eq!(triangles(&file), [*expected]);
+    }
+    let _ = dir.run(["grow", "acer", "--triangles", "2000", "-o", "one.obj"]).ok();
+    let materials = std::fs::read_to_string(dir.path("one.mtl")).unwrap();
+    assert!(materials.contains("map_d one-twigs.png") && dir.path("one-twigs.png").exists());
+
+    for wrong in ["0", "10", "2000,2000", "2000,8000", "many", "99999999"] {
+        let run = dir.run(["grow", "acer", "--triangles", wrong, "-o", "x.glb"]);
+        assert!(run.code() != 0 && run.to_string().contains("triangles"), "{wrong}: {run}");
+    }
+    dir.run(["grow", "acer", "--triangles", "400", "-o", "x.glb"]).fails(1, &["400", "the least"]);
+    dir.run(["grow", "acer", "--triangles", "8000,2000", "-o", "x.obj"]).fails(1, &["triangles", ".glb"]);
+    dir.run(["grow", "acer", "--triangles", "8000", "-o", "x.stl"]).fails(1, &["--triangles", ".usda"]);
+    dir.run(["grow", "acer", "--lod", "2", "--lod-files", "-o", "-"]).fails(1, &["--lod-files"]);
+    assert!(!dir.path("x.glb").exists());
 }
 
 #[test]
@@ -100,6 +153,10 @@ fn billboards_are_the_last_level() {
     let _ = dir.run(["grow", "acer", "--lod", "2", "--billboard", "4", "-o", "b.glb"]).ok();
     let file = glb(&dir.path("b.glb"));
     assert_eq!(names(&file["materials"]), ["bark", "leaves", "card"]);
+    assert_eq!(names(&file["meshes"]), ["acer_LOD0", "acer_LOD1", "acer_LOD2"]);
+    let extension = ["grow", "acer", "--lod", "2", "--billboard", "4", "--lod-extension", "-o", "b.glb"];
+    let _ = dir.run(extension).ok();
+    let file = glb(&dir.path("b.glb"));
     let root = &file["nodes"][file["scenes"][0]["nodes"][0].as_u64().unwrap() as usize];
     assert_eq!(root["extensions"]["MSFT_lod"]["ids"].as_array().unwrap().len(), 2);
     let wood = ["grow", "acer", "--forest", "20x20", "--variants", "2", "--billboard", "2", "-o", "f.glb"];

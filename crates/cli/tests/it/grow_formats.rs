@@ -23,6 +23,7 @@ fn value(option: &str) -> Option<&'static str> {
         "--season" => Some("winter"),
         "--tolerance" | "--weld" => Some("50"),
         "--lod" | "--billboard" => Some("2"),
+        "--triangles" => Some("2000"),
         "--forest" => Some("10x10m"),
         "--textures" => Some("512"),
         _ => None,
@@ -40,8 +41,13 @@ fn grow(dir: &Dir, option: &str, column: &str) -> (Run, Vec<u8>) {
         let printed = run.stdout().into_bytes();
         return (run, printed);
     }
+    // It is about levels, and files of one level are called after it.
+    if option == "--lod-extension" {
+        args.extend(["--lod", "2"]);
+    }
+    let level = if option == "--lod-files" { "_LOD0" } else { "" };
     let name = format!("tree.{column}");
-    let path = dir.path(&name);
+    let path = dir.path(&format!("tree{level}.{column}"));
     let _ = std::fs::remove_file(&path);
     args.extend(["-o", &name]);
     let run = dir.run(args);
@@ -77,7 +83,9 @@ fn every_cell_of_the_table_is_as_it_says() {
                 continue;
             }
             // What is so by itself may be said.
-            let usual = option == "--leaves outline" || (option == "--leaves instances" && column == "usda");
+            let usual = option == "--leaves outline"
+                || (option == "--leaves instances" && column == "usda")
+                || (option == "--lod-files" && matches!(&**column, "ply" | "stl"));
             assert_eq!(with == without, usual, "{option} {column}: does it do what it says?");
         }
     }

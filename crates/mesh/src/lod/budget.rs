@@ -26,6 +26,8 @@ pub const BUDGETS: RangeInclusive<u32> = 200..=20_000_000;
 const BARK: f64 = 0.3;
 /// Part of a budget that bark may take beside cards.
 const BARK_BESIDE_CARDS: f64 = 0.35;
+/// The same of trees without leaves: a twig alone is better drawn than shown.
+const BARK_OF_BARE_TREES: f64 = 0.7;
 /// The same where the coarsest bark takes more.
 const BARK_AT_MOST: f64 = 0.8;
 /// How much finer bark may get than the settings say, to use what is left of a budget.
@@ -215,12 +217,14 @@ fn with_cards<'a>(
     ink: &OnceCell<Ink>,
 ) -> Result<Level<'a>, TooFew> {
     let finest = bark.settings.tolerance;
+    let is_bare = tree.leaves.is_empty() && tree.blossoms.is_empty();
+    let part = if is_bare { BARK_OF_BARE_TREES } else { BARK_BESIDE_CARDS };
     let mut thin = THIN_BESIDE_CARDS;
     // Every stem that is drawn has cards of its own, so that fewer cards may need fewer stems.
     let (tolerance, kept, groups) = loop {
         let thick = |tolerance: f64| Kept::new(tree, thin * tolerance);
         let mut within = |part: f64| bark.within((part * f64::from(budget)) as u64, finest..COARSEST, thick);
-        let fitted = within(BARK_BESIDE_CARDS).or_else(|| within(BARK_AT_MOST));
+        let fitted = within(part).or_else(|| within(BARK_AT_MOST));
         let (tolerance, kept) = fitted.ok_or_else(|| bark.too_few(budget, 0))?;
         let room = (u64::from(budget) - bark.count(tolerance, &kept)) as usize / 2;
         let groups = Hangs::new(tree, &kept).groups(room);

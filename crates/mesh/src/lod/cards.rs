@@ -1,6 +1,7 @@
 //! Cards in the place of groups of twigs and leaves.
 
 use super::groups::{Group, Hanging, Hangs};
+use crate::foliage::blossom_spread;
 use crate::twigs::{MAX_MODELS, Sheet, TwigModel, Twigs};
 use glam::{Vec2, Vec3, vec2};
 use pleach_plant::{Leaf, Tree};
@@ -26,8 +27,8 @@ pub(super) fn twigs(tree: &Tree, hangs: &Hangs<'_>, groups: &[Group], numbers: &
 fn card(tree: &Tree, hangs: &Hangs<'_>, group: &Group) -> Leaf {
     let mut points = Vec::new();
     hangs.each(group, |what| match what {
-        Hanging::Leaf(i) => corners(&tree.leaves[i as usize], half_width(tree, i), &mut points),
-        Hanging::Blossom(i) => corners(&tree.blossoms[i as usize], 0.5, &mut points),
+        Hanging::Leaf(i) => points.extend(of_leaf(tree, &tree.leaves[i as usize])),
+        Hanging::Blossom(i) => points.extend(of_blossom(tree, &tree.blossoms[i as usize])),
         // Only a stretch of a group's own stem is the group's.
         Hanging::Stem(i) if i == group.stem => {}
         Hanging::Stem(i) => {
@@ -57,13 +58,19 @@ fn card(tree: &Tree, hangs: &Hangs<'_>, group: &Group) -> Leaf {
     }
 }
 
-fn half_width(tree: &Tree, leaf: u32) -> f32 {
-    tree.outline_of(&tree.leaves[leaf as usize]).width() / 2.0
+/// The ends and sides of a leaf.
+fn of_leaf(tree: &Tree, leaf: &Leaf) -> [Vec3; 4] {
+    let side = leaf.across * (tree.outline_of(leaf).width() / 2.0);
+    let middle = leaf.position + leaf.along / 2.0;
+    [leaf.position, leaf.position + leaf.along, middle - side, middle + side]
 }
 
-fn corners(leaf: &Leaf, half_width: f32, points: &mut Vec<Vec3>) {
-    let (middle, side) = (leaf.position + leaf.along / 2.0, leaf.across * half_width);
-    points.extend([leaf.position, leaf.position + leaf.along, middle - side, middle + side]);
+/// The foot and the rim of a blossom, which opens along its axis.
+fn of_blossom(tree: &Tree, blossom: &Leaf) -> [Vec3; 5] {
+    let (reach, high) = blossom_spread(tree.blossom_shapes[usize::from(blossom.shape)]);
+    let rim = blossom.position + blossom.along * high;
+    let (across, depth) = (blossom.across * reach, blossom.normal() * reach);
+    [blossom.position, rim - across, rim + across, rim - depth, rim + depth]
 }
 
 /// The direction in which points about the origin spread most.

@@ -12,15 +12,18 @@ use crate::settings::{LeafStyle, MeshSettings};
 use crate::twigs::{TwigModel, Twigs};
 use glam::{Vec2, Vec3, vec2};
 use pleach_plant::{Leaf, Tree};
+use rayon::prelude::*;
 
 /// Cells along the longer side of the grid.
 const CELLS: usize = 512;
 /// Cells along a side of the grid that shows what a card's picture covers.
 const CARD_CELLS: usize = 64;
 /// Most times that a card grows: a leaf in its picture grows with it.
-const MOST: f32 = 1.5;
-/// Halvings of the range of sizes.
-const STEPS: u32 = 7;
+const MOST: f32 = 2.0;
+/// Size that is tried after 1.
+const FIRST: f32 = 1.2;
+/// Sizes that are tried at most.
+const STEPS: u32 = 4;
 
 /// A grid of cells that are covered or not.
 #[derive(Clone, Debug)]
@@ -121,22 +124,29 @@ impl Ink {
         each_triangle(bark, |corners| draw(&self.sides, &mut wood, corners));
         let pictures: Vec<Grid> = twigs.models.iter().map(|model| picture(tree, model)).collect();
         let covered = |growth: f32| {
-            let mut grids = wood.clone();
-            for card in &twigs.cards {
-                let picture = &pictures[usize::from(card.shape)];
-                let card = grown(card, growth);
-                for (side, grid) in self.sides.iter().zip(&mut grids) {
-                    show(&card, side, grid, picture);
+            let of_side = |(side, wood): (&Side, &Grid)| {
+                let mut grid = wood.clone();
+                for card in &twigs.cards {
+                    show(&grown(card, growth), side, &mut grid, &pictures[usize::from(card.shape)]);
                 }
-            }
-            grids.iter().map(Grid::covered).sum::<usize>()
+                grid.covered()
+            };
+            self.sides.par_iter().zip(&wood).map(of_side).sum::<usize>() as f32
         };
-        let (mut low, mut high) = (1.0 / MOST, MOST);
+        let wanted = self.covered as f32;
+        // What is covered grows nearly evenly with the size, so that a line through the last two finds the next.
+        let mut last = (1.0, covered(1.0));
+        let mut size = FIRST;
         for _ in 0..STEPS {
-            let middle = (low + high) / 2.0;
-            if covered(middle) < self.covered { low = middle } else { high = middle }
+            let now = (size, covered(size));
+            let slope = (now.1 - last.1) / (now.0 - last.0);
+            let next = if slope > 0.0 { now.0 + (wanted - now.1) / slope } else { now.0 };
+            (last, size) = (now, next.clamp(1.0 / MOST, MOST));
+            if (size - last.0).abs() < 1e-3 {
+                break;
+            }
         }
-        twigs.cards.iter_mut().for_each(|card| *card = grown(card, (low + high) / 2.0));
+        twigs.cards.iter_mut().for_each(|card| *card = grown(card, size));
     }
 }
 

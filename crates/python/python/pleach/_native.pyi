@@ -1,4 +1,4 @@
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, Optional, Union, final
@@ -54,7 +54,11 @@ class Species(Mapping[str, Any]):
         spacing: float = 6.0,
         variants: int = 4,
         seed: Optional[int] = None,
+        separate: bool = False,
         lod: int = 1,
+        triangles: Sequence[int] = (),
+        level: Optional[int] = None,
+        lod_extension: bool = False,
         billboard: int = 0,
         tolerance: float = 2.0,
         leaves: _LeafForm = "outline",
@@ -120,6 +124,9 @@ class Tree:
         /,
         *,
         lod: int = 1,
+        triangles: Sequence[int] = (),
+        level: Optional[int] = None,
+        lod_extension: bool = False,
         billboard: int = 0,
         tolerance: float = 2.0,
         weld: Optional[float] = None,
@@ -135,6 +142,9 @@ class Tree:
         self,
         *,
         lod: int = 1,
+        triangles: Sequence[int] = (),
+        level: Optional[int] = None,
+        lod_extension: bool = False,
         billboard: int = 0,
         tolerance: float = 2.0,
         weld: Optional[float] = None,

@@ -10,7 +10,7 @@ import { Button } from "../../ui/controls";
 import { canvasPng, download, fileName } from "../../ui/files";
 import { show } from "../../ui/ink";
 import { Thumb } from "../../ui/thumb";
-import { saveMesh } from "../species/exports";
+import { BUDGETS, optionsFor, saveMesh } from "../species/exports";
 import { result, shownTree } from "./fit-state";
 
 interface Found {
@@ -25,7 +25,7 @@ const PICTURE = 1024;
 async function exportMesh(fit: Found, format: "glb" | "obj"): Promise<void> {
   const spec = specOf(fit);
   const { info } = await openSource(spec.source);
-  const options = { wind: format === "glb" };
+  const options = optionsFor(format, BUDGETS[0], { wind: true });
   await saveMesh(fileName(fit.name, format), { spec, seed: info.tree_seed ?? 1, format, options });
 }
 

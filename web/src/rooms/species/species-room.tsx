@@ -17,7 +17,7 @@ import {
   wanted,
 } from "../../state/species";
 import { Alert, Button, Check, Field, Segmented } from "../../ui/controls";
-import { exportMesh, exportToml, exportView, FORMATS } from "./exports";
+import { BUDGETS, type Budget, exportMesh, exportToml, exportView, FORMATS } from "./exports";
 import { Parameters } from "./parameters";
 import { Picker } from "./picker";
 import { Seeds } from "./seeds";
@@ -110,7 +110,7 @@ function Toolbar(): JSX.Element {
 }
 
 function Files(): JSX.Element {
-  const levels = useSignal(false);
+  const budget = useSignal<Budget>(BUDGETS[0]);
   const wind = useSignal(true);
   return (
     <section class="files" aria-label="Download">
@@ -139,9 +139,7 @@ function Files(): JSX.Element {
               icon="download"
               label={label}
               testid={`export-${format}`}
-              onPress={() =>
-                void exportMesh(format, format === "glb" && levels.value ? 4 : 1, wind.value).catch(sayError)
-              }
+              onPress={() => void exportMesh(format, budget.value, wind.value).catch(sayError)}
             />
             <span>{what}</span>
           </li>
@@ -151,13 +149,25 @@ function Files(): JSX.Element {
           <span>this view, without a background</span>
         </li>
       </ul>
-      <Check
-        label="GLB with four levels of detail"
-        checked={levels.value}
-        onChange={(on) => {
-          levels.value = on;
-        }}
-      />
+      <Field label="Detail of GLB, OBJ and USDA">
+        {(id) => (
+          <select
+            id={id}
+            data-testid="budget"
+            value={budget.value.id}
+            onChange={(event) => {
+              const { value } = event.currentTarget;
+              budget.value = BUDGETS.find((one) => one.id === value) ?? BUDGETS[0];
+            }}
+          >
+            {BUDGETS.map((one) => (
+              <option key={one.id} value={one.id}>
+                {one.label}
+              </option>
+            ))}
+          </select>
+        )}
+      </Field>
       <Check
         label="With weights for wind"
         checked={wind.value}

@@ -1,0 +1,22 @@
+//! How alike levels of detail with a budget are to their trees: `cargo run --release -p pleach --example levels -- 30000,8000
+//! quaking_aspen acer`, a row of CSV for each species and budget.
+
+mod compared;
+
+use compared::compare;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut args = std::env::args().skip(1);
+    let budgets = args.next().unwrap_or_else(|| "50000,30000,8000,2000".to_owned());
+    let budgets = budgets.split(',').map(str::parse).collect::<Result<Vec<u32>, _>>()?;
+    println!("species,budget,triangles,cards,likeness,ink");
+    for name in args {
+        for (budget, level) in budgets.iter().zip(compare(&name, &budgets)?) {
+            println!(
+                "{name},{budget},{},{},{:.3},{:.3}",
+                level.triangles, level.has_cards, level.likeness, level.ink
+            );
+        }
+    }
+    Ok(())
+}
