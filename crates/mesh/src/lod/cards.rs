@@ -10,16 +10,23 @@ use pleach_plant::{Leaf, Tree};
 /// tree's stems.
 pub(super) fn twigs(tree: &Tree, hangs: &Hangs<'_>, groups: &[Group], numbers: &[u32]) -> Twigs {
     let mut cards: Vec<Leaf> = groups.iter().map(|group| card(tree, hangs, group)).collect();
-    let models = choose(&mut cards, |i| hangs.area(&groups[i]));
-    let models = models.into_iter().map(|i| model(hangs, &groups[i], cards[i])).collect();
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    for card in &mut cards {
-        card.stem = numbers[card.stem as usize];
-        let middle = card.position + card.along / 2.0;
-        (low, high) = (low.min(middle), high.max(middle));
+    for card in &cards {
+        (low, high) = (low.min(middle(card)), high.max(middle(card)));
     }
     let heart = (low + high) / 2.0 - Vec3::Z * (0.25 * (high.z - low.z));
+    // Engines turn the normals of a face that is seen from behind. So cards face outwards, as their normals do.
+    for card in cards.iter_mut().filter(|card| card.normal().dot(middle(card) - heart) < 0.0) {
+        card.across = -card.across;
+    }
+    let models = choose(&mut cards, |i| hangs.area(&groups[i]));
+    let models = models.into_iter().map(|i| model(hangs, &groups[i], cards[i])).collect();
+    cards.iter_mut().for_each(|card| card.stem = numbers[card.stem as usize]);
     Twigs { cards, models, first_cell: 0, sheet: Sheet::default(), heart }
+}
+
+fn middle(card: &Leaf) -> Vec3 {
+    card.position + card.along / 2.0
 }
 
 /// The rectangle that covers a group: upright from where the group begins to the middle of it, and across that where it

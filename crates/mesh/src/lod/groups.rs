@@ -128,16 +128,16 @@ impl<'a> Hangs<'a> {
 
     /// What a group shows, in square metres.
     pub(super) fn area(&self, group: &Group) -> f32 {
-        self.of(group).iter().map(|hang| hang.area).sum()
+        self.hangs_of(group).iter().map(|hang| hang.area).sum()
     }
 
-    fn of(&self, group: &Group) -> &[Hang] {
+    fn hangs_of(&self, group: &Group) -> &[Hang] {
         &self.hangs[group.hangs.start as usize..group.hangs.end as usize]
     }
 
     /// Where a group begins, on the axis of its stem.
     pub(super) fn foot(&self, group: &Group) -> Vec3 {
-        let place = self.of(group).first().map_or(0.0, |hang| hang.place);
+        let place = self.hangs_of(group).first().map_or(0.0, |hang| hang.place);
         Axis::new(self.tree, group.stem as usize).at(place)
     }
 
@@ -154,7 +154,7 @@ impl<'a> Hangs<'a> {
                 stems.push(child);
             }
         };
-        self.of(group).iter().for_each(|hang| take(hang, &mut stems));
+        self.hangs_of(group).iter().for_each(|hang| take(hang, &mut stems));
         while let Some(stem) = stems.pop() {
             let range = self.first[stem as usize] as usize..self.first[stem as usize + 1] as usize;
             self.hangs[range].iter().for_each(|hang| take(hang, &mut stems));

@@ -31,7 +31,7 @@ pub enum ExportError {
     /// The stems cannot be welded.
     #[error(transparent)]
     Weld(#[from] WeldError),
-    /// A level of so few triangles is not to be had.
+    /// The tree does not fit into so few triangles.
     #[error(transparent)]
     Budget(#[from] TooFew),
     /// The mesh cannot be written.
