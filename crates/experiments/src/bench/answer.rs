@@ -105,6 +105,7 @@ mod tests {
         for cell in [row.fresh, row.side] {
             assert!((0.6..0.999).contains(&value(cell)), "{row:?}");
         }
+        assert_ne!(row.fresh, row.side);
         let ellipse = Answer::Picture(best_ellipse(goal.picture())).row(&goal).unwrap();
         assert!(value(ellipse.iou) > 0.3 && value(ellipse.likeness) < value(row.fresh), "{ellipse:?}");
         assert!(ellipse.fresh.is_none() && ellipse.side.is_none() && ellipse.family.is_empty());

@@ -51,7 +51,7 @@ impl BenchOptions {
     }
 
     /// The goals that are asked for.
-    fn origins(&self) -> anyhow::Result<Vec<Origin>> {
+    pub(super) fn origins(&self) -> anyhow::Result<Vec<Origin>> {
         let all = Origin::all(self.around.unwrap_or(AROUND), self.photographs.as_deref())?;
         match &self.only {
             None => Ok(all),

@@ -2,7 +2,7 @@
 
 use super::answer::Answer;
 use super::budget::Budget;
-use super::goal::Goal;
+use super::goal::{Goal, Origin};
 use super::leaderboard;
 use super::row::Row;
 use super::{BenchOptions, PAGE, TABLE};
@@ -27,6 +27,8 @@ const MAX_SEED: u64 = crate::spec::MAX_SEED;
 
 /// An answer to a goal.
 struct Line {
+    /// File and line, for messages.
+    place: String,
     /// In the list of goals.
     goal: usize,
     answer: Answer,
@@ -50,17 +52,26 @@ pub fn check_submissions(
         Some(path) => Table::read(&path, &columns)?.records()?,
         None => Vec::new(),
     };
-    let goals = options.goals()?;
+    let origins = options.origins()?;
     let names = names(submissions, &rows)?;
     let read: Vec<Vec<Line>> =
-        submissions.iter().map(|path| lines(path, &goals)).collect::<anyhow::Result<_>>()?;
+        submissions.iter().map(|path| lines(path, &origins)).collect::<anyhow::Result<_>>()?;
+    let is_asked = |at: usize| read.iter().flatten().any(|line| line.goal == at);
+    let mut goals: Vec<Option<Goal>> = Vec::new();
+    for (at, origin) in origins.iter().enumerate() {
+        stop::check()?;
+        goals.push(is_asked(at).then(|| origin.goal()).transpose()?);
+    }
+    let goal = |line: &Line| goals[line.goal].as_ref().context("goals that are answered are drawn");
+    for line in read.iter().flatten() {
+        line.check_size(goal(line)?)?;
+    }
     let bar = progress("answers", read.iter().map(Vec::len).sum::<usize>() as u64);
     let mut checked = Vec::new();
     for (name, lines) in names.iter().zip(&read) {
         for line in lines {
             stop::check()?;
-            let goal = &goals[line.goal];
-            let row = line.answer.row(goal).with_context(|| format!("{name} on the goal {}", goal.name))?;
+            let row = line.answer.row(goal(line)?).with_context(|| line.place.clone())?;
             let wall_s = line.seconds.map(Fixed);
             checked.push(Row { row: name.clone(), budget: line.budget, wall_s, ..row });
             bar.inc(1);
@@ -92,7 +103,7 @@ fn names(submissions: &[PathBuf], rows: &[Row]) -> anyhow::Result<Vec<String>> {
 }
 
 /// The answers of a table; paths in it are from its folder.
-fn lines(path: &Path, goals: &[Goal]) -> anyhow::Result<Vec<Line>> {
+fn lines(path: &Path, goals: &[Origin]) -> anyhow::Result<Vec<Line>> {
     let text = regular::read_text(path)?;
     let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
     let file = path.display();
@@ -127,10 +138,12 @@ fn lines(path: &Path, goals: &[Goal]) -> anyhow::Result<Vec<Line>> {
         let number = record.position().map_or(0, csv::Position::line);
         let cells: BTreeMap<&str, &str> =
             header.iter().map(String::as_str).zip(&record).filter(|(_, cell)| !cell.is_empty()).collect();
-        let line = line(&cells, goals, folder).map_err(|error| anyhow!("{file}:{number}: {error:#}"))?;
+        let place = format!("{file}:{number}");
+        let line = line(&cells, goals, folder).map_err(|error| anyhow!("{place}: {error:#}"))?;
+        let line = Line { place, ..line };
         let goal = &goals[line.goal];
         if let Some(first) = seen.insert((line.goal, line.budget.to_string()), number) {
-            bail!("{file}:{number}: the goal `{}` is there twice, first in line {first}", goal.name);
+            bail!("{file}:{number}: the goal `{}` is there twice, first in line {first}", goal.name());
         }
         found.push(line);
     }
@@ -139,11 +152,12 @@ fn lines(path: &Path, goals: &[Goal]) -> anyhow::Result<Vec<Line>> {
 }
 
 /// The answer of a line with these cells.
-fn line(cells: &BTreeMap<&str, &str>, goals: &[Goal], folder: &Path) -> anyhow::Result<Line> {
+fn line(cells: &BTreeMap<&str, &str>, goals: &[Origin], folder: &Path) -> anyhow::Result<Line> {
     let cell = |name: &str| cells.get(name).copied();
     let name = cell("goal").context("the cell `goal` is empty, expected the name of a goal")?;
-    let Some(goal) = goals.iter().position(|goal| goal.name == name) else {
-        let near = nearest(name, goals.iter().map(|goal| goal.name.as_str()));
+    let Some(goal) = goals.iter().position(|goal| goal.name() == name) else {
+        let names: Vec<String> = goals.iter().map(Origin::name).collect();
+        let near = nearest(name, names.iter().map(String::as_str));
         let near = near.map_or_else(String::new, |near| format!(", did you mean `{near}`?"));
         bail!("no goal is called `{}`{near}; `pleach bench --goals DIR` writes a list of all", shown(name));
     };
@@ -157,7 +171,7 @@ fn line(cells: &BTreeMap<&str, &str>, goals: &[Goal], folder: &Path) -> anyhow::
         (Some(species), None) => tree(species, seed.transpose()?, folder)?,
         (None, Some(file)) => {
             ensure!(seed.is_none(), "a `seed` is beside a `picture`, expected it beside a `species`");
-            picture(&folder.join(file), &goals[goal])?
+            picture(&folder.join(file))?
         }
         (Some(_), Some(_)) => bail!("there are both a `species` and a `picture`, expected one of them"),
         (None, None) => bail!("there is neither a `species` nor a `picture`, expected one of them"),
@@ -167,7 +181,7 @@ fn line(cells: &BTreeMap<&str, &str>, goals: &[Goal], folder: &Path) -> anyhow::
         let seconds = text.parse::<f64>().ok().filter(|seconds| seconds.is_finite() && *seconds >= 0.0);
         seconds.with_context(|| format!("`seconds` is `{}`, expected a number from 0", shown(text)))
     });
-    Ok(Line { goal, answer, budget, seconds: seconds.transpose()? })
+    Ok(Line { place: String::new(), goal, answer, budget, seconds: seconds.transpose()? })
 }
 
 /// The tree of a species file in `folder`, or of a known species; without a seed, of the one in the file, or of 1.
@@ -182,21 +196,23 @@ fn tree(species: &str, seed: Option<u64>, folder: &Path) -> anyhow::Result<Answe
     Ok(Answer::tree(species, seed))
 }
 
-/// A silhouette of the goal's size: dark on light, or opaque on transparent.
-fn picture(path: &Path, goal: &Goal) -> anyhow::Result<Answer> {
+/// A silhouette: dark on light, or opaque on transparent.
+fn picture(path: &Path) -> anyhow::Result<Answer> {
     let options = GoalOptions { polarity: Polarity::DarkTree, ..GoalOptions::default() };
-    let found = Picture::load(path, &options)?.bitmap;
-    let (own, expected) =
-        ((found.width(), found.height()), (goal.picture().width(), goal.picture().height()));
-    ensure!(
-        own == expected,
-        "{} is {} × {} pixels, expected {} × {} as the goal `{}` is",
-        path.display(),
-        own.0,
-        own.1,
-        expected.0,
-        expected.1,
-        goal.name
-    );
-    Ok(Answer::Picture(found))
+    Ok(Answer::Picture(Picture::load(path, &options)?.bitmap))
+}
+
+impl Line {
+    /// A picture has the size of its goal.
+    fn check_size(&self, goal: &Goal) -> anyhow::Result<()> {
+        let Answer::Picture(picture) = &self.answer else { return Ok(()) };
+        let [own, expected] =
+            [picture, goal.picture()].map(|one| format!("{} × {}", one.width(), one.height()));
+        let (place, name) = (&self.place, &goal.name);
+        ensure!(
+            own == expected,
+            "{place}: the picture is {own} pixels, expected {expected} as the goal `{name}` is"
+        );
+        Ok(())
+    }
 }
