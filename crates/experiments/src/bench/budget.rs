@@ -19,9 +19,8 @@ pub(super) enum Budget {
     Seconds(f64),
 }
 
-/// Fits of at most so many seconds are of every contestant that searches; longer ones are of these.
+/// Fits of at most so many seconds are of every contestant that searches; longer ones are of the default alone.
 const SHORT: f64 = 10.0;
-const LONG: [Contestant; 2] = [Contestant::Default, Contestant::Cma];
 
 impl Budget {
     pub(super) const fn trees(self) -> Option<u64> {
@@ -41,13 +40,13 @@ impl Budget {
     }
 
     /// Whether `contestant` has this budget on goals of `set`. Time is for goals that nobody here has grown: of our own
-    /// a number of trees says more. Much time is for [`LONG`] alone. So the exam ends within 90 minutes on two cores.
+    /// a number of trees says more. Much time is for the default alone. So the exam ends within 90 minutes on two cores.
     pub(super) fn is_for(self, contestant: Contestant, set: Set) -> bool {
         match (self, contestant.search()) {
             (Self::Free, None) => contestant != Contestant::Truth || set == Set::Perturbed,
             (Self::Trees(_), Some(_)) => true,
             (Self::Seconds(seconds), Some(_)) => {
-                set != Set::Perturbed && (seconds <= SHORT || LONG.contains(&contestant))
+                set != Set::Perturbed && (seconds <= SHORT || contestant == Contestant::Default)
             }
             (Self::Free, Some(_)) | (Self::Trees(_) | Self::Seconds(_), None) => false,
         }
@@ -118,8 +117,8 @@ mod tests {
         assert!(is_for(Budget::Trees(9), Contestant::Random, Set::Perturbed));
         assert!(!is_for(Budget::Trees(9), Contestant::Ellipse, Set::Perturbed));
         assert!(is_for(Budget::Seconds(5.0), Contestant::De, Set::Photographs));
-        assert!(is_for(Budget::Seconds(60.0), Contestant::Cma, Set::Foreign));
-        assert!(!is_for(Budget::Seconds(60.0), Contestant::De, Set::Foreign));
+        assert!(is_for(Budget::Seconds(60.0), Contestant::Default, Set::Foreign));
+        assert!(!is_for(Budget::Seconds(60.0), Contestant::Cma, Set::Foreign));
         assert!(!is_for(Budget::Seconds(5.0), Contestant::Cma, Set::Perturbed));
     }
 }
