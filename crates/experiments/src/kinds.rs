@@ -1,5 +1,6 @@
 //! The kinds of experiments, each with the options of its file.
 
+use super::bench::BenchSpec;
 use super::families::FamiliesSpec;
 use super::individual::IndividualSpec;
 use super::likeness::LikenessSpec;
@@ -34,6 +35,7 @@ pub(super) enum Spec {
     Photographs(PhotographsSpec),
     Posterior(PosteriorSpec),
     Perturbed(PerturbedSpec),
+    Bench(BenchSpec),
 }
 
 impl Spec {
@@ -54,6 +56,7 @@ impl Spec {
             Kind::Photographs => Self::Photographs(source.parse::<PhotographsSpec>()?.checked(source)?),
             Kind::Posterior => Self::Posterior(source.parse::<PosteriorSpec>()?.checked(source)?),
             Kind::Perturbed => Self::Perturbed(source.parse::<PerturbedSpec>()?.checked(source)?),
+            Kind::Bench => Self::Bench(source.parse::<BenchSpec>()?.checked(source)?),
             Kind::Reading => Self::Reading(source.parse::<ReadingSpec>()?.checked(source)?),
             Kind::Stylised => Self::Stylised(source.parse::<StylisedSpec>()?.checked(source)?),
         })

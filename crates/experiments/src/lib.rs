@@ -3,9 +3,11 @@
 //! `experiment.toml` says what to run, `results.csv` has a row for every repetition. Columns whose
 //! names begin with `wall_` depend on the clock and are never compared.
 
+mod bench;
 mod blend;
 mod families;
 mod fits;
+mod fresh;
 mod growth;
 mod individual;
 mod journal;
@@ -13,6 +15,7 @@ mod kind;
 mod kinds;
 mod likeness;
 mod list;
+mod measures;
 mod needle;
 mod outputs;
 mod part;
@@ -31,6 +34,7 @@ mod stop;
 mod stylised;
 mod table;
 mod treefit;
+mod truth;
 mod within;
 mod yao;
 
@@ -44,6 +48,7 @@ use spec::Source;
 use std::path::Path;
 use table::Table;
 
+pub use bench::{BenchOptions, check_submissions, hand_out};
 pub use kind::Slice;
 pub use list::{FOLDER, list};
 pub use part::Part;
@@ -68,6 +73,7 @@ impl Spec {
             Self::Photographs(spec) => spec,
             Self::Posterior(spec) => spec,
             Self::Perturbed(spec) => spec,
+            Self::Bench(spec) => spec,
         }
     }
 }

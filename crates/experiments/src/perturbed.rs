@@ -1,30 +1,24 @@
 //! Fits of trees whose numbers no library has: with the guess that has seen many trees, and without.
 
+use super::fresh::fresh;
 use super::pictured::pictured;
 use super::record::{self, Fixed};
 use super::spec::{Evaluations, Source, species_files};
+use super::truth::Truth;
 use super::within::{List, SpeciesName, Whole};
 use super::{Journal, Kind, Outputs, Slice, Table, progress, stop};
 use anyhow::Context;
 use pleach::plan::{Origin, library, plan};
 use pleach_console::output;
-use pleach_fit::{
-    Budget, Control, FitProblem, FitSettings, Freedom, Genome, GoalSettings, GuessLibrary, Objective, Prior,
-    Until, fresh_seeds,
-};
+use pleach_fit::{Budget, Control, FitProblem, FitSettings, GoalSettings, GuessLibrary};
 use pleach_generators::GeneratorChoice;
 use pleach_silhouette::View;
-use pleach_tree::{Foliage, Limits, Species};
+use pleach_tree::Species;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use toml::Spanned;
-
-/// The seed of the goals: not that of the trees that predictors are learnt from.
-const GOALS: u64 = 777;
-/// Trees of other seeds that a kind is judged by.
-const FRESH: usize = 16;
 
 /// A fit of one goal.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
@@ -63,26 +57,19 @@ pub(super) struct PerturbedSpec {
 /// A tree around a species, drawn as a goal.
 struct Perturbed {
     problem: FitProblem,
-    truth: Species,
-    seed: u64,
+    truth: Truth,
 }
 
 impl Perturbed {
     fn new(species: &Species, number: u32) -> anyhow::Result<Self> {
-        let prior = Prior::new(species, &Freedom::default(), Prior::SPREAD)?;
-        let (truth, tree) = prior.sample(GOALS, number).context("no tree around the species grows")?;
-        let seed = truth.tree_seed.context("samples have seeds")?;
+        let (truth, tree) = Truth::new(species, number)?;
         let problem = FitProblem::new(species.clone(), pictured(&tree, View::FRONT, true));
-        Ok(Self { problem, truth, seed })
+        Ok(Self { problem, truth })
     }
 
-    /// Mean likeness of trees of `species` of other seeds, with leaves or without; 0 where one does not grow.
-    fn fresh(&self, species: &Species, foliage: Foliage) -> anyhow::Result<f64> {
-        let problem = FitProblem { start: species.clone(), foliage, ..self.problem.clone() };
-        let genome = Genome::new(species.params.values().to_vec(), self.seed);
-        let until = Until::from(stop::flag());
-        let fresh = fresh_seeds(&problem, Objective::Likeness, Limits::DEFAULT, &genome, FRESH, until)?;
-        Ok(fresh.map_or(0.0, |fresh| fresh.likeness.mean))
+    /// Mean likeness of trees of `species` of other seeds.
+    fn fresh(&self, species: &Species) -> anyhow::Result<f64> {
+        fresh(&self.problem, species, self.truth.seed)
     }
 
     fn fit(&self, library: &mut GuessLibrary, evaluations: u64) -> anyhow::Result<Found> {
@@ -101,7 +88,7 @@ impl Perturbed {
             looks_like: name.map_or_else(String::new, |(name, _)| name.clone()),
             likeness: Fixed(fitted.best.score.likeness.unwrap_or_default()),
             iou: Fixed(fitted.best.score.iou),
-            fresh: Fixed(self.fresh(&fitted.species()?, fitted.problem.foliage)?),
+            fresh: Fixed(self.fresh(&Species { foliage: fitted.problem.foliage, ..fitted.species()? })?),
             wall_s: Fixed(wall_s),
             ..Found::default()
         })
@@ -147,7 +134,7 @@ impl Kind for PerturbedSpec {
                         journal.job(is_of, || {
                             let own = match ceiling {
                                 Some(known) => known,
-                                None => perturbed.fresh(&perturbed.truth, Foliage::All)?,
+                                None => perturbed.fresh(&perturbed.truth.species)?,
                             };
                             ceiling = Some(own);
                             let found = perturbed.fit(library, evaluations)?;

@@ -48,6 +48,8 @@ pub(super) enum Kind {
     Posterior,
     /// Fits of trees whose numbers no library has.
     Perturbed,
+    /// The exam: every way to find a tree on the same goals.
+    Bench,
 }
 
 impl Kind {
@@ -70,6 +72,7 @@ impl Kind {
             Self::Photographs => "photographs",
             Self::Posterior => "posterior",
             Self::Perturbed => "perturbed",
+            Self::Bench => "bench",
         }
     }
 }

@@ -1,5 +1,6 @@
 //! One module per command: what was typed, and what it does.
 
+mod bench;
 mod blend;
 mod collect;
 mod completions;
@@ -65,6 +66,7 @@ enum Command {
     Grammar(grammar::GrammarCommand),
     Studio(studio::Studio),
     Experiment(experiment::Experiment),
+    Bench(Box<bench::Bench>),
     Completions(completions::Completions),
     Man(man::Man),
 }
@@ -95,6 +97,7 @@ impl Arguments {
             Command::Render(command) => command.run(),
             Command::Score(command) => command.run(),
             Command::Experiment(command) => command.run(),
+            Command::Bench(command) => command.run(),
             Command::Silhouette(command) => command.run(),
             Command::Map(command) => command.run(),
             Command::Mask(command) => command.run(),

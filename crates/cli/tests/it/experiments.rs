@@ -56,6 +56,12 @@ fn families() {
 }
 
 #[test]
+#[ignore = "nightly: ten seconds and more"]
+fn bench() {
+    check("bench", &["--repetitions", "2", "--evaluations", "100"]);
+}
+
+#[test]
 fn lsystem_fit() {
     check("lsystem-fit", &["--repetitions", "1"]);
 }

@@ -21,6 +21,7 @@
 mod bad_input;
 mod bare;
 mod batch;
+mod bench;
 mod blend;
 mod bounds;
 mod cluster;

@@ -1,9 +1,6 @@
 //! How well whole fits do on pictures of real trees.
 
-mod crown;
-mod edges;
 mod eye;
-mod measures;
 mod report;
 mod row;
 mod sheet;

@@ -1,6 +1,6 @@
 //! The rows of a picture.
 
-use super::measures::Measures;
+use crate::measures::Measures;
 use crate::record::Fixed;
 use serde::{Deserialize, Serialize};
 

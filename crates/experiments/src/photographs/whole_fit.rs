@@ -1,9 +1,9 @@
 //! The whole fit of a picture, as a user gets it, and its rows.
 
-use super::measures::{Judge, Measures};
 use super::row::{Row, Which};
 use super::spec::PictureSpec;
 use super::verdict::words;
+use crate::measures::{Judge, Measures};
 use crate::record::Fixed;
 use crate::stop;
 use anyhow::Context;

@@ -1,7 +1,10 @@
 //! How a tree's silhouette matches the goal's.
 
-use super::crown::crown;
-use super::edges::boundary_f;
+mod crown;
+mod edges;
+
+use crown::crown;
+use edges::boundary_f;
 use pleach_reading::Reading;
 use pleach_silhouette::score::{ScoreCard, SizeMismatch};
 use pleach_silhouette::{Bitmap, Frame, outline};
