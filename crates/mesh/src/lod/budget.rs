@@ -217,7 +217,8 @@ fn with_cards<'a>(
     ink: &OnceCell<Ink>,
 ) -> Result<Level<'a>, TooFew> {
     let finest = bark.settings.tolerance;
-    let is_bare = tree.leaves.is_empty() && tree.blossoms.is_empty();
+    let is_bare = leaf_triangles(tree, MeshSettings { leaves: LeafStyle::Simple, ..bark.settings }) == 0
+        || bark.settings.leaves == LeafStyle::None;
     let part = if is_bare { BARK_OF_BARE_TREES } else { BARK_BESIDE_CARDS };
     let mut thin = THIN_BESIDE_CARDS;
     // Every stem that is drawn has cards of its own, so that fewer cards may need fewer stems.
@@ -227,9 +228,12 @@ fn with_cards<'a>(
         let fitted = within(part).or_else(|| within(BARK_AT_MOST));
         let (tolerance, kept) = fitted.ok_or_else(|| bark.too_few(budget, 0))?;
         let room = (u64::from(budget) - bark.count(tolerance, &kept)) as usize / 2;
-        let groups = Hangs::new(tree, &kept).groups(room);
+        let groups = Hangs::new(tree, &kept, bark.settings).groups(room);
         if groups.len() <= room {
             break (tolerance, kept, groups);
+        }
+        if kept.is_one() {
+            return Err(bark.too_few(budget, 2 * groups.len() as u64));
         }
         thin *= 2.0;
     };
@@ -237,7 +241,7 @@ fn with_cards<'a>(
     let rest = u64::from(budget) - 2 * groups.len() as u64;
     let finer = bark.within(rest, finest / FINER..tolerance, |_| kept.clone());
     let tolerance = finer.map_or(tolerance, |(finer, _)| finer);
-    let mut twigs = cards::twigs(tree, &Hangs::new(tree, &kept), &groups, &kept.number);
+    let mut twigs = cards::twigs(tree, &Hangs::new(tree, &kept, bark.settings), &groups, &kept.number);
     let coarse = Tree { stems: kept.stems(tree), knots: tree.knots.clone(), ..Tree::default() };
     let settings = MeshSettings { tolerance, min_sides: 3, leaves: LeafStyle::None, ..bark.settings };
     let ink = ink.get_or_init(|| Ink::new(tree, bark.settings));
@@ -341,6 +345,24 @@ mod tests {
         assert_eq!(error.asked, 10);
         let again = budgets(&[&tree], MeshSettings::default(), &[error.fewest as u32]);
         assert!(again.is_ok(), "{error}");
+    }
+
+    /// Roots are not asked for, and leaves are left out.
+    #[test]
+    fn cards_show_what_is_drawn() {
+        let tree = pleach_generators::preset("stylised_dead").unwrap().grow(1).unwrap();
+        assert!(tree.stems.iter().any(|stem| stem.kind == pleach_plant::StemKind::Root));
+        let shown = |tree: &Tree, settings| -> Vec<_> {
+            let levels = budgets(&[tree], settings, &[800]).unwrap().remove(0);
+            levels.into_iter().filter_map(|level| level.twigs).flat_map(|twigs| twigs.models).collect()
+        };
+        for model in shown(&tree, MeshSettings::default()) {
+            let is_root = |i: &u32| tree.stems[*i as usize].kind == pleach_plant::StemKind::Root;
+            assert!(!model.stems.iter().any(is_root));
+        }
+        let acer = pleach_generators::preset("acer").unwrap().grow(1).unwrap();
+        let models = shown(&acer, MeshSettings { leaves: LeafStyle::None, ..MeshSettings::default() });
+        assert!(!models.is_empty() && models.iter().all(|model| model.leaves.is_empty()));
     }
 
     #[test]

@@ -142,6 +142,7 @@ fn model(hangs: &Hangs<'_>, group: &Group, card: Leaf) -> TwigModel {
 mod tests {
     use super::super::stems::Kept;
     use super::*;
+    use crate::settings::MeshSettings;
 
     #[test]
     fn points_spread_most_along_their_line() {
@@ -156,7 +157,7 @@ mod tests {
     fn cards_cover_their_leaves_and_share_few_models_of_their_size() {
         let tree = pleach_generators::preset("quaking_aspen").unwrap().grow(1).unwrap();
         let kept = Kept::new(&tree, 0.01);
-        let hangs = Hangs::new(&tree, &kept);
+        let hangs = Hangs::new(&tree, &kept, MeshSettings::default());
         let groups = hangs.groups(800);
         let twigs = twigs(&tree, &hangs, &groups, &kept.number);
         assert_eq!((twigs.cards.len(), twigs.models.len()), (groups.len(), MAX_MODELS));

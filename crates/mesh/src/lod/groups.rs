@@ -1,8 +1,9 @@
 //! Twigs and leaves in groups of about the same area, each of what hangs on one stretch of a stem.
 
 use super::stems::Kept;
+use crate::settings::{LeafStyle, MeshSettings};
 use glam::{DVec3, Vec3};
-use pleach_plant::{Leaf, Tree};
+use pleach_plant::{Leaf, Parts, Stem, Tree};
 use std::ops::Range;
 
 /// What hangs on a stem.
@@ -43,7 +44,11 @@ pub(super) struct Hangs<'a> {
 }
 
 impl<'a> Hangs<'a> {
-    pub(super) fn new(tree: &'a Tree, kept: &'a Kept) -> Self {
+    /// What of `tree` is drawn with these settings.
+    pub(super) fn new(tree: &'a Tree, kept: &'a Kept, settings: MeshSettings) -> Self {
+        let has_foliage = settings.leaves != LeafStyle::None;
+        let has = |part| has_foliage && settings.parts.contains(part);
+        let is_drawn = |stem: &Stem| settings.parts.has_stem(stem.kind);
         let area_of = |leaf: &Leaf, unit: f32| leaf.unit_area() * unit;
         let mut areas: Vec<f32> = tree.stems.iter().map(|stem| tree_area(tree, stem)).collect();
         let mut all: Vec<(u32, Hang)> = Vec::with_capacity(tree.leaves.len() + tree.blossoms.len());
@@ -52,16 +57,16 @@ impl<'a> Hangs<'a> {
             areas[leaf.stem as usize] += area;
             all.push((leaf.stem, Hang { what, place: axes[leaf.stem as usize].place(leaf.position), area }));
         };
-        for (i, leaf) in (0..).zip(&tree.leaves) {
+        for (i, leaf) in (0..).zip(&tree.leaves).filter(|_| has(Parts::LEAVES)) {
             hang(leaf, Hanging::Leaf(i), area_of(leaf, tree.outline_of(leaf).area()));
         }
-        for (i, blossom) in (0..).zip(&tree.blossoms) {
+        for (i, blossom) in (0..).zip(&tree.blossoms).filter(|_| has(Parts::BLOSSOMS)) {
             let unit = tree.blossom_shapes[usize::from(blossom.shape)].faces().area();
             hang(blossom, Hanging::Blossom(i), area_of(blossom, unit));
         }
         // Children come after their parents.
         for (i, stem) in tree.stems.iter().enumerate().rev() {
-            let Some(parent) = stem.parent.filter(|_| !kept.is_kept[i]) else { continue };
+            let Some(parent) = stem.parent.filter(|_| !kept.is_kept[i] && is_drawn(stem)) else { continue };
             let foot = tree.knots_of(stem)[0].point.as_vec3();
             let area = areas[i];
             areas[parent as usize] += area;
@@ -163,7 +168,7 @@ impl<'a> Hangs<'a> {
 }
 
 /// What the wood of a stem shows from the side.
-fn tree_area(tree: &Tree, stem: &pleach_plant::Stem) -> f32 {
+fn tree_area(tree: &Tree, stem: &Stem) -> f32 {
     let pieces = tree.knots_of(stem).windows(2);
     pieces.map(|pair| pair[0].point.distance(pair[1].point) * (pair[0].radius + pair[1].radius)).sum::<f64>()
         as f32
@@ -206,7 +211,7 @@ mod tests {
         for name in ["quaking_aspen", "hill_cherry", "small_pine"] {
             let tree = tree(name);
             let kept = Kept::new(&tree, 0.01);
-            let hangs = Hangs::new(&tree, &kept);
+            let hangs = Hangs::new(&tree, &kept, MeshSettings::default());
             for count in [1, 20, 500] {
                 let groups = hangs.groups(count);
                 let mut seen =
@@ -229,7 +234,7 @@ mod tests {
     fn groups_are_nearly_as_many_as_there_may_be() {
         let tree = tree("quaking_aspen");
         let kept = Kept::new(&tree, 0.03);
-        let hangs = Hangs::new(&tree, &kept);
+        let hangs = Hangs::new(&tree, &kept, MeshSettings::default());
         let mut largest = f32::INFINITY;
         for count in [200, 1000, 5000] {
             let groups = hangs.groups(count);

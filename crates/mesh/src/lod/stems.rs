@@ -1,6 +1,6 @@
 //! Which stems are thick enough to be drawn.
 
-use pleach_plant::{Stem, Tree};
+use pleach_plant::{Stem, StemKind, Tree};
 
 /// The stems of a tree that are drawn, and what takes the place of the others.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ impl Kept {
     pub(super) fn new(tree: &Tree, radius: f64) -> Self {
         let base = |stem: &Stem| tree.knots_of(stem)[0].radius;
         let thickest = (0..tree.stems.len())
-            .filter(|&i| tree.stems[i].parent.is_none())
+            .filter(|&i| tree.stems[i].parent.is_none() && tree.stems[i].kind != StemKind::Root)
             .reduce(|a, b| if base(&tree.stems[b]) > base(&tree.stems[a]) { b } else { a });
         let (mut is_kept, mut number) =
             (Vec::with_capacity(tree.stems.len()), Vec::with_capacity(tree.stems.len()));
@@ -37,6 +37,11 @@ impl Kept {
         // A trunk that is not drawn hands over to the thickest.
         number.iter_mut().filter(|number| **number == u32::MAX).for_each(|number| *number = main);
         Self { is_kept, number }
+    }
+
+    /// Whether a single stem is left.
+    pub(super) fn is_one(&self) -> bool {
+        self.is_kept.iter().filter(|kept| **kept).count() <= 1
     }
 
     /// Takes the other stems off `tree`. What hung on one hangs where it is on the stem that takes its place.
