@@ -42,7 +42,7 @@ fn plain(name: &str, settings: MeshSettings) -> Vec<u8> {
     glb(&[Mesher::new(&tree, settings)], &scene(&species, &tree, 1))
 }
 
-fn levels_glb(name: &str, count: u32) -> Vec<u8> {
+pub(crate) fn levels_glb(name: &str, count: u32) -> Vec<u8> {
     let (species, tree) = grow(name);
     let levels: Vec<Level<'_>> = lod::levels(&tree, MeshSettings::default(), count);
     let meshers: Vec<Mesher<'_>> = levels.iter().map(Level::mesher).collect();
@@ -148,37 +148,6 @@ fn the_same_tree_is_the_same_file() {
     let once = levels_glb("acer", 3);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert!(once == levels_glb("acer", 3) && once == pool.install(|| levels_glb("acer", 3)));
-}
-
-#[test]
-fn levels_are_named_nodes_below_the_tree() {
-    let json = json_of(&levels_glb("acer", 4));
-    let nodes = &json["scenes"][0]["nodes"];
-    assert_eq!(nodes.as_array().unwrap().len(), 1);
-    let tree = &json["nodes"][nodes[0].as_u64().unwrap() as usize];
-    assert_eq!(tree["name"], "acer");
-    for (level, node) in tree["children"].as_array().unwrap().iter().enumerate() {
-        let node = &json["nodes"][node.as_u64().unwrap() as usize];
-        let mesh = &json["meshes"][node["mesh"].as_u64().unwrap() as usize];
-        assert_eq!(node["name"], format!("acer_LOD{level}"));
-        assert_eq!(node["name"], mesh["name"]);
-    }
-    assert!(json["extensionsUsed"].is_null(), "nothing that a program may not know");
-}
-
-#[test]
-fn levels_of_the_extension_hang_on_the_finest_and_extras_name_the_tree() {
-    let (species, tree) = grow("acer");
-    let levels = lod::levels(&tree, MeshSettings::default(), 4);
-    let meshers: Vec<Mesher<'_>> = levels.iter().map(Level::mesher).collect();
-    let json = json_of(&glb(&meshers, &Scene { lod_extension: true, ..scene(&species, &tree, 4) }));
-    let root = &json["nodes"][json["scenes"][0]["nodes"][0].as_u64().unwrap() as usize];
-    let levels = root["extensions"]["MSFT_lod"]["ids"].as_array().unwrap();
-    assert_eq!(levels.len(), 3);
-    assert_eq!(root["extras"]["MSFT_screencoverage"].as_array().unwrap().len(), 4);
-    assert_eq!(json["scenes"][0]["nodes"].as_array().unwrap().len(), 1, "coarse levels are not in the scene");
-    assert_eq!(json["scenes"][0]["extras"]["species"], "acer");
-    assert_eq!(json["scenes"][0]["extras"]["seed"], 1);
 }
 
 #[test]
@@ -309,6 +278,7 @@ fn the_khronos_validator_finds_no_error_and_no_warning() {
         ("instances".into(), instanced("hill_cherry")),
         ("sway".into(), rigged("acer")),
         ("forest".into(), forest()),
+        ("textures".into(), crate::pictures::textured("acer")),
         ("cards".into(), cards_glb("apple")),
         ("billboards".into(), billboards_glb("hill_cherry", 4)),
         ("cards without pictures".into(), plain("palm", cards)),
@@ -498,7 +468,7 @@ fn a_full_disk_is_an_error_in_every_format() {
 }
 
 /// The JSON part of a GLB file.
-fn json_of(bytes: &[u8]) -> serde_json::Value {
+pub(crate) fn json_of(bytes: &[u8]) -> serde_json::Value {
     assert_eq!(&bytes[..4], b"glTF");
     assert_eq!(u32::from_le_bytes(bytes[8..12].try_into().unwrap()) as usize, bytes.len());
     let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod files;
+mod levels;
 mod mesh;
 mod pictures;
 mod silhouettes;

@@ -249,6 +249,10 @@ impl File {
         attributes.insert("POSITION".into(), json!(position));
         attributes.insert("NORMAL".into(), json!(self.accessor(view, 12, FLOAT, "VEC3", count)));
         attributes.insert("TEXCOORD_0".into(), json!(self.accessor(view, 24, FLOAT, "VEC2", count)));
+        if layout.has_tangents {
+            let view = self.view(place.tangents, count * 16, Some(16), Some(ARRAY_BUFFER));
+            attributes.insert("TANGENT".into(), json!(self.accessor(view, 0, FLOAT, "VEC4", count)));
+        }
         if part.wind {
             let view = self.view(place.wind, count * 32, Some(32), Some(ARRAY_BUFFER));
             attributes.insert("_WIND_PIVOT".into(), json!(self.accessor(view, 0, FLOAT, "VEC4", count)));

@@ -13,6 +13,7 @@ pub(super) const SKIN_BYTES: u64 = 12;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Place {
     pub(super) vertices: u64,
+    pub(super) tangents: u64,
     pub(super) wind: u64,
     pub(super) skin: u64,
     pub(super) indices: u64,
@@ -41,17 +42,25 @@ impl Placements {
 pub(super) struct PartLayout {
     pub(super) part: Part,
     pub(super) place: Place,
+    /// Whether its material shows a picture of normals.
+    pub(super) has_tangents: bool,
     next: Place,
     /// Smallest and largest coordinates of what has been written.
     pub(super) bounds: Option<(Vec3, Vec3)>,
 }
 
 impl PartLayout {
+    /// Number of the next corner.
+    pub(super) fn next_corner(&self) -> u32 {
+        ((self.next.vertices - self.place.vertices) / 32) as u32
+    }
+
     /// Where `block` goes; the next one goes behind it.
     pub(super) fn advance(&mut self, block: &Block) -> Place {
         let place = self.next;
         let vertices = block.vertices.len() as u64;
         self.next.vertices += vertices * 32;
+        self.next.tangents += vertices * 16;
         self.next.wind += vertices * 32;
         self.next.skin += vertices * SKIN_BYTES;
         self.next.indices += block.triangles.len() as u64 * 12;
@@ -93,8 +102,11 @@ impl Layout {
             .iter()
             .map(|&part| {
                 let vertices = part.count.vertices;
+                let own = scene.pictures.iter().find(|pictures| pictures.material == part.material);
+                let has_tangents = own.is_some_and(|pictures| pictures.normal.is_some());
                 let place = Place {
                     vertices: take(vertices * 32),
+                    tangents: take(if has_tangents { vertices * 16 } else { 0 }),
                     wind: take(if part.wind { vertices * 32 } else { 0 }),
                     skin: take(if part.rigged { vertices * SKIN_BYTES } else { 0 }),
                     indices: take(part.count.triangles * 12),
@@ -102,7 +114,7 @@ impl Layout {
                     rotations: take(part.instances * 16),
                     scales: take(part.instances * 12),
                 };
-                PartLayout { part, place, next: place, bounds: None }
+                PartLayout { part, place, has_tangents, next: place, bounds: None }
             })
             .collect();
         let joints = scene.rig.map_or(0, |rig| rig.joints.len() as u64);

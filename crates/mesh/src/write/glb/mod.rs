@@ -5,7 +5,7 @@
 //!
 //! | what | how |
 //! | --- | --- |
-//! | corners | interleaved position, normal, texture coordinates; wind in `_WIND_PIVOT`, `_WIND_SWAY` |
+//! | corners | interleaved position, normal, texture coordinates; tangents where there is a picture of normals; wind in `_WIND_PIVOT`, `_WIND_SWAY` |
 //! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided; cards show pictures with alpha masks, bark tiles with normals, roughness and occlusion |
 //! | levels of detail | nodes and meshes `NAME_LOD0`, `NAME_LOD1`, … under one of the tree's name, all in the scene; or, if asked for, `MSFT_lod` on the node of the finest |
 //! | leaves as instances | `EXT_mesh_gpu_instancing`, then required: without it there is no crown |
@@ -15,6 +15,7 @@
 mod animation;
 mod json;
 mod layout;
+mod tangents;
 
 use crate::block::{Block, Placement, Vertex, Wind};
 use crate::mesher::Mesher;
@@ -176,9 +177,14 @@ impl<W: Write + Seek> Sink for Glb<'_, W> {
 
     fn block(&mut self, part: usize, block: &mut Block) -> Result<(), MeshError> {
         turn_upright(block);
-        let place = self.layout.parts[part].advance(block);
+        let layout = &mut self.layout.parts[part];
+        let tangents = layout.has_tangents.then(|| tangents::tangents(block, layout.next_corner()));
+        let place = layout.advance(block);
         let vertices: Vec<[f32; 8]> = block.vertices.iter().map(Vertex::to_array).collect();
         self.write_at(place.vertices, bytemuck::cast_slice(&vertices))?;
+        if let Some(tangents) = tangents {
+            self.write_at(place.tangents, bytemuck::cast_slice(&tangents))?;
+        }
         if !block.wind.is_empty() {
             let wind: Vec<[f32; 8]> = block.wind.iter().map(Wind::to_array).collect();
             self.write_at(place.wind, bytemuck::cast_slice(&wind))?;
