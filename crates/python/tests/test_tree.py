@@ -96,6 +96,20 @@ def test_bark_has_pictures(tmp_path: Path) -> None:
         tree.to_glb(textures=1000)
 
 
+def test_levels_keep_to_budgets(tmp_path: Path) -> None:
+    """A budget for each level; one level alone; a budget that cannot be."""
+    tree = pleach.species("acer").grow(1)
+    both = tree.to_glb(triangles=[8000, 2000])
+    assert b'"acer_LOD0"' in both and b'"acer_LOD1"' in both and b'"twigs"' in both
+    one = tree.to_glb(triangles=[8000, 2000], level=1)
+    assert b'"acer_LOD1"' in one and b'"acer_LOD0"' not in one
+    files = tree.export(tmp_path / "acer.obj", triangles=[2000])
+    assert "acer-twigs.png" in [file.name for file in files]
+    for wrong in ([10], [2000, 8000], [2000] * 2):
+        with pytest.raises(pleach.PleachError, match="triangles"):
+            tree.to_glb(triangles=wrong)
+
+
 def test_too_large_a_tree_is_an_error() -> None:
     huge = pleach.species("quaking_aspen").replace({"branches": (1, 500, 500, 500), "levels": 4})
     with pytest.raises(pleach.GrowError):
