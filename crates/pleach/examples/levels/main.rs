@@ -1,6 +1,8 @@
 //! How alike levels of detail with a budget are to their trees: `cargo run --release -p pleach --example levels -- 30000,8000
 //! quaking_aspen acer`, a row of CSV for each species and budget.
 
+#![allow(clippy::print_stdout, reason = "an example says what it has found")]
+
 mod compared;
 
 use compared::compare;
