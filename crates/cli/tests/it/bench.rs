@@ -70,11 +70,11 @@ fn names_that_the_exam_does_not_know_are_refused() {
         dir.run([&["bench"], args].concat()).fails(code, words);
     };
     refused(
-        &["-o", "exam", "--rows", "defualt"],
+        &["-o", "exam", "--rows", "defaulted"],
         2,
-        &["no row is called `defualt`, did you mean `default`?"],
+        &["no row is called `defaulted`, did you mean `default`?"],
     );
-    refused(&["-o", "exam", "--only", "foriegn"], 1, &["did you mean `foreign`?"]);
+    refused(&["-o", "exam", "--only", "foreigns"], 1, &["did you mean `foreign`?"]);
     refused(&["-o", "exam", "--seconds", "-1"], 2, &["expected 0, or seconds from 0.1"]);
     refused(&["--quick"], 2, &["--out"]);
     refused(&["--check", "mine.csv"], 1, &["mine.csv"]);

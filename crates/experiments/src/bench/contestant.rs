@@ -109,7 +109,7 @@ mod tests {
             assert_eq!(optimizer(one).as_deref(), Some(one.name()));
         }
         assert_eq!(Contestant::Ellipse.search(), None);
-        let error = "defalt".parse::<Contestant>().unwrap_err().to_string();
+        let error = "defaulted".parse::<Contestant>().unwrap_err().to_string();
         assert!(error.contains("did you mean `default`?; there are default, cma, de"), "{error}");
     }
 }

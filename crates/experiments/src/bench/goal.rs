@@ -285,7 +285,7 @@ mod tests {
         assert_eq!(names(&["foreign", "acer-1"]).len(), 11);
         let error = only(all(), &["palm-9"]).unwrap_err();
         assert!(error.contains("`palm-9`, did you mean `palm-1`?"), "{error}");
-        let error = only(all(), &["foreing"]).unwrap_err();
+        let error = only(all(), &["foreigns"]).unwrap_err();
         assert!(
             error.contains("did you mean `foreign`?; sets are perturbed, foreign, photographs"),
             "{error}"

@@ -134,7 +134,7 @@ fn what_is_asked_for_is_written_and_read() {
     assert!(text().contains("around = 1"));
 
     let cases = [
-        ("rows = [\"elipse\"]", ":2:9: no row is called `elipse`, did you mean `ellipse`?"),
+        ("rows = [\"ellipses\"]", ":2:9: no row is called `ellipses`, did you mean `ellipse`?"),
         ("rows = [\"guess\", \"guess\"]", ":2:18: `guess` is there twice"),
         ("only = [\"palm-5\"]", ":2:8: no goal and no set of goals is called `palm-5`"),
         ("around = 5", ":2:10: "),
