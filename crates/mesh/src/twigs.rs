@@ -34,7 +34,7 @@ pub struct Twigs {
     pub first_cell: usize,
     /// The picture that the models of all levels share.
     pub sheet: Sheet,
-    /// Where normals point away from: low in the crown, so that it is lit as one round body.
+    /// Where normals point away from, in metres: low in the crown, so that it is lit as one round body.
     pub heart: Vec3,
 }
 

@@ -99,7 +99,7 @@ fn material(scene: &Scene<'_>, textures: &[Textures], material: Material) -> Val
         return value;
     }
     if let Some(Textures { color: texture, .. }) = own {
-        let roughness = if matches!(material, Material::Card) { 1.0 } else { 0.7 };
+        let roughness = if material == Material::Card { 1.0 } else { 0.7 };
         return json!({
             "name": material.name(), "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.4,
             "pbrMetallicRoughness": {
