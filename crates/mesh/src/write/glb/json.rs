@@ -217,13 +217,7 @@ impl File {
             self.uses(INSTANCING);
             let name = format!("{name} {}", layout.part.material.name());
             let mesh = push(&mut self.meshes, json!({"name": name, "primitives": [primitive]}));
-            let place = layout.place;
-            let placed = self.placements(Placements {
-                translations: place.translations,
-                rotations: place.rotations,
-                scales: place.scales,
-                count: layout.part.instances,
-            });
+            let placed = self.placements(layout.place.placements);
             drawn.instanced.push((mesh, name, placed));
         }
         if !primitives.is_empty() {

@@ -17,13 +17,11 @@ pub(super) struct Place {
     pub(super) wind: u64,
     pub(super) skin: u64,
     pub(super) indices: u64,
-    pub(super) translations: u64,
-    pub(super) rotations: u64,
-    pub(super) scales: u64,
+    pub(super) placements: Placements,
 }
 
 /// Offsets of a run of placements, and how many there are.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Placements {
     pub(super) translations: u64,
     pub(super) rotations: u64,
@@ -34,6 +32,22 @@ pub(super) struct Placements {
 impl Placements {
     fn new(count: u64, take: &mut impl FnMut(u64) -> u64) -> Self {
         Self { translations: take(count * 12), rotations: take(count * 16), scales: take(count * 12), count }
+    }
+
+    /// Moves behind so many placements.
+    const fn advance(&mut self, count: u64) {
+        self.translations += count * 12;
+        self.rotations += count * 16;
+        self.scales += count * 12;
+    }
+
+    /// The numbers of `placements`, each run with its offset.
+    pub(super) fn runs(&self, placements: &[Placement]) -> [(u64, Vec<f32>); 3] {
+        [
+            (self.translations, placements.iter().flat_map(|p| p.translation.to_array()).collect()),
+            (self.rotations, placements.iter().flat_map(|p| p.rotation.to_array()).collect()),
+            (self.scales, placements.iter().flat_map(|p| p.scale.to_array()).collect()),
+        ]
     }
 }
 
@@ -64,9 +78,7 @@ impl PartLayout {
         self.next.wind += vertices * 32;
         self.next.skin += vertices * SKIN_BYTES;
         self.next.indices += block.triangles.len() as u64 * 12;
-        self.next.translations += block.instances.len() as u64 * 12;
-        self.next.rotations += block.instances.len() as u64 * 16;
-        self.next.scales += block.instances.len() as u64 * 12;
+        self.next.placements.advance(block.instances.len() as u64);
         for at in block.vertices.iter().map(|v| v.position) {
             let (min, max) = self.bounds.unwrap_or((at, at));
             self.bounds = Some((min.min(at), max.max(at)));
@@ -110,9 +122,7 @@ impl Layout {
                     wind: take(if part.wind { vertices * 32 } else { 0 }),
                     skin: take(if part.rigged { vertices * SKIN_BYTES } else { 0 }),
                     indices: take(part.count.triangles * 12),
-                    translations: take(part.instances * 12),
-                    rotations: take(part.instances * 16),
-                    scales: take(part.instances * 12),
+                    placements: Placements::new(part.instances, &mut take),
                 };
                 PartLayout { part, place, has_tangents, next: place, bounds: None }
             })
@@ -153,8 +163,7 @@ impl Layout {
         for (placed, at) in scene.placed.iter().zip(&self.sites) {
             let Some(at) = at else { continue };
             let sites: Vec<Placement> = placed.sites.iter().map(Site::upright).collect();
-            let offsets = [at.translations, at.rotations, at.scales];
-            for (offset, numbers) in offsets.into_iter().zip(placements(&sites)) {
+            for (offset, numbers) in at.runs(&sites) {
                 fixed.push((offset, bytemuck::cast_slice(&numbers).to_vec()));
             }
         }
@@ -177,13 +186,4 @@ impl Layout {
 pub(super) fn skin(joint: u16) -> [u8; SKIN_BYTES as usize] {
     let [low, high] = joint.to_le_bytes();
     [low, high, 0, 0, 0, 0, 0, 0, 255, 0, 0, 0]
-}
-
-/// Translations, rotations and scales as three runs of numbers.
-pub(super) fn placements(instances: &[Placement]) -> [Vec<f32>; 3] {
-    [
-        instances.iter().flat_map(|p| p.translation.to_array()).collect(),
-        instances.iter().flat_map(|p| p.rotation.to_array()).collect(),
-        instances.iter().flat_map(|p| p.scale.to_array()).collect(),
-    ]
 }

@@ -197,10 +197,9 @@ impl<W: Write + Seek> Sink for Glb<'_, W> {
             self.write_at(place.indices, bytemuck::cast_slice(&block.triangles))?;
         }
         if !block.instances.is_empty() {
-            let [translations, rotations, scales] = layout::placements(&block.instances);
-            self.write_at(place.translations, bytemuck::cast_slice(&translations))?;
-            self.write_at(place.rotations, bytemuck::cast_slice(&rotations))?;
-            self.write_at(place.scales, bytemuck::cast_slice(&scales))?;
+            for (offset, numbers) in place.placements.runs(&block.instances) {
+                self.write_at(offset, bytemuck::cast_slice(&numbers))?;
+            }
         }
         Ok(())
     }
