@@ -23,7 +23,7 @@ WIDTH = 750
 def grow(program, species, folder):
     """The files of a species: as it is, and its levels."""
     files = [folder / f"{species}-whole.glb", folder / f"{species}.glb"]
-    for path, more in zip(files, ([], ["--triangles", "50000,8000,2000"])):
+    for path, more in zip(files, (["--finest"], ["--triangles", "50000,8000,2000"])):
         command = [program, "grow", species, "--textures", "1024", *more, "-o", str(path)]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     return files

@@ -1,8 +1,9 @@
 """Times exports and previews as whole processes: `python3 experiments/export/measure.py`.
 
-Runs the release program on each of the fifteen species, writes `results.csv` beside this file, and
-prints the README's table. Columns that begin with `wall_` or `peak_` depend on the machine; the others
-must come out the same everywhere.
+Runs the release program on each of the fifteen species, writes `results.csv` (every leaf and twig) and
+`usual.csv` (the file without options) beside this file, and prints the README's table. Columns that begin
+with `wall_` or `peak_` depend on the machine; the others must come out the same everywhere. With `--usual`
+it counts the files without options alone, and times nothing.
 """
 
 import csv
@@ -10,6 +11,7 @@ import json
 import os
 import struct
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -30,7 +32,7 @@ COLUMNS = [
 
 def program():
     """The release program of this checkout, built if need be."""
-    subprocess.run(["cargo", "build", "--release", "--quiet", "--package", "pleach"], check=True)
+    subprocess.run(["cargo", "build", "--release", "--quiet", "--package", "pleach-cli"], check=True)
     target = Path(os.environ.get("CARGO_TARGET_DIR", HERE.parent.parent / "target"))
     return str(target / "release" / "pleach")
 
@@ -67,10 +69,27 @@ def counts(path):
     return corners, triangles
 
 
+def usual(pleach, folder):
+    """Writes what a file without options has."""
+    rows = []
+    for species in SPECIES:
+        glb = folder / "tree.glb"
+        once([pleach, "grow", species, "--seed", SEED, "-o", str(glb)])
+        rows.append([species, SEED, *counts(glb), glb.stat().st_size])
+    write("usual.csv", COLUMNS[:5], rows)
+
+
+def write(name, columns, rows):
+    with open(HERE / name, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(rows)
+
+
 def measure(pleach, species, folder):
     grow = [pleach, "grow", species, "--seed", SEED, "-o"]
     glb = folder / "tree.glb"
-    wall, cpu, peak = several([*grow, str(glb)])
+    wall, cpu, peak = several([*grow, str(glb), "--finest"])
     obj, _, _ = several([*grow, str(folder / "tree.obj")])
     render = [pleach, "render", species, "--seed", SEED, "--size", "512", "-o", str(folder / "tree.png")]
     preview, _, preview_peak = several(render)
@@ -83,6 +102,9 @@ def main():
     pleach = program()
     rows = []
     with tempfile.TemporaryDirectory(prefix="pleach-export-") as folder:
+        usual(pleach, Path(folder))
+        if "--usual" in sys.argv:
+            return
         for species in SPECIES:
             rows.append(measure(pleach, species, Path(folder)))
             one = dict(zip(COLUMNS, rows[-1]))
@@ -94,10 +116,7 @@ def main():
                 f"| {1e3 * float(one['wall_preview_s']):.0f} |",
                 flush=True,
             )
-    with open(HERE / "results.csv", "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        writer.writerows(rows)
+    write("results.csv", COLUMNS, rows)
 
 
 if __name__ == "__main__":

@@ -3,12 +3,14 @@ import { Component, type ComponentChildren, type JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { takeFile, takeText } from "./incoming";
 import { FitRoom } from "./rooms/fit/fit-room";
+import { picture } from "./rooms/fit/goal-state";
 import { GalleryRoom } from "./rooms/gallery/gallery-room";
 import { MapRoom } from "./rooms/map/map-room";
 import { SpeciesRoom } from "./rooms/species/species-room";
-import { announced, dismiss, notes, say, sayError } from "./state/notes";
+import { type Action, announced, dismiss, notes, sayError } from "./state/notes";
 import { go, link, type Room, room } from "./state/route";
 import { theme, toggleTheme } from "./state/theme";
+import { copyText } from "./ui/clipboard";
 import { Button } from "./ui/controls";
 import { Icon, Mark } from "./ui/icons";
 
@@ -17,12 +19,16 @@ const NAMES: Record<Room, string> = { fit: "Fit", map: "Map", species: "Species"
 async function copyLink(): Promise<void> {
   const address = new URL(await link(), location.href).href;
   history.replaceState(history.state, "", address);
-  try {
-    await navigator.clipboard.writeText(address);
-    say("The link is copied. It holds all that you see.");
-  } catch {
-    say("The browser does not allow copying. The link is in the address bar.");
+  const otherwise = "The browser does not allow copying. The link is in the address bar.";
+  await copyText(address, `The link is copied. ${linked()}`, otherwise);
+}
+
+/** What a link has, in words. */
+function linked(): string {
+  if (room.peek() === "fit" && picture.peek()?.target === null) {
+    return "It has the species of the species room and the places on the map, but not your picture.";
   }
+  return "It has the goal, the places on the map, and the species of the species room.";
 }
 
 function Rooms(): JSX.Element {
@@ -46,12 +52,21 @@ function Rooms(): JSX.Element {
   );
 }
 
+function NoteButton({ id, action }: { id: number; action: Action }): JSX.Element {
+  const press = () => {
+    dismiss(id);
+    action.run();
+  };
+  return <Button label={action.label} onPress={press} />;
+}
+
 function Notes(): JSX.Element {
   return (
     <div class="notes">
       {notes.value.map((note) => (
         <div key={note.id} class={`note ${note.kind}`} role={note.kind === "error" ? "alert" : "status"}>
           <p>{note.text}</p>
+          {note.action && <NoteButton id={note.id} action={note.action} />}
           <Button
             icon="close"
             iconOnly

@@ -1,5 +1,5 @@
 // Files from outside: a picture becomes the goal, a species file or a link opens.
-import { takePicture } from "./rooms/fit/goal-state";
+import { goalError, takePicture } from "./rooms/fit/goal-state";
 import { say } from "./state/notes";
 import { go } from "./state/route";
 import { start } from "./state/species";
@@ -9,6 +9,8 @@ const MAX_SPECIES_FILE = 4_000_000;
 
 async function takeSpecies(text: string, name: string): Promise<void> {
   await start({ toml: text, name });
+  // What was wrong with another file is not about this one.
+  goalError.value = null;
   go("species");
   say(`${name} is open.`);
 }

@@ -4,19 +4,22 @@ import "./styles/base.css";
 import "./styles/controls.css";
 import "./styles/frame.css";
 import "./styles/fit.css";
+import "./styles/kept.css";
 import "./styles/map.css";
 import "./styles/species.css";
 import "./styles/gallery.css";
 import { App } from "./app";
 import { reportDeaths } from "./engine/client";
 import { wasmModule } from "./engine/module";
+import { startOffline } from "./offline/offline";
 import { fitLink, restoreFit } from "./rooms/fit/autosave";
 import { elapsed, progress } from "./rooms/fit/fit-state";
+import { masks } from "./rooms/fit/goal-state";
 import { mapLink, times } from "./rooms/map/map-state";
-import { view } from "./rooms/species/view-handle";
 import { say, sayError } from "./state/notes";
 import { register, startRouting } from "./state/route";
 import { speciesLink } from "./state/species-link";
+import { view } from "./view3d/handle";
 
 // The library loads while the page is drawn.
 wasmModule().catch(sayError);
@@ -27,11 +30,13 @@ register(speciesLink);
 register(mapLink);
 register(fitLink);
 
-// For the console and the tests: what the graphics card holds, how fast the map answers, how far a search is.
+// For the console and the tests: what the graphics card holds, how fast the map answers, how far a search is, how
+// much undo holds.
 Object.assign(window, {
   studio: {
     memory: () => view()?.memory() ?? null,
     mapTimes: times,
+    undoBytes: () => masks.bytes(),
     search: () => ({ seconds: elapsed.peek(), trees: progress.peek()?.evaluations ?? 0 }),
   },
 });
@@ -44,3 +49,4 @@ if (root) {
   render(<App />, root);
   await routing;
 }
+startOffline();

@@ -7,13 +7,14 @@ import { createServer } from "node:http";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
+import { runSteps } from "./steps.mjs";
 
 const at = (path) => fileURLToPath(new URL(path, import.meta.url));
 const expected = readFileSync(at("../../tests/data/bits.csv"), "utf8").trim().split("\n").slice(1);
 const palm = readFileSync(at("../../targets/palm.png"));
 
 /** Everything that is compared, by the functions of a loaded module; runs in Node and in the browser. */
-function bits(pleach, names, goal) {
+function bits(pleach, runSteps, names, goal) {
   const fnv = (bytes) => {
     let hash = 0xcbf29ce484222325n;
     for (const byte of bytes) hash = ((hash ^ BigInt(byte)) * 0x100000001b3n) & 0xffffffffffffffffn;
@@ -27,15 +28,7 @@ function bits(pleach, names, goal) {
     if (what === "fit") {
       const options = { height: 14, evaluations: 300, individual: "off" };
       const fit = new pleach.Fit(pleach.Goal.read("palm.png", goal, "auto"), JSON.stringify(options));
-      fit.guess(() => {});
-      // Two evaluators, as two workers have them, and pieces of any size.
-      const evaluators = [0, 1].map(() => new pleach.Evaluator(fit.recipe()));
-      for (let round = 0; ; round += 1) {
-        const pieces = fit.ask(1 + (round % 3), 0);
-        if (pieces.length === 0) break;
-        const scores = pieces.map((piece, number) => evaluators[number % 2].score(piece));
-        fit.tell(scores, 0);
-      }
+      runSteps(fit, pleach.Evaluator);
       return `${name},${text(JSON.parse(fit.finish(() => {})).toml)}`;
     }
     const tree = pleach.Species.named(of[0]).grow(1, true);
@@ -50,7 +43,7 @@ const names = expected.map((line) => line.split(",")[0]);
 test("in Node", async () => {
   const pleach = await import("../src/wasm/pleach_web.js");
   await pleach.default({ module_or_path: readFileSync(at("../src/wasm/pleach_web_bg.wasm")) });
-  assert.deepEqual(bits(pleach, names, palm), expected);
+  assert.deepEqual(bits(pleach, runSteps, names, palm), expected);
 });
 
 test("in Chromium", async () => {
@@ -70,13 +63,13 @@ test("in Chromium", async () => {
     const page = await browser.newPage();
     await page.goto(`http://127.0.0.1:${server.address().port}/`);
     const found = await page.evaluate(
-      async ([source, names, goal]) => {
+      async ([source, steps, names, goal]) => {
         const pleach = await import("/pleach_web.js");
         await pleach.default({ module_or_path: fetch("/pleach_web_bg.wasm") });
-        const of = new Function(`return ${source}`)();
-        return of(pleach, names, Uint8Array.from(goal));
+        const [of, runSteps] = [source, steps].map((text) => new Function(`return ${text}`)());
+        return of(pleach, runSteps, names, Uint8Array.from(goal));
       },
-      [bits.toString(), names, [...palm]],
+      [bits.toString(), runSteps.toString(), names, [...palm]],
     );
     assert.deepEqual(found, expected);
   } finally {

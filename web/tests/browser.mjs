@@ -9,8 +9,9 @@ export const dist = fileURLToPath(new URL("../dist/", import.meta.url));
 /** Longer than a slow machine needs, shorter than a person waits. */
 export const PATIENCE = 60_000;
 
-export async function open() {
-  const server = await serve(dist);
+/** Chromium, and a server of the built page or of another folder. */
+export async function open(folder = dist) {
+  const server = await serve(folder);
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
@@ -18,6 +19,8 @@ export async function open() {
   return {
     address: server.address,
     browser,
+    /** From now on the page's host answers nothing. */
+    cutNetwork: () => server.close(),
     async close() {
       await browser.close();
       server.close();
@@ -30,6 +33,8 @@ export async function newPage(studio, options = {}, hash = "") {
   const context = await studio.browser.newContext({
     viewport: { width: 1280, height: 800 },
     acceptDownloads: true,
+    // The routes below see no request that a service worker answers. Its own tests are in offline.test.mjs.
+    serviceWorkers: "block",
     ...options,
   });
   await context.grantPermissions(["clipboard-read", "clipboard-write"]);

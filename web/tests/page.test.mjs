@@ -26,6 +26,14 @@ const FIT_STEPS = [
     await page.getByTestId("stop").click();
     await page.getByTestId("score").waitFor();
   },
+  // Two kept fits, compared.
+  async (page) => {
+    await page.getByTestId("keep-fit").click();
+    await page.getByRole("button", { name: "Duplicate palm", exact: true }).click();
+    for (const at of [0, 1]) await page.getByLabel("Compare").nth(at).check();
+    await page.getByTestId("comparison").locator("table").waitFor();
+    await page.getByRole("button", { name: "Delete palm, copy", exact: true }).waitFor();
+  },
 ];
 
 /** Each room, what is drawn in it, and when it is. */
@@ -126,6 +134,59 @@ test("the theme can be chosen and stays", async () => {
   await page.getByRole("button", { name: "Dark page" }).click();
   await page.reload();
   assert.equal(await page.locator("html").getAttribute("data-theme"), "dark");
+  await context.close();
+});
+
+/** What a person would press there, by its label; empty where something else lies over it. */
+const reached = (page, testid) =>
+  page.getByTestId(testid).evaluate((button) => {
+    const { left, top, width, height } = button.getBoundingClientRect();
+    const there = document.elementFromPoint(left + width / 2, top + height / 2);
+    return button.contains(there) ? button.textContent : "";
+  });
+
+for (const [what, options] of Object.entries({
+  "on a telephone": { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true },
+  "at 200 % zoom": { viewport: { width: 700, height: 450 }, deviceScaleFactor: 2 },
+})) {
+  test(`the buttons of a fit are in reach ${what}`, async () => {
+    const { page, problems, context } = await newPage(studio, options, "#fit?goal=palm");
+    await page.getByTestId("goal").waitFor();
+    assert.equal(await reached(page, "start"), "Fit");
+    await page.getByTestId("start").click();
+    await page.getByTestId("overlay").waitFor();
+    assert.equal(await reached(page, "pause"), "Pause");
+    assert.equal(await reached(page, "stop"), "Stop");
+    await page.evaluate(() => document.querySelector("main").scrollTo(0, 10_000));
+    assert.equal(await reached(page, "stop"), "Stop");
+    await page.getByTestId("stop").click();
+    await page.getByTestId("score").waitFor({ timeout: 120_000 });
+    assert.equal(await reached(page, "start"), "Fit again");
+    assert.deepEqual(problems, []);
+    await context.close();
+  });
+}
+
+test("two tabs keep their species in one list", async () => {
+  const { page, context, problems } = await newPage(studio, {}, "#gallery");
+  const other = await context.newPage();
+  await other.goto(`${studio.address}#gallery`);
+  const keep = async (tab, name) => {
+    await tab.goto(`${studio.address}#species?s=${name}`);
+    await tab.locator(".panelhead h2", { hasText: name }).waitFor();
+    await tab.getByRole("radio", { name: "Download", exact: true }).check();
+    await tab.getByRole("button", { name: "Keep in my species" }).click();
+    await tab.getByText(`${name} is kept in my species`).waitFor();
+  };
+  await keep(page, "palm");
+  await keep(other, "bamboo");
+  for (const tab of [page, other]) {
+    await tab.getByRole("link", { name: "Gallery" }).click();
+    const mine = tab.locator("section.family", { hasText: "My species" }).locator(".card");
+    await mine.nth(1).waitFor();
+    assert.equal(await mine.count(), 2);
+  }
+  assert.deepEqual(problems, []);
   await context.close();
 });
 

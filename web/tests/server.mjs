@@ -28,5 +28,9 @@ export async function serve(folder, path = "/some/path/") {
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   const { port } = server.address();
-  return { address: `http://127.0.0.1:${port}${path}`, close: () => server.close() };
+  const close = () => {
+    server.close();
+    server.closeAllConnections();
+  };
+  return { address: `http://127.0.0.1:${port}${path}`, close };
 }

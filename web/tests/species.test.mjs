@@ -155,6 +155,77 @@ test("a file has the triangles that were chosen, and its bark and twigs have pic
   await context.close();
 });
 
+test("a file as the view shows it has its triangles, and the page says how large it is", async () => {
+  const { page, problems, context } = await species();
+  await page.getByLabel("Download", { exact: true }).first().check();
+  await page.getByTestId("budget").selectOption("view");
+  const number = async (name) => {
+    const row = page.locator('[data-testid="counts"] div', { hasText: name }).locator("dd");
+    return Number((await row.textContent()).replaceAll(",", ""));
+  };
+  for (const [level, leaves] of [
+    ["LOD 1", "outline"],
+    ["LOD 2", "cards"],
+  ]) {
+    await page.getByRole("radio", { name: level }).check();
+    await page.locator(".stagebar select").selectOption(leaves);
+    await page.waitForFunction(() => !document.querySelector(".busy.on"));
+    await page.waitForTimeout(500);
+    const shown = (await number("Bark triangles")) + (await number("Leaf triangles"));
+    const waiting = page.waitForEvent("download");
+    await page.getByTestId("export-glb").click();
+    const bytes = new Uint8Array(await readFile(await (await waiting).path()));
+    const { info } = await validator.validateBytes(bytes);
+    assert.equal(info.totalTriangleCount, shown, `${level}, ${leaves}`);
+    const words = `${shown.toLocaleString("en")} triangles, ${(bytes.length / 1e6).toFixed(1)} MB.`;
+    await page.locator(".note", { hasText: words }).waitFor();
+  }
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("a step of a slider compiles no shader", async () => {
+  const { page, context } = await newPage(studio);
+  await context.addInitScript(() => {
+    window.links = 0;
+    for (const kind of [WebGL2RenderingContext]) {
+      const link = kind.prototype.linkProgram;
+      kind.prototype.linkProgram = function (program) {
+        window.links++;
+        link.call(this, program);
+      };
+    }
+  });
+  await page.goto(`${studio.address}#species?s=acer`);
+  await page.reload();
+  await page.locator('[data-testid="counts"] dd').first().waitFor();
+  await page.getByRole("radio", { name: "LOD 2" }).check();
+  await page.waitForTimeout(3000);
+  const before = await page.evaluate(() => window.links);
+  assert.ok(before > 0);
+  for (const height of [14, 15, 16, 17]) {
+    await set(page, "g_scale", height);
+    await page.locator(`[data-testid="tree"]`).waitFor();
+    await page.waitForTimeout(600);
+  }
+  assert.equal(await page.evaluate(() => window.links), before);
+  await context.close();
+});
+
+test("a file that opens takes away what was wrong with the one before", async () => {
+  const { page, context } = await species();
+  const toml = await saved(page, "TOML, the species file", "Download");
+  await page.getByRole("link", { name: "Fit" }).click();
+  await drop(page, "This is no picture.", "text.png");
+  await page.locator(".alert", { hasText: "text.png" }).waitFor();
+  await drop(page, toml, "mine.toml");
+  await page.locator(".panelhead h2").waitFor();
+  await page.getByRole("link", { name: "Fit" }).click();
+  await page.locator(".welcome").waitFor();
+  assert.equal(await page.locator(".alert").count(), 0);
+  await context.close();
+});
+
 test("fifty trees leave nothing on the graphics card", async () => {
   const { page, problems, context } = await species();
   await page.getByRole("radio", { name: "LOD 3" }).check();
@@ -165,10 +236,8 @@ test("fifty trees leave nothing on the graphics card", async () => {
     await page.locator(`[data-testid="tree"][aria-label*="seed ${seed}:"]`).waitFor();
   };
   await grow(100);
-  await page.waitForTimeout(500);
   const before = await page.evaluate(() => window.studio.memory());
   for (let seed = 101; seed <= 150; seed++) await grow(seed);
-  await page.waitForTimeout(500);
   assert.deepEqual(await page.evaluate(() => window.studio.memory()), before);
   assert.deepEqual(problems, []);
   await context.close();

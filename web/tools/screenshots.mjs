@@ -56,7 +56,15 @@ const ROOMS = {
     hash: "#gallery",
     async ready(page) {
       await page.locator(".thumb.drawn").nth(3).waitFor({ state: "attached" });
-      await page.waitForTimeout(3000);
+      // All that are in view, however long they take.
+      await page.waitForFunction(
+        () =>
+          [...document.querySelectorAll(".thumb:not(.drawn)")].every(
+            (thumb) => thumb.getBoundingClientRect().top >= innerHeight,
+          ),
+        null,
+        { timeout: 60_000 },
+      );
     },
   },
 };

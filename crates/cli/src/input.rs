@@ -1,10 +1,10 @@
 //! What several commands read from their arguments.
 
-use crate::output;
+use crate::{converter, output};
 use pleach_fit::Prior;
 use pleach_generators::RegistryError;
 use pleach_silhouette::View;
-use pleach_silhouette::goal::{Encoded, GoalError};
+use pleach_silhouette::goal::Encoded;
 use pleach_tree::{Foliage, Limits, Species};
 use std::ffi::OsStr;
 use std::ops::Range;
@@ -23,13 +23,12 @@ pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// A picture that is not yet decoded, from a file or, for `-`, from standard input.
-pub(crate) fn picture(path: &Path) -> Result<Encoded, GoalError> {
+/// A picture that is not yet decoded, from a file or, for `-`, from standard input. A picture of a telephone is converted.
+pub(crate) fn picture(path: &Path) -> anyhow::Result<Encoded> {
     if is_standard(path) {
-        Encoded::read("standard input", std::io::stdin().lock())
-    } else {
-        Encoded::load(path)
+        return Ok(Encoded::read("standard input", std::io::stdin().lock())?);
     }
+    Encoded::load(path).or_else(|error| converter::converted(path, error))
 }
 
 /// The name for results made from a picture: the file's name without its extension, or `stdin`. `None` if

@@ -5,9 +5,11 @@
 
 mod choice;
 mod commands;
+mod converter;
 mod help;
 mod input;
 mod memory;
+mod other_program;
 mod segmenter;
 mod skeleton;
 

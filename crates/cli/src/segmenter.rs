@@ -1,25 +1,19 @@
 //! Another program's segmenter: a command that reads a photograph and writes a mask or a cut-out of it.
 
+use crate::other_program::{self, last_of};
 use anyhow::{Context, bail, ensure};
 use pleach_silhouette::goal::Encoded;
 use pleach_silhouette::mask::Photo;
-use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::ExitStatus;
 use std::str::FromStr;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What stands for the photograph's file in a command, and what for the file that it is to write.
 const PLACES: [&str; 2] = ["{in}", "{out}"];
 
 /// The first run of a segmenter may fetch its weights, which are hundreds of megabytes.
 const MAX_TIME: Duration = Duration::from_secs(600);
-
-/// How often is looked whether a command has ended.
-const POLL: Duration = Duration::from_millis(10);
-
-/// Bytes of a command's messages that an error shows.
-const SHOWN: usize = 600;
 
 /// A command such as `rembg i {in} {out}`: split into words as a shell would split them, and run without a shell.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,7 +60,8 @@ impl Segmenter {
         let folder = tempfile::tempdir().context("no temporary folder")?;
         let place = |name: &str| folder.path().join(name);
         // A copy: it may come from standard input, and a name may begin with a hyphen.
-        let ending = photo.name().extension().and_then(|e| e.to_str()).unwrap_or("png");
+        let is_png = photo.bytes().starts_with(b"\x89PNG");
+        let ending = photo.name().extension().and_then(|e| e.to_str()).filter(|_| !is_png).unwrap_or("png");
         let [input, output, log] = [place(&format!("photo.{ending}")), place("mask.png"), place("log.txt")];
         std::fs::write(&input, photo.bytes()).with_context(|| format!("cannot write {}", input.display()))?;
         let status = self.run(&input, &output, &log, time).with_context(said)?;
@@ -80,46 +75,12 @@ impl Segmenter {
 
     /// Runs the command to its end.
     fn run(&self, input: &Path, output: &Path, log: &Path, time: Duration) -> anyhow::Result<ExitStatus> {
-        let log = File::create(log)?;
         let words = self.words.iter().map(|word| {
             let [photo, mask] = PLACES;
             word.replace(photo, &input.to_string_lossy()).replace(mask, &output.to_string_lossy())
         });
-        let words: Vec<String> = words.collect();
-        let mut child = Command::new(&words[0])
-            .args(&words[1..])
-            .stdin(Stdio::null())
-            .stdout(log.try_clone()?)
-            .stderr(log)
-            .spawn()
-            .with_context(|| format!("`{}` cannot be started", words[0]))?;
-        wait(&mut child, time)?
-            .with_context(|| format!("it had not ended after {} seconds and was stopped", time.as_secs_f64()))
+        other_program::run(&words.collect::<Vec<_>>(), log, time)
     }
-}
-
-/// How a process ended; `None` if it was stopped after `time`.
-fn wait(child: &mut Child, time: Duration) -> std::io::Result<Option<ExitStatus>> {
-    let started = Instant::now();
-    loop {
-        if let Some(status) = child.try_wait()? {
-            return Ok(Some(status));
-        }
-        if started.elapsed() > time {
-            child.kill()?;
-            child.wait()?;
-            return Ok(None);
-        }
-        std::thread::sleep(POLL);
-    }
-}
-
-/// The end of what a command said, for an error.
-fn last_of(log: &Path) -> String {
-    let bytes = std::fs::read(log).unwrap_or_default();
-    let text = String::from_utf8_lossy(&bytes[bytes.len().saturating_sub(SHOWN)..]).into_owned();
-    let text = text.trim();
-    if text.is_empty() { String::new() } else { format!("; it said: {}", text.escape_debug()) }
 }
 
 /// The photograph, transparent where `answer` is: where it has no opacity, or, if it is opaque all over and has no
@@ -153,6 +114,7 @@ fn cut_out(photo: &Photo, answer: &Photo, name: &Path) -> anyhow::Result<Encoded
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::time::Instant;
 
     #[test]
     fn commands_are_split_as_a_shell_would() {

@@ -6,13 +6,14 @@ use super::spec::{Source, species_files};
 use super::within::{List, SpeciesName, Whole};
 use super::{Journal, Kind, Outputs, Slice, Table, progress};
 use anyhow::Context;
+use pleach::plan::library;
 use pleach_console::output;
 use pleach_fit::{
-    FitProblem, Freedom, Gene, GoalView, HeldOut, Interval, PosteriorModel, PosteriorNumber,
-    PosteriorSettings, Prior, Until,
+    Answer, FIT_LIMITS, FitProblem, Freedom, Gene, Genome, GoalView, HeldOut, Interval, Posterior,
+    PosteriorModel, PosteriorNumber, PosteriorSettings, Prior, Until,
 };
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
-use pleach_tree::{Parts, Species};
+use pleach_tree::{Foliage, Growth, Parts, Species, Tree};
 use rayon::prelude::*;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
@@ -22,6 +23,8 @@ use toml::Spanned;
 
 /// Side of every picture in pixels.
 const SIZE: u32 = 128;
+/// The same of those that are shown to the model that is built in: that of goals.
+const GOAL_SIZE: u32 = 256;
 /// The seed of the trees that are learnt from, and of those that are not.
 const LEARNT: u64 = 1;
 const HELD_OUT: u64 = 2;
@@ -30,14 +33,38 @@ const DETERMINED: f64 = 0.5;
 /// A number whose ranks are less likely than this to be uniform is not calibrated.
 const MIN_P: f64 = 0.01;
 
+/// What answers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Model {
+    /// One that learns from trees of the prior, as `pleach fit --posterior` does.
+    #[default]
+    Learnt,
+    /// The one that is built in, which every fit asks.
+    BuiltIn,
+}
+
+impl Model {
+    const ALL: [Self; 2] = [Self::Learnt, Self::BuiltIn];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Learnt => "learnt",
+            Self::BuiltIn => "built-in",
+        }
+    }
+}
+
 /// A number of a species, over the trees that were held out.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 struct Judged {
+    model: Model,
     species: String,
     slot: String,
     /// Whether it is a whole number, whose ranks are not uniform.
     is_whole: bool,
-    learnt: usize,
+    /// Trees; of what is built in the number is not kept.
+    learnt: Option<usize>,
     held_out: usize,
     /// What the model says of itself.
     shrunk: Fixed<4>,
@@ -48,8 +75,10 @@ struct Judged {
     prior_error: Fixed<4>,
     /// The share of truths within the interval.
     covered: Fixed<4>,
-    /// Kolmogorov and Smirnov's probability that ranks are uniform.
-    rank_p: Fixed<4>,
+    /// Kolmogorov and Smirnov's probability that ranks are uniform; what is built in keeps no ranks.
+    rank_p: Option<Fixed<4>>,
+    /// The share of the trees whose pictures are familiar to what is built in.
+    familiar: Option<Fixed<4>>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -73,55 +102,117 @@ impl PosteriorSpec {
         Ok(self)
     }
 
-    fn judge(&self, name: &str) -> anyhow::Result<Vec<Judged>> {
+    fn judge(&self, name: &str, model: Model) -> anyhow::Result<Vec<Judged>> {
         let species = pleach_generators::species(name)?;
         let prior = Prior::new(&species, &Freedom::default(), Prior::SPREAD)?;
-        let problem = problem(&species)?;
+        match model {
+            Model::Learnt => self.judge_learnt(&species, &prior),
+            Model::BuiltIn => self.judge_built_in(&species, &prior),
+        }
+    }
+
+    fn judge_learnt(&self, species: &Species, prior: &Prior) -> anyhow::Result<Vec<Judged>> {
+        let problem = problem(species)?;
         let (trees, samples) = (*self.learnt as usize, 0);
         let settings = PosteriorSettings { trees, seed: LEARNT, samples, ..PosteriorSettings::default() };
         let stop = AtomicBool::new(false);
-        let model = PosteriorModel::learn(&problem, &prior, settings, Until::from(&stop), |_| ())?;
+        let model = PosteriorModel::learn(&problem, prior, settings, Until::from(&stop), |_| ())?;
         let numbers: Vec<u64> = (0..*self.held_out).collect();
         let held_out: Vec<HeldOut> = numbers
             .into_par_iter()
             .filter_map(|number| model.held_out(prior.draw(HELD_OUT, number)))
             .collect();
-        let first = held_out.first().context("no tree that was held out grows")?;
-        let space = species.params.space();
-        let judge = |(place, gene): (usize, &Gene)| {
-            let all = || held_out.iter().map(|one| Truth::new(gene, one, place));
-            let count = held_out.len() as f64;
-            let mean = all().map(|one| one.truth).sum::<f64>() / count;
-            let rms = |of: fn(&Truth) -> f64| (all().map(|one| of(&one).powi(2)).sum::<f64>() / count).sqrt();
-            let deviation = (all().map(|one| (one.truth - mean).powi(2)).sum::<f64>() / count).sqrt();
-            let deviation = deviation.max(f64::MIN_POSITIVE);
-            let (error, prior_error) =
-                (rms(|one| one.error) / deviation, rms(|one| one.prior_error) / deviation);
-            Judged {
-                species: name.to_owned(),
-                slot: gene.slot().map_or_else(String::new, |slot| space.slot_name(slot)),
-                is_whole: gene.kind.is_whole(),
-                learnt: first.posterior.trees,
-                held_out: held_out.len(),
-                shrunk: Fixed(first.posterior.numbers[place].shrunk),
-                explained: Fixed(1.0 - (error / prior_error.max(f64::MIN_POSITIVE)).powi(2)),
-                error: Fixed(error),
-                prior_error: Fixed(prior_error),
-                covered: Fixed(all().filter(|one| one.is_covered).count() as f64 / count),
-                rank_p: Fixed(uniform_p(held_out.iter().map(|one| one.ranks[place]).collect())),
-            }
-        };
-        Ok(model.genes().iter().enumerate().map(judge).collect())
+        let trees = held_out.first().context("no tree that was held out grows")?.posterior.trees;
+        let answers: Vec<Told> = held_out
+            .iter()
+            .map(|one| Told { genome: &one.genome, numbers: &one.posterior.numbers })
+            .collect();
+        let mut judged = judged(species, model.genes(), &answers);
+        for (place, row) in judged.iter_mut().enumerate() {
+            row.learnt = Some(trees);
+            row.rank_p = Some(Fixed(uniform_p(held_out.iter().map(|one| one.ranks[place]).collect())));
+        }
+        Ok(judged)
     }
+
+    /// The same trees, each in a picture of its own.
+    fn judge_built_in(&self, species: &Species, prior: &Prior) -> anyhow::Result<Vec<Judged>> {
+        let library = library();
+        let predictors = library.predictors().context("predictors are built in")?;
+        let numbers: Vec<u64> = (0..*self.held_out).collect();
+        let answer = |number| {
+            let genome = prior.draw(HELD_OUT, number);
+            let params = species.params.space().check(genome.values.clone()).ok()?;
+            let growth = Growth { limits: FIT_LIMITS, ..Growth::seed(genome.tree_seed) };
+            let tree = Species { params, ..species.clone() }.grow_with(&growth).ok()?;
+            let (goal, frame) = picture(&tree, GOAL_SIZE);
+            let answer = predictors.answer(&goal, frame.meters_per_pixel, Foliage::All, species)?;
+            Some((genome, answer))
+        };
+        let held_out: Vec<(Genome, Answer)> = numbers.into_par_iter().filter_map(answer).collect();
+        let first = &held_out.first().context("no tree that was held out grows")?.1;
+        let genes: Vec<Gene> = (first.numbers.iter())
+            .filter_map(|number| prior.genes().find(|gene| gene.slot() == Some(number.slot)).cloned())
+            .collect();
+        let answers: Vec<Told> =
+            held_out.iter().map(|(genome, answer)| Told { genome, numbers: &answer.numbers }).collect();
+        let is_familiar = |answer: &Answer| answer.familiarity >= Posterior::STRANGE;
+        let familiar = held_out.iter().filter(|(_, answer)| is_familiar(answer)).count();
+        let familiar = Some(Fixed(familiar as f64 / held_out.len() as f64));
+        Ok(judged(species, &genes, &answers)
+            .into_iter()
+            .map(|row| Judged { model: Model::BuiltIn, familiar, ..row })
+            .collect())
+    }
+}
+
+/// What the picture of a tree says of its numbers.
+struct Told<'a> {
+    genome: &'a Genome,
+    /// One for each gene.
+    numbers: &'a [PosteriorNumber],
+}
+
+fn judged(species: &Species, genes: &[Gene], answers: &[Told<'_>]) -> Vec<Judged> {
+    let space = species.params.space();
+    let count = answers.len() as f64;
+    let judge = |(place, gene): (usize, &Gene)| {
+        let all = || answers.iter().map(|one| Truth::new(gene, one.genome, &one.numbers[place]));
+        let mean = all().map(|one| one.truth).sum::<f64>() / count;
+        let rms = |of: fn(&Truth) -> f64| (all().map(|one| of(&one).powi(2)).sum::<f64>() / count).sqrt();
+        let deviation = (all().map(|one| (one.truth - mean).powi(2)).sum::<f64>() / count).sqrt();
+        let deviation = deviation.max(f64::MIN_POSITIVE);
+        let (error, prior_error) = (rms(|one| one.error) / deviation, rms(|one| one.prior_error) / deviation);
+        Judged {
+            model: Model::Learnt,
+            species: species.name.clone(),
+            slot: gene.slot().map_or_else(String::new, |slot| space.slot_name(slot)),
+            is_whole: gene.kind.is_whole(),
+            learnt: None,
+            held_out: answers.len(),
+            shrunk: Fixed(answers[0].numbers[place].shrunk),
+            explained: Fixed(1.0 - (error / prior_error.max(f64::MIN_POSITIVE)).powi(2)),
+            error: Fixed(error),
+            prior_error: Fixed(prior_error),
+            covered: Fixed(all().filter(|one| one.is_covered).count() as f64 / count),
+            rank_p: None,
+            familiar: None,
+        }
+    };
+    genes.iter().enumerate().map(judge).collect()
 }
 
 /// A picture's frame, in which all trees are drawn at the height of one.
 fn problem(species: &Species) -> anyhow::Result<FitProblem> {
-    let tree = species.grow(1)?;
-    let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, SIZE, SIZE);
-    let mut goal = Bitmap::default();
-    Rasterizer::for_searches(Detail::Half).draw(&tree, &View::FRONT, &frame, Parts::LEAFY, &mut goal);
+    let (goal, frame) = picture(&species.grow(1)?, SIZE);
     Ok(FitProblem::new(species.clone(), GoalView::new(goal, View::FRONT, frame)))
+}
+
+fn picture(tree: &Tree, size: u32) -> (Bitmap, Frame) {
+    let frame = Frame::automatic(tree, &View::FRONT, Parts::LEAFY, size, size);
+    let mut picture = Bitmap::default();
+    Rasterizer::for_searches(Detail::Half).draw(tree, &View::FRONT, &frame, Parts::LEAFY, &mut picture);
+    (picture, frame)
 }
 
 /// A number of one tree beside what its picture says of it, in parts of the number's range.
@@ -133,10 +224,10 @@ struct Truth {
 }
 
 impl Truth {
-    fn new(gene: &Gene, one: &HeldOut, place: usize) -> Self {
-        let value = gene.get(&one.genome);
-        let PosteriorNumber { prior, posterior, .. } = one.posterior.numbers[place];
-        let error = |of: Interval| gene.to_unit(value) - gene.to_unit(of.median);
+    fn new(gene: &Gene, genome: &Genome, told: &PosteriorNumber) -> Self {
+        let value = gene.get(genome);
+        let PosteriorNumber { prior, posterior, .. } = told;
+        let error = |of: &Interval| gene.to_unit(value) - gene.to_unit(of.median);
         // To units and back, a value is the same but for its last bits.
         let value_there = gene.from_unit(gene.to_unit(value));
         Self {
@@ -179,11 +270,14 @@ impl Kind for PosteriorSpec {
     /// A row for each number of each species; a slice has the first few species.
     fn rows(&self, _: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
         let species = &self.species[..slice.take_of(self.species.len())];
-        let bar = progress("species", species.len() as u64);
+        let bar = progress("models", (species.len() * Model::ALL.len()) as u64);
         for name in species {
             let name = name.get_ref().as_str();
-            journal.job(|row: &Judged| row.species == name, || self.judge(name))?;
-            bar.inc(1);
+            for model in Model::ALL {
+                let is_its = |row: &Judged| row.species == name && row.model == model;
+                journal.job(is_its, || self.judge(name, model))?;
+                bar.inc(1);
+            }
         }
         bar.finish_and_clear();
         Ok(())
@@ -192,6 +286,7 @@ impl Kind for PosteriorSpec {
     fn report(&self, _: &Path, table: &Table, _: &Outputs) -> anyhow::Result<String> {
         let rows: Vec<Judged> = table.records()?;
         let head = [
+            "model",
             "species",
             "numbers",
             "determined",
@@ -200,20 +295,24 @@ impl Kind for PosteriorSpec {
             "covered",
             "ranks not uniform",
             "rank correlation",
+            "familiar",
         ];
         let mut lines = vec![head.map(str::to_owned).to_vec()];
-        for name in &self.species {
-            let name = name.get_ref().as_str();
-            let of: Vec<&Judged> = rows.iter().filter(|row| row.species == name).collect();
-            lines.push(line(name, &of));
+        for model in Model::ALL {
+            let of_model = || rows.iter().filter(move |row| row.model == model);
+            for name in &self.species {
+                let name = name.get_ref().as_str();
+                let of: Vec<&Judged> = of_model().filter(|row| row.species == name).collect();
+                lines.push(line(model, name, &of));
+            }
+            lines.push(line(model, "all", &of_model().collect::<Vec<_>>()));
         }
-        lines.push(line("all", &rows.iter().collect::<Vec<_>>()));
-        Ok(output::table(&lines, &(1..head.len()).collect::<Vec<_>>()))
+        Ok(output::table(&lines, &(2..head.len()).collect::<Vec<_>>()))
     }
 }
 
 /// A line of the report.
-fn line(name: &str, rows: &[&Judged]) -> Vec<String> {
+fn line(model: Model, name: &str, rows: &[&Judged]) -> Vec<String> {
     let mean = |of: &[&Judged], value: fn(&Judged) -> f64| {
         of.iter().map(|row| value(row)).sum::<f64>() / of.len().max(1) as f64
     };
@@ -221,18 +320,27 @@ fn line(name: &str, rows: &[&Judged]) -> Vec<String> {
         (of.iter().map(|row| value(row).powi(2)).sum::<f64>() / of.len().max(1) as f64).sqrt()
     };
     let determined: Vec<&Judged> = rows.iter().copied().filter(|row| row.shrunk.0 >= DETERMINED).collect();
-    let real: Vec<&Judged> = rows.iter().copied().filter(|row| !row.is_whole).collect();
-    let uneven = real.iter().filter(|row| row.rank_p.0 < MIN_P).count();
+    let real: Vec<&Fixed<4>> =
+        rows.iter().filter(|row| !row.is_whole).filter_map(|row| row.rank_p.as_ref()).collect();
+    let uneven = real.iter().filter(|p| p.0 < MIN_P).count();
+    let ranks = if real.is_empty() { String::new() } else { format!("{uneven} of {}", real.len()) };
+    let error = |value: fn(&Judged) -> f64| {
+        if determined.is_empty() { String::new() } else { format!("{:.2}", rms(&determined, value)) }
+    };
     let told: Vec<(f64, f64)> = rows.iter().map(|row| (row.shrunk.0, row.explained.0)).collect();
     vec![
+        model.name().to_owned(),
         name.to_owned(),
         rows.len().to_string(),
         determined.len().to_string(),
-        format!("{:.2}", rms(&determined, |row| row.prior_error.0)),
-        format!("{:.2}", rms(&determined, |row| row.error.0)),
+        error(|row| row.prior_error.0),
+        error(|row| row.error.0),
         format!("{:.1} %", 100.0 * mean(rows, |row| row.covered.0)),
-        format!("{uneven} of {}", real.len()),
+        ranks,
         spearman(&told).map_or_else(String::new, |rho| format!("{rho:.2}")),
+        rows.first()
+            .and_then(|row| row.familiar.as_ref())
+            .map_or_else(String::new, |share| format!("{:.1} %", 100.0 * share.0)),
     ]
 }
 

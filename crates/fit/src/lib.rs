@@ -77,9 +77,11 @@ pub use evaluator::{
     EvalWorkspace, Evaluate, Evaluator, MeasuredGoal, MeasuredMemory, MeasuredSilhouette, Silhouette,
     SilhouetteGoal, SilhouetteMemory,
 };
-pub use goal::{Asked, Deadline, Fitted, GoalSettings, Guessing, Stepwise, fit_goal, fit_goal_with};
+pub use goal::{
+    Asked, Deadline, Fitted, GoalSettings, Guessing, Stepwise, StepwiseRace, fit_goal, fit_goal_with,
+};
 pub use guess::{
-    Candidate, Contradictions, Drawings, DrawingsError, FirstGuess, Guess, GuessLibrary, GuessSettings,
+    Candidate, Contradictions, Drawings, DrawingsError, FirstGuess, Guess, GuessLibrary, GuessSettings, Leg,
     RaceCriterion, RaceSettings, Reference, References, Runner, first_guess,
 };
 pub use individual::{FoundIndividual, IndividualProgress, IndividualSettings, individuals};
@@ -91,7 +93,7 @@ pub use method::{
 pub use posterior::{
     HeldOut, Interval, NoSample, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings, Prior,
 };
-pub use predictor::{PredictorError, Predictors};
+pub use predictor::{Answer, PredictorError, Predictors};
 pub use problem::{
     Accuracy, Agreement, AnyEvidence, Azimuth, Evidence, FitProblem, Genome, GoalView, MAX_OFFSET, MAX_SCALE,
     Nuisance, Objective, PlacedTree, Placement, ProblemError, ROUGH_AZIMUTH, Score, Scored, Size, Terms,

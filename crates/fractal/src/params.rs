@@ -4,7 +4,7 @@ use crate::choices::{Dimensions, ThicknessRule};
 use crate::noise::Noise;
 use pleach_tree::leaf_shape::LeafShape;
 use pleach_tree::param::table::{always, scalar};
-use pleach_tree::param::{Effect, Scale};
+use pleach_tree::param::{Effect, Handle, Scale};
 use pleach_tree::{Kind, Param, Unit};
 
 /// Most generations above the trunk: far more than a tree that branches can have within the limits.
@@ -56,20 +56,20 @@ pleach_tree::parameters! {
         generations: u16, when always =>
             count(0, i64::from(MAX_GENERATIONS), (3.0, 9.0), 6.0)
                 .group("trunk")
-                .doc("branch generations above the trunk; branches grow as (side + central) to this power");
+                .handle(0, Handle::Density).doc("branch generations above the trunk; branches grow as (side + central) to this power");
         trunk_length: f64, when always =>
             real(0.05, 100.0, (0.5, 20.0), 3.0)
                 .unit(Unit::Meters)
                 .scale([Scale::Log])
                 .effect([Effect::Size])
                 .group("trunk")
-                .doc("length of the trunk up to its first node; every other length is a ratio of it");
+                .handle(0, Handle::Height).doc("length of the trunk up to its first node; every other length is a ratio of it");
         thickness: f64, when always =>
             real(0.002, 0.3, (0.01, 0.12), 0.04)
                 .scale([Scale::Log])
                 .source(OURS)
                 .group("trunk")
-                .doc("radius of the trunk over its length");
+                .handle(0, Handle::Trunk).doc("radius of the trunk over its length");
         thickness_rule: ThicknessRule [ThicknessRule::from_number], when always =>
             scalar(Kind::choice(1, ThicknessRule::NAMES), 1.0)
                 .source("Coffey 2025, §2 and §3")
@@ -94,7 +94,7 @@ pleach_tree::parameters! {
         polar: f64 [f64::to_radians], when Numbers::has_sides =>
             degrees(0.0, 180.0, (5.0, 110.0), 35.0)
                 .group("branches")
-                .doc("angle between a side branch and its parent; in a plane between the outermost ones and it");
+                .handle(0, Handle::Spread).doc("angle between a side branch and its parent; in a plane between the outermost ones and it");
         polar_v: f64 [f64::to_radians], when Numbers::has_sides =>
             degrees(0.0, 90.0, (0.0, 40.0), 0.0)
                 .neutral(0.0)
@@ -155,12 +155,12 @@ pleach_tree::parameters! {
             real(0.0, 1.0, (0.0, 1.0), 0.0)
                 .neutral(0.0)
                 .group("leaves")
-                .doc("share of the last twigs that are leaves, drawn as strokes");
+                .handle(0, Handle::Leaves).doc("share of the last twigs that are leaves, drawn as strokes");
         leaf_length: f64, when Numbers::has_leaves =>
             real(0.05, 5.0, (0.2, 2.0), 1.0)
                 .scale([Scale::Log])
                 .group("leaves")
-                .doc("length of a leaf over that of its twig, along which it lies");
+                .handle(0, Handle::LeafSize).doc("length of a leaf over that of its twig, along which it lies");
         leaf_width: f64, when Numbers::has_leaves =>
             real(0.02, 2.0, (0.1, 1.0), 0.4).group("leaves").doc("width of a leaf over its length");
         leaf_shape: LeafShape [leaf_shape_from_number], when Numbers::has_leaves =>

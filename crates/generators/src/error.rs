@@ -48,6 +48,15 @@ pub enum RegistryError {
         /// The format of the picture.
         kind: &'static str,
     },
+    /// The file is meant for pleach.
+    #[error("{} is not a species of another program, expected a preset of tree-gen or Sapling, XML of Arbaro or JSON of ez-tree", path.display())]
+    NotForeign {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file of a measured tree says something wrong.
+    #[error(transparent)]
+    Skeleton(#[from] pleach_import::SkeletonError),
     /// The file says something wrong.
     #[error(transparent)]
     Species(#[from] SpeciesError),

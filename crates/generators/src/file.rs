@@ -1,7 +1,9 @@
-//! Species from files and streams: bounded, and distinguished from other files.
+//! Species from files and streams, of pleach and of other programs: bounded, and distinguished from other files.
 
 use crate::error::{MAX_BYTES, RegistryError};
 use crate::families::{default_family, family, family_names};
+use crate::measured;
+use pleach_import::{Foreign, MAX_SKELETON_BYTES};
 use pleach_tree::param::Problem;
 use pleach_tree::species::{Issue, safe_name};
 use pleach_tree::{Species, SpeciesDoc, SpeciesError};
@@ -9,7 +11,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// Reads a species file; a file without a name is called by its own.
+/// Reads a species file, one of another program, or a measured tree ([`pleach_import`]); a file without a name is called by its own.
 ///
 /// # Errors
 /// See [`RegistryError`].
@@ -30,26 +32,79 @@ pub fn read(reader: impl Read, name: &str) -> Result<Species, RegistryError> {
 }
 
 fn from(reader: impl Read, path: &Path, name: &str) -> Result<Species, RegistryError> {
+    let origin = path.display().to_string();
+    let bytes = load(reader, path)?;
+    if is_skeleton(&origin, &bytes) {
+        return Ok(named(measured::species(pleach_import::read_skeleton(&origin, &bytes)?), name));
+    }
+    let text = utf8(&bytes, &origin)?;
+    let species = if pleach_import::is_foreign(&origin, text) {
+        foreign(&origin, text)?.0
+    } else {
+        read_text(&origin, text)?
+    };
+    Ok(named(species, name))
+}
+
+/// Reads a species of another program from a stream, and what is to be said of its translation. `name` is what messages
+/// call the stream; the species is called by its file name without ending, where it has no name of its own.
+///
+/// # Errors
+/// See [`RegistryError`]; a species file of pleach is one.
+pub fn import(reader: impl Read, name: &str) -> Result<(Species, Foreign), RegistryError> {
+    let path = Path::new(name);
+    let bytes = load(reader, path)?;
+    let text = utf8(&bytes, name)?;
+    if !pleach_import::is_foreign(name, text) {
+        return Err(RegistryError::NotForeign { path: path.to_owned() });
+    }
+    let (species, foreign) = foreign(name, text)?;
+    Ok((named(species, &path.file_stem().unwrap_or_default().to_string_lossy()), foreign))
+}
+
+/// The bytes of a file that may be a species.
+fn load(reader: impl Read, path: &Path) -> Result<Vec<u8>, RegistryError> {
     // One byte more distinguishes a file of the largest size from a larger one. The size that a device
     // reports cannot be trusted, so it is not asked.
-    let mut bytes = Vec::new();
-    reader
-        .take(MAX_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|source| RegistryError::Unreadable { path: path.to_owned(), source })?;
+    let (mut reader, mut bytes) = (reader, Vec::new());
+    let unreadable = |source| RegistryError::Unreadable { path: path.to_owned(), source };
+    reader.by_ref().take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if is_skeleton(&path.to_string_lossy(), &bytes) {
+        // One more is told by the error of the skeleton.
+        let rest = (MAX_SKELETON_BYTES + 1).saturating_sub(bytes.len() as u64);
+        reader.take(rest).read_to_end(&mut bytes).map_err(unreadable)?;
+        return Ok(bytes);
+    }
     if let Some(kind) = picture(&bytes) {
         return Err(RegistryError::Picture { path: path.to_owned(), kind });
     }
     if bytes.len() as u64 > MAX_BYTES {
         return Err(RegistryError::TooLarge { path: path.to_owned() });
     }
-    let origin = path.display().to_string();
-    let text = utf8(&bytes, &origin)?;
-    let mut species = read_text(&origin, text)?;
+    Ok(bytes)
+}
+
+/// Whether the file holds a measured tree. In the page it does not: there are no files but species', and the readers
+/// would make its module 0.1 MB larger.
+fn is_skeleton(origin: &str, start: &[u8]) -> bool {
+    cfg!(not(target_arch = "wasm32")) && pleach_import::is_skeleton(origin, start)
+}
+
+/// `species`, which is called `name` if it has no name of its own.
+fn named(mut species: Species, name: &str) -> Species {
     if species.name.is_empty() {
         species.name = safe_name(name);
     }
-    Ok(species)
+    species
+}
+
+/// The species that a file of another program describes.
+fn foreign(origin: &str, text: &str) -> Result<(Species, Foreign), SpeciesError> {
+    let foreign = pleach_import::translate(origin, text)?;
+    match read_text(origin, &foreign.toml) {
+        Ok(species) => Ok((species, foreign)),
+        Err(error) => Err(foreign.relocated(origin, text, error)),
+    }
 }
 
 /// Reads the text of a species file; `origin` is for messages.

@@ -19,11 +19,13 @@ mod choice;
 mod error;
 mod families;
 mod file;
+mod measured;
 
 pub use choice::{GeneratorChoice, UnknownGenerator};
 pub use error::RegistryError;
 pub use families::{UnknownFamily, default_family, families, family, family_names};
-pub use file::{read, read_file, read_text};
+pub use file::{import, read, read_file, read_text};
+pub use pleach_import::{Foreign, Program, SkeletonError, SkeletonProblem};
 
 use pleach_tree::{Family, Species};
 use std::path::Path;

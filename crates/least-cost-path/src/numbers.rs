@@ -2,7 +2,7 @@
 
 use pleach_tree::leaf_shape::LeafShape;
 use pleach_tree::param::table::{always, list, scalar};
-use pleach_tree::param::{Effect, Kind, Param, Scale, Unit};
+use pleach_tree::param::{Effect, Handle, Kind, Param, Scale, Unit};
 
 type Eight = [f64; 8];
 
@@ -67,25 +67,25 @@ pleach_tree::parameters! {
     pub(crate) struct Numbers, enum Id, when Facts {
         trunk_height: f64, when Facts::has_plain_volume =>
             size((0.0, 60.0), (0.2, 15.0), 2.5).breakpoints([0.0]).group("volume").source(PAPER)
-                .doc("height of the cylinder that the trunk grows in; 0: none, the tree begins in the crown's volume");
+                .handle(0, Handle::BareTrunk).doc("height of the cylinder that the trunk grows in; 0: none, the tree begins in the crown's volume");
         trunk_width: f64, when Facts::has_trunk =>
             size((0.01, 5.0), (0.05, 0.6), 0.25).group("volume").source(PAPER)
                 .doc("radius of the trunk's cylinder: how far the trunk may wander");
         trunk_lean: f64, when Facts::has_trunk =>
             degrees((0.0, 80.0), (0.0, 45.0), 0.0).neutral(0.0).group("volume").source(PAPER)
-                .doc("angle between the cylinder's axis and the vertical");
+                .handle(0, Handle::Lean).doc("angle between the cylinder's axis and the vertical");
         trunk_lean_azimuth: f64, when |f| f.has_trunk() && f.n.trunk_lean > 0.0 =>
             degrees((-180.0, 180.0), (-180.0, 180.0), 0.0).group("volume")
                 .doc("where the trunk leans to, from +x towards +y");
         crown_shape: CrownShape [CrownShape::from_number], when Facts::has_plain_volume =>
             choice(CrownShape::NAMES).group("volume").source(PAPER)
-                .doc("the volume above the trunk");
+                .handle(0, Handle::CrownShape).doc("the volume above the trunk");
         crown_radius: f64, when always =>
             size((0.05, 60.0), (0.5, 12.0), 4.0).group("volume").source(PAPER)
-                .doc("radius of the sphere, of the cone's base, of the ellipsoid across; the unit of drawn curves and volumes");
+                .handle(0, Handle::CrownWidth).doc("radius of the sphere, of the cone's base, of the ellipsoid across; the unit of drawn curves and volumes");
         crown_height: f64, when |f| f.has_plain_volume() && f.n.crown_shape != CrownShape::SpherePortion =>
             size((0.05, 100.0), (0.5, 20.0), 5.0).group("volume").source(PAPER)
-                .doc("height of the cone, the ellipsoid or the drawn curve");
+                .handle(0, Handle::Height).doc("height of the cone, the ellipsoid or the drawn curve");
         crown_angle: f64, when |f| f.has_crown(CrownShape::SpherePortion) =>
             degrees((5.0, 180.0), (20.0, 180.0), 90.0).group("volume").source(PAPER)
                 .doc("half-angle of the portion of a sphere: 90 is the upper half, 180 all of it");
@@ -108,7 +108,7 @@ pleach_tree::parameters! {
                 .doc("radius of these spheres over the mean distance between them");
         nodes: f64, when always =>
             count((10, 1_000_000), (300.0, 1500.0), 800.0).group("graph").source(PAPER)
-                .doc("nodes of the first graph");
+                .handle(0, Handle::Density).doc("nodes of the first graph");
         subgraph_nodes: f64, when |f| f.has_levels(2) || f.has_roots() =>
             count((5, 20_000), (20.0, 110.0), 50.0).group("graph").source(PAPER)
                 .doc("nodes of each further graph");
@@ -184,7 +184,7 @@ pleach_tree::parameters! {
                 .doc("power of the length behind that a stem's radius follows, for paths from endpoints of the level");
         thickness: f64, when always =>
             size((0.0005, 0.5), (0.005, 0.08), 0.02).group("stems")
-                .doc("radius at taper_length from an endpoint");
+                .handle(0, Handle::Trunk).doc("radius at taper_length from an endpoint");
         taper_length: f64, when always =>
             size((0.01, 10.0), (0.1, 2.0), 1.0).group("stems")
                 .doc("the length at which all tapers agree");
@@ -205,13 +205,13 @@ pleach_tree::parameters! {
                 .doc("endpoints of the graph at the end of each lateral root");
         leaf_number: f64, when always =>
             count((0, 60), (0.0, 20.0), 0.0).neutral(0.0).group("leaves")
-                .doc("leaves on each twig that ends");
+                .handle(0, Handle::Leaves).doc("leaves on each twig that ends");
         leaf_shape: f64, when Facts::has_leaves =>
             scalar(Kind::choice(1, LeafShape::ALL.map(LeafShape::name)), 8.0).effect([Effect::Layout]).group("leaves")
                 .doc("outline of the leaves");
         leaf_length: f64, when Facts::has_leaves =>
             size((0.005, 3.0), (0.02, 0.4), 0.12).group("leaves")
-                .doc("length of a leaf");
+                .handle(0, Handle::LeafSize).doc("length of a leaf");
         leaf_width: f64, when Facts::has_leaves =>
             real((0.05, 3.0), (0.3, 1.5), 1.0).group("leaves")
                 .doc("width of a leaf over that of its outline");

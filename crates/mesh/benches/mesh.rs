@@ -21,6 +21,7 @@ fn meshes(criterion: &mut Criterion) {
             extras: serde_json::Value::Null,
             placed: vec![Placed::at_origin(name, 1)],
             lod_extension: false,
+            grid: None,
             rig: None,
             pictures: Vec::new(),
         };

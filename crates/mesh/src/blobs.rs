@@ -14,8 +14,8 @@ pub(crate) fn count(tree: &Tree) -> Count {
     count
 }
 
-/// Appends `blob`; its vertices count from `base`.
-pub(crate) fn push(tree: &Tree, blob: &Blob, base: u32, block: &mut Block) {
+/// Appends `blob`, all of whose corners have these texture coordinates; its vertices count from `base`.
+pub(crate) fn push(tree: &Tree, blob: &Blob, uv: Vec2, base: u32, block: &mut Block) {
     let positions = &tree.blob_vertices[blob.vertices()];
     let triangles = &tree.blob_triangles[blob.triangles()];
     let mut normals = vec![Vec3::ZERO; positions.len()];
@@ -28,8 +28,7 @@ pub(crate) fn push(tree: &Tree, blob: &Blob, base: u32, block: &mut Block) {
     block.vertices.extend(positions.iter().zip(normals).map(|(&position, normal)| Vertex {
         position,
         normal: normal.try_normalize().unwrap_or(Vec3::Z),
-        // The middle of a leaf's picture.
-        uv: Vec2::splat(0.5),
+        uv,
     }));
     block.triangles.extend(triangles.iter().map(|t| t.map(|i| base + i)));
 }

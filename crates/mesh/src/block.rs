@@ -29,27 +29,32 @@ impl Vertex {
 /// What a shader needs to sway a vertex; see [`crate::wind`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wind {
-    /// The point about which the corner's stem turns, in metres.
+    /// The point about which the vertex' own body turns, in metres.
     pub pivot: Vec3,
-    /// In turns, 0 to 1.
+    /// Along the body, as long as the radians by which each metre of it turns in a fresh breeze.
+    pub bend: Vec3,
+    /// Of the body, in turns, 0 to less than 1.
     pub phase: f32,
-    /// Level of the stem, 0 for trunks; leaves have one more than their stem.
+    /// The point about which the body that carries it turns, in metres.
+    pub parent_pivot: Vec3,
+    /// As `bend`, of the body that carries it.
+    pub parent_bend: Vec3,
+    /// As `phase`, of the body that carries it.
+    pub parent_phase: f32,
+    /// 0 for trunks, 1 for limbs, 2 for twigs and all that they carry.
     pub level: f32,
-    /// Place along the stem or leaf, 0 to 1.
-    pub place: f32,
-    /// In Hz.
-    pub frequency: f32,
-    /// In radians.
-    pub amplitude: f32,
+    /// How far the vertex flutters along its normal, in metres: 0 but for leaves and cards.
+    pub flutter: f32,
 }
 
 impl Wind {
-    /// The eight numbers as files have them, in two groups of four: pivot and phase, then the others in
-    /// the order of the fields.
+    /// The fourteen numbers as files have them. Flutter is rounded to millimetres.
     #[must_use]
-    pub const fn to_array(&self) -> [f32; 8] {
-        let Self { pivot, phase, level, place, frequency, amplitude } = *self;
-        [pivot.x, pivot.y, pivot.z, phase, level, place, frequency, amplitude]
+    pub fn to_array(&self) -> [f32; 14] {
+        let Self { pivot: p, bend: b, parent_pivot: pp, parent_bend: pb, .. } = self;
+        let own = self.level + self.phase;
+        let parent = (1000.0 * self.flutter).round() + self.parent_phase;
+        [p.x, p.y, p.z, b.x, b.y, b.z, pp.x, pp.y, pp.z, pb.x, pb.y, pb.z, own, parent]
     }
 }
 

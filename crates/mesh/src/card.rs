@@ -30,14 +30,17 @@ impl Source for Cards<'_> {
         std::iter::once(0..self.0.len()).collect()
     }
 
-    /// Normals point up, so that crossing cards are lit alike.
+    /// Normals are at right angles to a card; pictures of normals say how the crown looks, so that crossing cards are lit
+    /// alike.
     fn fill(&self, _: Material, range: Range<usize>, block: &mut Block) {
         for card in &self.0[range] {
             let base = block.vertices.len() as u32;
             let [left, top, right, bottom] = card.uv;
             let uv = [vec2(left, bottom), vec2(right, bottom), vec2(right, top), vec2(left, top)];
             let corners = card.corners.into_iter().zip(uv);
-            block.vertices.extend(corners.map(|(position, uv)| Vertex { position, normal: Vec3::Z, uv }));
+            let [foot, right, _, top] = card.corners;
+            let normal = (right - foot).cross(top - foot).try_normalize().unwrap_or(Vec3::Z);
+            block.vertices.extend(corners.map(|(position, uv)| Vertex { position, normal, uv }));
             block.triangles.extend([[base, base + 1, base + 2], [base, base + 2, base + 3]]);
         }
     }

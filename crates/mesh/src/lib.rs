@@ -20,6 +20,7 @@
 //! | [`stream`] | from the one to the other, block by block |
 //! | [`block`] | corners and triangles |
 //! | [`lod`] | levels of detail |
+//! | [`atlas`] | leaves that differ from each other, and where their pictures are |
 //! | [`twigs`] | cards that show pictures of twigs |
 //! | [`card`] | the last level: cards with pictures of the tree |
 //! | [`forest`] | where many trees stand |
@@ -36,6 +37,7 @@
 //! nothing. A mesher knows trees, not generators.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
+pub mod atlas;
 mod blobs;
 pub mod block;
 pub mod card;
@@ -51,6 +53,7 @@ mod placed;
 pub mod rig;
 pub mod settings;
 pub mod stream;
+mod tangents;
 mod tube;
 pub mod twigs;
 pub mod weld;
@@ -58,6 +61,7 @@ mod welded;
 pub mod wind;
 pub mod write;
 
+pub use atlas::Atlas;
 pub use block::{Block, Placement, Vertex, Wind};
 pub use card::{Card, Cards};
 pub use foliage::blossom_spread;
@@ -69,6 +73,7 @@ pub use pictures::Pictures;
 pub use rig::Rig;
 pub use settings::{LeafStyle, MeshSettings};
 pub use stream::send;
+pub use tangents::tangents;
 pub use tube::TILE as BARK_TILE;
 pub use twigs::{TwigModel, Twigs};
 pub use welded::Welded;

@@ -1,15 +1,15 @@
 //! From a tree to blocks of triangles: sizes first, then any run of stems or leaves.
 
 use crate::blobs;
-use crate::block::{Block, Wind};
+use crate::block::Block;
 use crate::foliage::UnitMesh;
 use crate::part::{Count, Material, Part, Source};
-use crate::placed::{self, Placed};
+use crate::placed::{self, Placed, Shapes};
 use crate::rig::Rig;
 use crate::settings::{LeafStyle, MeshSettings};
 use crate::tube::{Rings, Tubes};
 use crate::twigs::Twigs;
-use crate::wind;
+use crate::wind::Bodies;
 use pleach_plant::{Leaf, Parts, Stem, StemKind, Tree};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -23,6 +23,8 @@ pub struct Mesher<'a> {
     tree: &'a Tree,
     settings: MeshSettings,
     rig: Option<&'a Rig>,
+    /// What turns in wind, where that was asked for.
+    bodies: Option<Bodies>,
     tubes: Tubes,
     leaves: Placed<'a>,
     blossoms: Placed<'a>,
@@ -92,19 +94,20 @@ impl<'a> Mesher<'a> {
         }
         let has = |part| settings.parts.contains(part);
         let leaves = if has(Parts::LEAVES) { &tree.leaves[..] } else { &[] };
-        let leaf_shapes = tree.leaf_shapes.iter().map(|shape| UnitMesh::leaf(shape, settings.leaves));
+        let leaf_shapes = leaf_shapes(tree, settings);
         let blossoms = if has(Parts::BLOSSOMS) { &tree.blossoms[..] } else { &[] };
-        let style = settings.blossoms.unwrap_or(settings.leaves);
-        let blossom_shapes = tree.blossom_shapes.iter().map(|&s| UnitMesh::blossom(s, style));
+        let blossom_shapes = blossom_shapes(tree, settings);
+        let heart = if settings.rounded { placed::heart(leaves.iter().chain(blossoms)) } else { None };
         let shows_blobs = has(Parts::BLOBS) && settings.leaves != LeafStyle::None;
         let blobs = if shows_blobs { blobs::count(tree) } else { Count::default() };
         Self {
             tree,
             settings,
             rig: None,
-            leaves: Placed::new(leaves, leaf_shapes.collect(), BLOCK_VERTICES),
-            blossoms: Placed::new(blossoms, blossom_shapes.collect(), BLOCK_VERTICES),
-            cards: Placed::new(&[], Vec::new(), BLOCK_VERTICES),
+            bodies: settings.wind.then(|| Bodies::new(tree)),
+            leaves: Placed::new(leaves, leaf_shapes, BLOCK_VERTICES).rounded(heart),
+            blossoms: Placed::new(blossoms, blossom_shapes, BLOCK_VERTICES).rounded(heart),
+            cards: Placed::new(&[], Shapes::plain(Vec::new()), BLOCK_VERTICES),
             twigs: None,
             blobs,
             tubes,
@@ -127,7 +130,7 @@ impl<'a> Mesher<'a> {
     #[must_use]
     pub fn with_twigs(mut self, twigs: &'a Twigs) -> Self {
         let shapes = twigs.cells().into_iter().map(UnitMesh::card).collect();
-        self.cards = Placed::new(&twigs.cards, shapes, BLOCK_VERTICES);
+        self.cards = Placed::new(&twigs.cards, Shapes::plain(shapes), BLOCK_VERTICES);
         self.twigs = Some(twigs);
         self
     }
@@ -182,11 +185,8 @@ impl<'a> Mesher<'a> {
             let StemStart { vertex, tiles } = self.stems[i];
             rings.sample(self.tree, &self.tree.stems[i], self.tubes.tolerance());
             self.tubes.push(&rings, vertex as u32, tiles, block, &mut along);
-            let length = rings.length().unwrap_or(1.0).max(1e-6);
-            if self.settings.wind {
-                let wind = wind::of_stem(self.tree, i);
-                let at = |&along: &f32| (f64::from(along) / length).clamp(0.0, 1.0) as f32;
-                block.wind.extend(along.iter().map(|along| Wind { place: at(along), ..wind }));
+            if let Some(bodies) = &self.bodies {
+                block.wind.resize(block.vertices.len(), bodies.of_stem(i));
             }
             if let Some(rig) = self.rig {
                 let joint = |&along: &f32| rig.joint_at(i as u32, f64::from(along));
@@ -194,6 +194,26 @@ impl<'a> Mesher<'a> {
             }
         }
     }
+}
+
+/// The meshes of a tree's leaves.
+pub(crate) fn leaf_shapes(tree: &Tree, settings: MeshSettings) -> Shapes {
+    let shapes = &tree.leaf_shapes;
+    if settings.pictured {
+        let mesh = |i: usize, form| UnitMesh::leaf_in_form(&shapes[i], settings.leaves, form);
+        return Shapes::in_forms(shapes.len(), mesh);
+    }
+    Shapes::plain(shapes.iter().map(|shape| UnitMesh::leaf(shape, settings.leaves)).collect())
+}
+
+/// The meshes of a tree's blossoms, whose forms differ in their pictures alone.
+pub(crate) fn blossom_shapes(tree: &Tree, settings: MeshSettings) -> Shapes {
+    let (shapes, style) = (&tree.blossom_shapes, settings.blossoms.unwrap_or(settings.leaves));
+    let mesh = |shape| UnitMesh::blossom(shape, style);
+    if settings.pictured {
+        return Shapes::in_forms(shapes.len(), |i, _| mesh(shapes[i]));
+    }
+    Shapes::plain(shapes.iter().map(|&shape| mesh(shape)).collect())
 }
 
 /// The forks of each stem, whose bark goes on from it.
@@ -291,7 +311,7 @@ impl Source for Mesher<'_> {
                     let corners = block.vertices.iter_mut().rev().take(4);
                     corners.for_each(|corner| corner.normal = twigs.normal(corner.position));
                 }
-                self.sway_leaf(material, &placed.leaves[i], i, block);
+                self.sway_leaf(material, &placed.leaves[i], block);
             });
         } else {
             self.fill_blobs(placed.count.vertices, block);
@@ -301,15 +321,16 @@ impl Source for Mesher<'_> {
 
 impl Mesher<'_> {
     /// Wind data and joints of the vertices of `leaf`, which were added last.
-    fn sway_leaf(&self, material: Material, leaf: &Leaf, index: usize, block: &mut Block) {
-        if self.settings.wind {
-            let wind = wind::of_leaf(leaf, index, &self.tree.stems[leaf.stem as usize]);
+    fn sway_leaf(&self, material: Material, leaf: &Leaf, block: &mut Block) {
+        if let Some(bodies) = &self.bodies {
             let first = block.wind.len();
+            let along = leaf.along / leaf.along.length_squared().max(f32::MIN_POSITIVE);
             block.wind.extend(block.vertices[first..].iter().enumerate().map(|(corner, vertex)| {
-                // The tip moves most: v = 0 of a leaf, and the last two corners of a card.
+                // The tip moves most: the last two corners of a card.
                 let is_tip = if corner < 2 { 0.0 } else { 1.0 };
-                let place = if material == Material::Twig { is_tip } else { 1.0 - vertex.uv.y };
-                Wind { place, ..wind }
+                let along = (vertex.position - leaf.position).dot(along).clamp(0.0, 1.0);
+                let place = if material == Material::Twig { is_tip } else { along };
+                bodies.of_leaf(leaf, place)
             }));
         }
         if let Some(rig) = self.rig {
@@ -321,10 +342,10 @@ impl Mesher<'_> {
     /// All blobs, whose vertices count from `base`. A blob moves with the tip of its stem.
     fn fill_blobs(&self, base: u64, block: &mut Block) {
         for blob in &self.tree.blobs {
-            blobs::push(self.tree, blob, (base + block.vertices.len() as u64) as u32, block);
-            if self.settings.wind {
-                let wind = Wind { place: 1.0, ..wind::of_stem(self.tree, blob.stem as usize) };
-                block.wind.resize(block.vertices.len(), wind);
+            let uv = self.leaves.somewhere();
+            blobs::push(self.tree, blob, uv, (base + block.vertices.len() as u64) as u32, block);
+            if let Some(bodies) = &self.bodies {
+                block.wind.resize(block.vertices.len(), bodies.of_stem(blob.stem as usize));
             }
             if let Some(rig) = self.rig {
                 block.joints.resize(block.vertices.len(), rig.joint_at(blob.stem, f64::INFINITY));

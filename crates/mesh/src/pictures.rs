@@ -5,8 +5,10 @@ use crate::part::Material;
 /// Pictures of one material: the bytes of PNG files, or their names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pictures<P> {
-    /// Whose they are. Those of bark are tiles that repeat; of the others what is not opaque is cut out.
+    /// Whose they are. Those of bark are tiles that repeat.
     pub material: Material,
+    /// Whether what is not opaque in the colours is cut out.
+    pub is_cut_out: bool,
     /// Colours, as sRGB.
     pub color: P,
     /// Directions in tangent space, x to the right, y up.
@@ -16,9 +18,10 @@ pub struct Pictures<P> {
 }
 
 impl<P> Pictures<P> {
-    /// A picture of colours alone.
+    /// A picture of colours alone, cut out unless it is of bark.
     pub const fn colors(material: Material, color: P) -> Self {
-        Self { material, color, normal: None, roughness: None }
+        let is_cut_out = !matches!(material, Material::Bark);
+        Self { material, is_cut_out, color, normal: None, roughness: None }
     }
 
     /// Whether the picture repeats.
@@ -37,16 +40,18 @@ impl<P> Pictures<P> {
     /// The same by reference.
     #[must_use]
     pub const fn as_ref(&self) -> Pictures<&P> {
-        let Self { material, color, normal, roughness } = self;
-        Pictures { material: *material, color, normal: normal.as_ref(), roughness: roughness.as_ref() }
+        let Self { material, is_cut_out, color, normal, roughness } = self;
+        let (material, is_cut_out) = (*material, *is_cut_out);
+        Pictures { material, is_cut_out, color, normal: normal.as_ref(), roughness: roughness.as_ref() }
     }
 
     /// The same with each picture replaced by what `replace` makes of what it is called and of it, in the order of
     /// [`Pictures::all`].
     pub fn map<Q>(self, mut replace: impl FnMut(&'static str, P) -> Q) -> Pictures<Q> {
-        let Self { material, color, normal, roughness } = self;
+        let Self { material, is_cut_out, color, normal, roughness } = self;
         Pictures {
             material,
+            is_cut_out,
             color: replace("color", color),
             normal: normal.map(|picture| replace("normal", picture)),
             roughness: roughness.map(|picture| replace("roughness", picture)),
@@ -61,9 +66,10 @@ impl<P> Pictures<P> {
         self,
         mut replace: impl FnMut(&'static str, P) -> Result<Q, E>,
     ) -> Result<Pictures<Q>, E> {
-        let Pictures { material, color, normal, roughness } = self.map(&mut replace);
+        let Pictures { material, is_cut_out, color, normal, roughness } = self.map(&mut replace);
         Ok(Pictures {
             material,
+            is_cut_out,
             color: color?,
             normal: normal.transpose()?,
             roughness: roughness.transpose()?,

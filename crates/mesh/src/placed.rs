@@ -1,9 +1,10 @@
 //! Leaves or blossoms of any mix of shapes, in runs.
 
-use crate::block::{Block, Placement};
+use crate::atlas::{Atlas, Form};
+use crate::block::{Block, Placement, Vertex};
 use crate::foliage::UnitMesh;
 use crate::part::Count;
-use glam::{Mat3, Quat, Vec3, vec3};
+use glam::{Mat3, Quat, Vec2, Vec3, vec2, vec3};
 use pleach_plant::Leaf;
 use std::ops::Range;
 
@@ -11,10 +12,52 @@ use std::ops::Range;
 #[derive(Debug)]
 pub(crate) struct Placed<'a> {
     pub(crate) leaves: &'a [Leaf],
-    shapes: Vec<UnitMesh>,
+    shapes: Shapes,
+    /// Where normals lean away from, if they do.
+    heart: Option<Vec3>,
     pub(crate) count: Count,
     runs: Vec<Run>,
 }
+
+/// The meshes of unit shapes, each in several forms if there is an atlas.
+#[derive(Clone, Debug)]
+pub(crate) struct Shapes {
+    meshes: Vec<UnitMesh>,
+    atlas: Option<Atlas>,
+}
+
+impl Shapes {
+    /// One mesh for each shape.
+    pub(crate) const fn plain(meshes: Vec<UnitMesh>) -> Self {
+        Self { meshes, atlas: None }
+    }
+
+    /// The meshes of so many shapes in the forms of an atlas; `mesh` makes one of them, for a whole picture.
+    pub(crate) fn in_forms(shapes: usize, mesh: impl Fn(usize, Form) -> UnitMesh) -> Self {
+        let atlas = Atlas::new(shapes);
+        let each = |shape: usize| {
+            let mesh = &mesh;
+            (0..atlas.forms).map(move |form| {
+                mesh(shape, Form::new(form)).in_cell(atlas.sheet.cell(atlas.cell(shape, form)))
+            })
+        };
+        Self { meshes: (0..shapes).flat_map(each).collect(), atlas: Some(atlas) }
+    }
+
+    fn get(&self, leaf: &Leaf) -> &UnitMesh {
+        let shape = usize::from(leaf.shape);
+        &self.meshes[self.atlas.map_or(shape, |atlas| atlas.cell(shape, atlas.form_of(leaf)))]
+    }
+
+    /// The middle of some picture of a leaf.
+    pub(crate) fn somewhere(&self) -> Vec2 {
+        let cell = self.atlas.map_or([0.0, 0.0, 1.0, 1.0], |atlas| atlas.sheet.cell(0));
+        vec2(cell[0] + cell[2], cell[1] + cell[3]) / 2.0
+    }
+}
+
+/// How much of a normal is its leaf's own, against the direction away from the crown's heart.
+const OWN: f32 = 1.0;
 
 /// A run of leaves, and the vertices before it.
 #[derive(Clone, Debug)]
@@ -25,10 +68,10 @@ struct Run {
 
 impl<'a> Placed<'a> {
     /// Cuts `leaves`, whose shapes are numbers of `shapes`, into runs of at most `run_vertices`.
-    pub(crate) fn new(leaves: &'a [Leaf], shapes: Vec<UnitMesh>, run_vertices: u64) -> Self {
+    pub(crate) fn new(leaves: &'a [Leaf], shapes: Shapes, run_vertices: u64) -> Self {
         let (mut count, mut runs) = (Count::default(), Vec::<Run>::new());
         for (i, leaf) in leaves.iter().enumerate() {
-            let size = shapes[usize::from(leaf.shape)].count();
+            let size = shapes.get(leaf).count();
             match runs.last_mut() {
                 Some(run) if count.vertices + size.vertices - run.first_vertex <= run_vertices => {
                     run.leaves.end = i + 1;
@@ -37,7 +80,13 @@ impl<'a> Placed<'a> {
             }
             count += size;
         }
-        Self { leaves, shapes, count, runs }
+        Self { leaves, shapes, heart: None, count, runs }
+    }
+
+    /// The same with normals that lean away from `heart`.
+    pub(crate) fn rounded(mut self, heart: Option<Vec3>) -> Self {
+        self.heart = heart;
+        self
     }
 
     /// The runs in order.
@@ -45,9 +94,15 @@ impl<'a> Placed<'a> {
         self.runs.iter().map(|run| run.leaves.clone())
     }
 
-    /// The one shape of all leaves, if there is but one: what instances need.
+    /// The one shape of all leaves, if there is but one: what instances need. In its first form.
     pub(crate) fn only_shape(&self) -> Option<&UnitMesh> {
-        if let [shape] = &self.shapes[..] { Some(shape) } else { None }
+        let forms = self.shapes.atlas.map_or(1, |atlas| atlas.forms);
+        self.shapes.meshes.first().filter(|_| self.shapes.meshes.len() == forms)
+    }
+
+    /// The middle of some picture of a leaf.
+    pub(crate) fn somewhere(&self) -> Vec2 {
+        self.shapes.somewhere()
     }
 
     /// Appends the leaves of `range`, one of the runs, to `block`; calls `placed` after each one with
@@ -62,12 +117,36 @@ impl<'a> Placed<'a> {
         let mut base = self.runs[run].first_vertex;
         for i in range {
             let leaf = &self.leaves[i];
-            let shape = &self.shapes[usize::from(leaf.shape)];
+            let shape = self.shapes.get(leaf);
+            let first = block.vertices.len();
             shape.push(leaf, base as u32, block);
             base += shape.count().vertices;
+            if let Some(heart) = self.heart {
+                block.vertices[first..].iter_mut().for_each(|vertex| round(vertex, heart));
+            }
             placed(i, block);
         }
     }
+}
+
+/// Leans a normal away from `heart`. Programs turn the normals of a face that is seen from behind: one that looks
+/// inwards leans inwards, so that turned it leans outwards.
+fn round(vertex: &mut Vertex, heart: Vec3) {
+    let outwards = (vertex.position - heart).normalize_or_zero();
+    let side = if vertex.normal.dot(outwards) < 0.0 { -1.0 } else { 1.0 };
+    let leant = vertex.normal * OWN + outwards * side;
+    vertex.normal = leant.try_normalize().unwrap_or(vertex.normal);
+}
+
+/// Where leaves and blossoms lean away from: the middle of what they take, but low in it, so that a crown is lit from
+/// above as a body. `None` if there are none.
+pub(crate) fn heart<'l>(leaves: impl Iterator<Item = &'l Leaf>) -> Option<Vec3> {
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for leaf in leaves {
+        let middle = leaf.position + leaf.along / 2.0;
+        (low, high) = (low.min(middle), high.max(middle));
+    }
+    low.is_finite().then(|| (low + high) / 2.0 - Vec3::Z * (0.25 * (high.z - low.z)))
 }
 
 /// Where the unit shape stands as it is.
@@ -92,9 +171,13 @@ mod tests {
     #[test]
     fn runs_hold_every_leaf_once_whatever_its_shape() {
         let shapes = [LeafShape::Maple, LeafShape::Triangle];
-        let meshes = || shapes.map(|s| UnitMesh::leaf(s.outline(), LeafStyle::Outline)).to_vec();
+        let meshes = |n: usize| {
+            Shapes::plain(
+                shapes[..n].iter().map(|s| UnitMesh::leaf(s.outline(), LeafStyle::Outline)).collect(),
+            )
+        };
         let leaves: Vec<Leaf> = (0..50).map(|i| Leaf { shape: u16::from(i % 3 == 0), ..UNIT }).collect();
-        let placed = Placed::new(&leaves, meshes(), 100);
+        let placed = Placed::new(&leaves, meshes(2), 100);
         assert!(placed.only_shape().is_none() && placed.runs.len() > 5);
         let (mut vertices, mut triangles, mut seen) = (0, Vec::new(), Vec::new());
         for range in placed.ranges() {
@@ -109,6 +192,6 @@ mod tests {
         assert_eq!(seen, (0..50).collect::<Vec<_>>());
         let counted = Count { vertices: vertices as u64, triangles: triangles.len() as u64 };
         assert_eq!(placed.count, counted);
-        assert!(Placed::new(&leaves[1..2], meshes()[..1].to_vec(), 100).only_shape().is_some());
+        assert!(Placed::new(&leaves[1..2], meshes(1), 100).only_shape().is_some());
     }
 }

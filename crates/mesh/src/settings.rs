@@ -12,6 +12,8 @@ pub enum LeafStyle {
     Reduced,
     /// Two triangles for each leaf, with the area of the outline; four for each blossom.
     Simple,
+    /// One rectangle for each leaf and each blossom, which shows its picture: see [`MeshSettings::pictured`].
+    Card,
     /// Two crossed cards through the middle of each leaf and one across each blossom, for pictures
     /// of leaves.
     CrossedCards,
@@ -33,6 +35,11 @@ pub struct MeshSettings {
     pub leaves: LeafStyle,
     /// How blossoms are drawn, if not as leaves are.
     pub blossoms: Option<LeafStyle>,
+    /// Whether leaves and blossoms show their cells of an [`crate::Atlas`] and have its forms.
+    pub pictured: bool,
+    /// Whether the normals of leaves and blossoms lean outwards, so that a crown is lit as a body, and its leaves still
+    /// differ. Those of instances do not.
+    pub rounded: bool,
     /// Whether each corner carries wind data.
     pub wind: bool,
     /// What of the tree becomes triangles.
@@ -58,8 +65,26 @@ impl MeshSettings {
     }
 }
 
+impl LeafStyle {
+    /// What takes the place of this style where leaves show pictures: fewer triangles than an outline has are those of a
+    /// rectangle, whose picture has the outline.
+    #[must_use]
+    pub const fn pictured(self) -> Self {
+        match self {
+            Self::Reduced | Self::Simple => Self::Card,
+            Self::Outline | Self::Card | Self::CrossedCards | Self::None => self,
+        }
+    }
+
+    /// Whether a leaf's outline is in its picture alone, which has to be cut out.
+    #[must_use]
+    pub const fn is_cut_out(self) -> bool {
+        matches!(self, Self::Card | Self::CrossedCards)
+    }
+}
+
 impl Default for MeshSettings {
-    /// Two millimetres, 4 to 48 sides, leaves as outlines, no wind; everything but roots.
+    /// Two millimetres, 4 to 48 sides, leaves as outlines with rounded normals, no wind; everything but roots.
     fn default() -> Self {
         Self {
             tolerance: 0.002,
@@ -67,6 +92,8 @@ impl Default for MeshSettings {
             max_sides: 48,
             leaves: LeafStyle::Outline,
             blossoms: None,
+            pictured: false,
+            rounded: true,
             wind: false,
             parts: Parts::LEAFY,
         }

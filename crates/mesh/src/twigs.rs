@@ -9,6 +9,9 @@ pub const MAX_MODELS: usize = 16;
 /// Part of a cell that is left around what a card shows, on each side, since filters mix neighbours.
 pub const MARGIN: f32 = 1.0 / 64.0;
 
+/// Most times that a card is as large as the twig that it shows: a leaf in its picture grows with it.
+pub(crate) const MAX_GROWTH: f32 = 2.0;
+
 /// A twig that is painted, by its parts' numbers in the whole tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TwigModel {
@@ -20,6 +23,24 @@ pub struct TwigModel {
     pub leaves: Vec<u32>,
     /// Blossoms.
     pub blossoms: Vec<u32>,
+}
+
+impl TwigModel {
+    /// `card`, which shows this twig, made smaller about its middle where it would be larger than [`MAX_GROWTH`]
+    /// allows.
+    pub(crate) fn limited(&self, card: Leaf) -> Leaf {
+        let part = |own: Vec3, side: Vec3| {
+            let most = MAX_GROWTH * own.length();
+            if side.length() > most { most / side.length() } else { 1.0 }
+        };
+        let (tall, wide) = (part(self.card.along, card.along), part(self.card.across, card.across));
+        Leaf {
+            position: card.position + card.along * (0.5 * (1.0 - tall)),
+            along: card.along * tall,
+            across: card.across * wide,
+            ..card
+        }
+    }
 }
 
 /// The cards of one level of detail.
@@ -58,6 +79,7 @@ impl Twigs {
             let offs = others.models.iter().map(off).enumerate();
             let nearest = offs.min_by(|(_, a), (_, b)| a.total_cmp(b));
             card.shape = nearest.map_or(0, |(model, _)| model as u16);
+            *card = others.models.get(usize::from(card.shape)).map_or(*card, |model| model.limited(*card));
         }
         (self.models, self.first_cell) = (others.models.clone(), others.first_cell);
     }

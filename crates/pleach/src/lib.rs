@@ -75,7 +75,7 @@
 //!
 //! let species = pleach::species("acer")?;
 //! let tree = species.grow(1)?;
-//! let export = Export { lod: 3, ..Export::default() };
+//! let export = Export { lod: Some(3), ..Export::default() };
 //! let mut glb = std::io::Cursor::new(Vec::new());
 //! export.write(MeshFormat::Glb, &species, 1, &tree, None, &mut glb)?;
 //! let picture = pleach::render(&tree, &export.palette(&species), 128);
@@ -114,6 +114,9 @@ pub use pleach_tree::{
 /// What generators of your own are made of; `docs/a-generator.md` shows how.
 pub use pleach_tree::{param, parameters, random, species};
 
+mod skeleton;
+pub use skeleton::{Cylinder, Skeleton, SkeletonFormat, SkeletonNode};
+
 #[cfg(test)]
 mod shared;
 
@@ -124,14 +127,14 @@ pub use at_full_size::place_at_full_size;
 
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
-    Accuracy, Assessment, AssessmentSettings, Budget, COLUMNS, Candidate, Contradictions, Control, CostModel,
-    Deadline, Drawings, DrawingsError, EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem,
+    Accuracy, Answer, Assessment, AssessmentSettings, Budget, COLUMNS, Candidate, Contradictions, Control,
+    CostModel, Deadline, Drawings, DrawingsError, EvalWorkspace, Evaluator, FirstGuess, FitError, FitProblem,
     FitSettings, Fitted, FoundIndividual, Freedom, Gene, Genome, GoalSettings, GoalView, GuessLibrary,
     GuessSettings, Guessing, Identifiability, IndividualProgress, IndividualSettings, Interval, NoSample,
     Objective, Observer, ObserverError, Optimizer, Outcome, Placement, Posterior, PosteriorModel,
     PosteriorNumber, PosteriorSettings, PredictorError, Predictors, PreparedSearch, Prior, Profile, Progress,
-    Reserve, Row, RulesSettings, Score, Scored, SearchSpace, Setting, Start, Stepwise, StopReason, TreeSeed,
-    Unknown, Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
+    Reserve, Row, RulesSettings, Score, Scored, SearchSpace, Setting, Start, Stepwise, StepwiseRace,
+    StopReason, TreeSeed, Unknown, Verdict, evaluator, fit, fit_goal, fit_goal_with, individuals,
 };
 #[cfg(feature = "fit")]
 pub use pleach_fit::{
@@ -150,11 +153,11 @@ mod picture;
 pub use picture::{
     AppearanceFrom, Corrections, Direction, Effort, FitDrawing, FitOptions, FitReport, FitSource, FitStart,
     FittedTree, FurtherPicture, FurtherView, GoalPair, GoalReading, IdentifiabilityCounts, IndividualReport,
-    KnownFrame, Leaves, LooksLike, MaskFrom, MaskHints, NumberReport, ParameterReport, PictureError,
-    PictureReading, PictureSource, PosteriorReport, PrepareError, Prepared, Readings, ReportError,
-    RulesReport, SearchReport, SettingError, SideTree, SidesReport, Spent, StartFrom, TIME_KEYS, Tone,
-    ViewReport, VolumeFrom, best_of_each_family, fit_picture, optimizer_with, parse_duration, read_picture,
-    settings_of,
+    IntervalsReport, KnownFrame, Leaves, LooksLike, MaskFrom, MaskHints, NumberReport, ParameterReport,
+    PictureError, PictureReading, PictureSource, PosteriorReport, PrepareError, Prepared, Readings,
+    ReportError, RulesReport, SearchReport, SettingError, SideTree, SidesReport, Spent, StartFrom, TIME_KEYS,
+    Tone, ViewReport, VolumeFrom, best_of_each_family, fit_picture, optimizer_with, parse_duration,
+    read_picture, settings_of,
 };
 
 #[cfg(feature = "fit")]
@@ -171,14 +174,17 @@ pub use option_error::OptionError;
 #[cfg(feature = "render")]
 mod export;
 #[cfg(feature = "render")]
-pub use export::{Beside, Export, ExportError, ExportedFile, Forest, LeafForm};
+pub use export::{
+    Beside, Compression, Export, ExportError, ExportedFile, ExportedMeshes, Forest, LeafForm, Written,
+};
 
 #[cfg(feature = "mesh")]
 pub use pleach_mesh::write::{Feature as MeshFeature, Format as MeshFormat};
 #[cfg(feature = "mesh")]
 pub use pleach_mesh::{
-    LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Sink, Source, send, write::glb::Glb,
-    write::glb::write as write_glb, write::obj::Obj, write::ply::Ply, write::stl::Stl, write::usda::Usda,
+    LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Pictures, Sink, Source, send,
+    tangents, write::glb::Glb, write::glb::write as write_glb, write::obj::Obj, write::ply::Ply,
+    write::stl::Stl, write::usda::Usda,
 };
 
 #[cfg(feature = "render")]

@@ -103,3 +103,13 @@ pub(crate) fn numbers<T: Element>(py: Python<'_>, numbers: Vec<T>) -> Bound<'_, 
 pub(crate) fn copied<'py, T: Element + Copy>(py: Python<'py>, numbers: &[T]) -> Bound<'py, PyArray1<T>> {
     numbers.to_pyarray(py)
 }
+
+/// An array of rows of numbers.
+pub(crate) fn rows<T: Element + Copy, const N: usize>(
+    py: Python<'_>,
+    rows: impl ExactSizeIterator<Item = [T; N]>,
+) -> PyResult<Py<PyArray2<T>>> {
+    let shape = [rows.len(), N];
+    let numbers: Vec<T> = rows.flatten().collect();
+    Ok(numbers.into_pyarray(py).reshape(shape)?.unbind())
+}

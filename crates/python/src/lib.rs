@@ -9,16 +9,20 @@ mod dataset;
 mod error;
 mod event;
 mod fit;
+mod foliage;
 mod frame;
 mod goal;
 mod json;
+mod mesh;
 mod numbers;
 mod params;
 mod pool;
+mod prior;
 mod problem;
 mod reading;
 mod score;
 mod seed;
+mod skeleton;
 mod species;
 mod tree;
 mod view;
@@ -38,13 +42,19 @@ mod native {
     #[pymodule_export]
     use crate::fit::fit;
     #[pymodule_export]
+    use crate::mesh::{Mesh, MeshPart};
+    #[pymodule_export]
     use crate::numbers::numbers_of;
+    #[pymodule_export]
+    use crate::prior::{prior_sample, prior_slots};
     #[pymodule_export]
     use crate::problem::NativeProblem;
     #[pymodule_export]
     use crate::reading::read;
     #[pymodule_export]
     use crate::score::{mask, score};
+    #[pymodule_export]
+    use crate::skeleton::Skeleton;
     #[pymodule_export]
     use crate::species::{Species, generators, species_named, species_names};
     #[pymodule_export]

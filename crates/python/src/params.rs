@@ -6,7 +6,7 @@ use pleach::param::{Kind, Shape, nearest};
 use pleach::{ParamSpace, Slot};
 use pyo3::IntoPyObjectExt as _;
 use pyo3::prelude::*;
-use pyo3::types::{PyString, PyTuple};
+use pyo3::types::{PyDict, PyString, PyTuple};
 
 /// The number of the parameter called `name`.
 pub(crate) fn find(space: &ParamSpace, name: &str) -> PyResult<usize> {
@@ -99,6 +99,17 @@ fn read(space: &ParamSpace, slot: Slot, value: &Bound<'_, PyAny>) -> PyResult<f6
     };
     space.check_slot(slot, number).map_err(|problem| of_species(format!("`{name}` {problem}")))?;
     Ok(number)
+}
+
+/// What is declared about every parameter, by name.
+pub(crate) fn all_declared<'py>(py: Python<'py>, space: &ParamSpace) -> PyResult<Bound<'py, PyAny>> {
+    let declared = (0..space.params().len()).map(|number| serde_json::to_value(space.declared(number)));
+    let declared: Vec<serde_json::Value> = declared.collect::<Result<_, _>>().map_err(of_species)?;
+    let all = PyDict::new(py);
+    for (param, one) in space.params().iter().zip(json::to_python(py, &declared.into())?.try_iter()?) {
+        all.set_item(param.name.as_ref(), one?)?;
+    }
+    Ok(all.into_any())
 }
 
 /// What is declared about parameter number `number`, or about `one` of its numbers.

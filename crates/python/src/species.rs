@@ -1,13 +1,13 @@
 //! Species, as mappings of their parameters.
 
 use crate::arrays;
-use crate::error::{of_export, of_growth, of_species};
+use crate::error::{PleachError, of_export, of_growth, of_species};
 use crate::params;
 use crate::seed::Seed;
-use crate::tree::Tree;
+use crate::tree::{self, Tree};
 use crate::{json, pool};
 use numpy::{PyArray1, PyReadonlyArray1};
-use pleach::{Export, Foliage, Forest, Growth, ParamSpace};
+use pleach::{Export, Foliage, Forest, Growth, Palette, ParamSpace, Season};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
@@ -196,12 +196,46 @@ impl Species {
     /// `pleach params --json`, such as `doc`, `source` (paper and section), `unit`, `kind`, `min` and `max` (what is
     /// allowed), `default`, `group`, `choices`, and for each number in `slots` what searches try (`search`).
     ///
+    /// Without a name, a dict of what is declared about each parameter, in the order of `keys`.
+    ///
     /// >>> import pleach
     /// >>> pleach.species("acer").declared("ratio")["kind"]
     /// 'real'
-    fn declared<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    /// >>> list(pleach.species("acer").declared()) == pleach.species("acer").keys()
+    /// True
+    #[pyo3(signature = (name = None))]
+    fn declared<'py>(&self, py: Python<'py>, name: Option<&str>) -> PyResult<Bound<'py, PyAny>> {
+        let Some(name) = name else { return params::all_declared(py, self.space()) };
         let (number, one) = params::find_slot(self.space(), name)?;
         params::declared(py, self.space(), number, one)
+    }
+
+    /// The colours of `season`, `spring`, `summer`, `autumn` or `winter`; by default the species file's own season, or
+    /// summer with all its blossom. A dict: `bark`, `leaf` and `blossom` are sRGB, three numbers from 0 to 255; `pattern`
+    /// says how bark is marked, `leaves` and `blossoms` whether the tree wears them.
+    ///
+    /// >>> import pleach
+    /// >>> pleach.species("silver_birch").palette("winter")["leaves"]
+    /// False
+    /// >>> pleach.species("silver_birch").palette()["bark"]
+    /// (217, 214, 204)
+    #[pyo3(signature = (season = None))]
+    fn palette<'py>(&self, py: Python<'py>, season: Option<&str>) -> PyResult<Bound<'py, PyDict>> {
+        let season = season.map(|name| {
+            Season::from_name(name).ok_or_else(|| {
+                let known = Season::NAMES.join(", ");
+                PleachError::new_err(format!("there is no season `{name}`, expected one of {known}"))
+            })
+        });
+        let palette = Palette::new(&self.inner.appearance, season.transpose()?);
+        let dict = PyDict::new(py);
+        for (name, color) in [("bark", palette.bark), ("leaf", palette.leaf), ("blossom", palette.blossom)] {
+            dict.set_item(name, <(u8, u8, u8)>::from(color.0))?;
+        }
+        dict.set_item("pattern", palette.pattern.name())?;
+        dict.set_item("leaves", palette.leaves)?;
+        dict.set_item("blossoms", palette.blossoms)?;
+        Ok(dict)
     }
 
     /// Grows a tree: that of `seed`, by default of `tree_seed` or 1; with leaves unless the species file says `bare`
@@ -251,9 +285,10 @@ impl Species {
         let grow = |seed| self.inner.grow_with(&Growth { foliage: self.inner.foliage, ..Growth::seed(seed) });
         let mut glb = Cursor::new(Vec::new());
         let planted = pool::on(py, None, || export.write_forest(&forest, &self.inner, seed, grow, &mut glb))?;
-        let trees = planted.map_err(of_export)?;
+        let written = planted.map_err(of_export)?;
+        tree::warn(py, written.note.as_deref())?;
         std::fs::write(path, glb.into_inner())?;
-        Ok(trees)
+        Ok(written.trees)
     }
 
     /// The names of all parameters.
@@ -333,6 +368,13 @@ impl Species {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let generator = self.inner.generator.family();
+        if pleach::families().iter().all(|family| family.name() != generator) {
+            let what = format!(
+                "a tree of the generator `{generator}` cannot be pickled or copied: read its file again"
+            );
+            return Err(PleachError::new_err(what));
+        }
         let from_toml = py.get_type::<Self>().getattr("from_toml")?;
         PyTuple::new(py, [from_toml, PyTuple::new(py, [self.to_toml()])?.into_any()])
     }

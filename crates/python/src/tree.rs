@@ -5,14 +5,17 @@ use crate::error::{PleachError, of_export, of_growth};
 use crate::seed::Seed;
 use crate::species::Species;
 use crate::view::{self, Direction};
-use crate::{json, pool};
+use crate::{foliage, json, mesh, pool, skeleton};
 use numpy::ndarray::Array3;
 use numpy::{IntoPyArray as _, PyArray1, PyArray2, PyArray3};
 use pleach::{
-    Bounds, Export, ExportedFile, MeshFormat, Palette, Parts, Preview, PreviewSettings, StemKind, TreeStats,
+    Bounds, Export, ExportedFile, MeshFormat, Palette, Parts, Preview, PreviewSettings, Skeleton,
+    SkeletonFormat, StemKind, TreeStats,
 };
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
+use std::ffi::CString;
 use std::path::PathBuf;
 
 /// A grown tree: stems of knots, and leaves, in metres, z up, the ground at 0.
@@ -148,12 +151,106 @@ impl Tree {
         column(slf.as_any(), &slf.get().inner.leaves, |leaf| &leaf.stem)
     }
 
+    /// Where each stem stands on its parent, float64 of shape (stems,): the place on the parent's spline that is nearest to the
+    /// stem's first knot. 2.25 is a quarter of the way, in the parameter of the curve, from the parent's third knot to its
+    /// fourth. NaN for stems without a parent.
+    #[getter]
+    fn places<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        arrays::numbers(py, foliage::places(&self.inner))
+    }
+
+    /// Number of the outline of each leaf in `leaf_outlines`, uint16 of shape (leaves,); a view, read-only.
+    #[getter]
+    fn leaf_shapes<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray1<u16>> {
+        column(slf.as_any(), &slf.get().inner.leaves, |leaf| &leaf.shape)
+    }
+
+    /// The outlines of leaves: the name of each, and its corners counter-clockwise, float32 of shape (corners, 2). A corner
+    /// (u, v) of leaf `i` is at `leaf_positions[i] + u * leaf_across[i] + v * leaf_along[i]`.
+    #[getter]
+    fn leaf_outlines(&self, py: Python<'_>) -> PyResult<Vec<foliage::Outline>> {
+        foliage::outlines(py, &self.inner)
+    }
+
+    /// Where each blossom is attached, float32 of shape (blossoms, 3), metres; a view, read-only.
+    #[getter]
+    fn blossom_positions<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<f32>> {
+        triples(slf.as_any(), &slf.get().inner.blossoms, |blossom| blossom.position.as_ref())
+    }
+
+    /// The axis of each blossom, from its stalk, float32 of shape (blossoms, 3), metres; a view, read-only.
+    #[getter]
+    fn blossom_along<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<f32>> {
+        triples(slf.as_any(), &slf.get().inner.blossoms, |blossom| blossom.along.as_ref())
+    }
+
+    /// Across each blossom, as long as one unit of its width, float32 of shape (blossoms, 3); a view, read-only.
+    #[getter]
+    fn blossom_across<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<f32>> {
+        triples(slf.as_any(), &slf.get().inner.blossoms, |blossom| blossom.across.as_ref())
+    }
+
+    /// The stem that carries each blossom, uint32 of shape (blossoms,); a view, read-only.
+    #[getter]
+    fn blossom_stems<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray1<u32>> {
+        column(slf.as_any(), &slf.get().inner.blossoms, |blossom| &blossom.stem)
+    }
+
+    /// Number of the form of each blossom in `blossom_faces`, uint16 of shape (blossoms,); a view, read-only.
+    #[getter]
+    fn blossom_shapes<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray1<u16>> {
+        column(slf.as_any(), &slf.get().inner.blossoms, |blossom| &blossom.shape)
+    }
+
+    /// The forms of blossoms: the name of each, its corners, float32 of shape (corners, 3), and its faces, lists of corner
+    /// numbers, counter-clockwise from inside the cup. A corner (u, v, w) of blossom `i` is at `position + u * across + v *
+    /// along + w * normal`, where the normal is the unit vector of `cross(across, along)`, as long as `along`.
+    #[getter]
+    fn blossom_faces(&self, py: Python<'_>) -> PyResult<Vec<foliage::Blossom>> {
+        foliage::blossoms(py, &self.inner)
+    }
+
+    /// Vertices of closed surfaces of foliage, which stylised trees have instead of leaves, float32 of shape (vertices, 3),
+    /// metres; a view, read-only.
+    #[getter]
+    fn blob_vertices<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<f32>> {
+        triples(slf.as_any(), &slf.get().inner.blob_vertices, |vertex| vertex.as_ref())
+    }
+
+    /// Triangles of these surfaces, uint32 of shape (triangles, 3): rows of `blob_vertices`, counter-clockwise from outside.
+    #[getter]
+    fn blob_triangles(&self, py: Python<'_>) -> PyResult<Py<PyArray2<u32>>> {
+        foliage::blob_triangles(py, &self.inner)
+    }
+
+    /// The stem that carries each of these surfaces, uint32 of shape (surfaces,); a view, read-only.
+    #[getter]
+    fn blob_stems<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray1<u32>> {
+        column(slf.as_any(), &slf.get().inner.blobs, |blob| &blob.stem)
+    }
+
+    /// The first row of `blob_vertices` of each of these surfaces, uint32 of shape (surfaces,); a view, read-only.
+    #[getter]
+    fn blob_first_vertices<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray1<u32>> {
+        column(slf.as_any(), &slf.get().inner.blobs, |blob| &blob.first_vertex)
+    }
+
     /// Smallest and largest x, y, z, float64 of shape (2, 3), metres; NaN without any part.
     #[getter]
     fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let bounds = Bounds::new(&self.inner, Parts::LEAFY);
         let [min, max] = bounds.map_or([[f64::NAN; 3]; 2], |b| [b.min.to_array(), b.max.to_array()]);
         Ok(PyArray2::from_vec2(py, &[min.to_vec(), max.to_vec()])?)
+    }
+
+    /// The axes of its stems above the ground as nodes with parents.
+    ///
+    /// >>> import pleach
+    /// >>> skeleton = pleach.species("acer").grow().skeleton()
+    /// >>> skeleton.positions.shape == (len(skeleton), 3), int(skeleton.parents[0])
+    /// (True, -1)
+    fn skeleton(&self, py: Python<'_>) -> skeleton::Skeleton {
+        skeleton::Skeleton { inner: py.detach(|| Skeleton::new(&self.inner)) }
     }
 
     /// Measurements as a dict: stems, points, lengths and radii by level, leaves, height, crown, leaf area.
@@ -196,14 +293,20 @@ impl Tree {
         Ok(pixels.into_pyarray(py))
     }
 
-    /// Writes the tree to a mesh file, and returns the files that were written: the mesh, and the materials and
-    /// pictures that it names. The suffix of `path` says the format: glb, obj, ply, stl or usda.
+    /// Writes the tree to a file, and returns the files that were written: the mesh, and the materials and
+    /// pictures that it names. The suffix of `path` says the format: glb, obj, ply, stl or usda for meshes; swc for the
+    /// axes of the stems with radii, csv for the same as a table of cylinders, with the columns of TreeQSM, and mtg for the
+    /// same as a multiscale tree graph of OpenAlea. These three take no options.
     ///
-    /// Options are those of `pleach grow`: `lod` (levels of detail, 1 to 6), or `triangles` (a list of budgets, the largest
-    /// first; twigs become cards where leaves have no room), `billboard` (a last level of this many cards, 1 to 8), `level`
+    /// Without options a GLB file is for engines: 50,000 triangles at most, with pictures of the bark; other formats hold
+    /// every leaf and twig. A tree that does not fit is written whole, with a warning.
+    ///
+    /// Options are those of `pleach grow`: `finest` (every leaf and twig), `lod` (levels of detail of fixed coarseness, 1
+    /// to 6), or `triangles` (a list of budgets, the largest first; twigs become cards where leaves have no room), `billboard` (a last level of this many cards, 1 to 8), `level`
     /// (only this one, from 0), `lod_extension` (levels by `MSFT_lod` instead of nodes), `tolerance` (how far bark may stray, in millimetres), `leaves` (outline, simple, cards, instances, none),
-    /// `textures` (pictures of the bark, 512, 1024 or 2048 pixels a side: colour, normals, roughness and occlusion),
-    /// `season` (spring, summer, autumn, winter), `weld` (one surface on a grid with cells of this many millimetres) and
+    /// `textures` (pictures of bark and leaves, 512, 1024 or 2048 pixels a side, or 0 for none: colour and normals, of bark also
+    /// roughness and occlusion),
+    /// `compress` ("quantize": vertices of 16 and 8 bits), `season` (spring, summer, autumn, winter), `weld` (one surface on a grid with cells of this many millimetres) and
     /// `fillet`, `roots`, `wind`, `sway`. A format that cannot hold an option refuses it with `PleachError`.
     ///
     /// >>> import pleach, tempfile, pathlib
@@ -219,12 +322,25 @@ impl Tree {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Vec<PathBuf>> {
         let suffix = path.extension().unwrap_or_default().to_string_lossy();
+        if let Some(format) = SkeletonFormat::from_suffix(&suffix) {
+            if options.is_some_and(|options| !options.is_empty()) {
+                return Err(PleachError::new_err(format!("a .{suffix} file takes no options")));
+            }
+            let mut bytes = Vec::new();
+            py.detach(|| Skeleton::new(&self.inner).write(format, &mut bytes))?;
+            std::fs::write(&path, &bytes)?;
+            return Ok(vec![path]);
+        }
         let format = MeshFormat::from_suffix(&suffix).ok_or_else(|| {
-            let known = MeshFormat::ALL.map(MeshFormat::suffix).join(", .");
+            let known = [
+                &MeshFormat::ALL.map(MeshFormat::suffix)[..],
+                &SkeletonFormat::ALL.map(SkeletonFormat::suffix),
+            ];
+            let known = known.concat().join(", .");
             PleachError::new_err(format!("cannot write `.{suffix}` files, known are .{known}"))
         })?;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let file = self.mesh(py, format, &stem, options)?;
+        let file = self.file(py, format, &stem, options)?;
         std::fs::write(&path, &file.bytes)?;
         let mut written = vec![path.clone()];
         for beside in file.beside {
@@ -242,8 +358,23 @@ impl Tree {
         py: Python<'py>,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let file = self.mesh(py, MeshFormat::Glb, &self.species.inner.name, options)?;
+        let file = self.file(py, MeshFormat::Glb, &self.species.inner.name, options)?;
         Ok(PyBytes::new(py, &file.bytes))
+    }
+
+    /// The mesh as arrays, by level of detail and material, with the PNG files that materials show. Options are those of
+    /// `export`, but for `lod_extension`, `compress`, `wind`, `sway` and leaves as `"instances"`, which are for files. What they
+    /// leave open is not filled in: without `triangles` there are every leaf and twig, without `textures` no pictures.
+    ///
+    /// >>> import pleach
+    /// >>> mesh = pleach.species("acer").grow().mesh(triangles=[8000], textures=512)
+    /// >>> sorted(mesh.levels[0]), sorted(mesh.pictures["bark"])
+    /// (['bark', 'twigs'], ['color', 'normal', 'roughness'])
+    /// >>> sum(len(part.triangles) for part in mesh.levels[0].values()) <= 8000
+    /// True
+    #[pyo3(signature = (**options))]
+    fn mesh(&self, py: Python<'_>, options: Option<&Bound<'_, PyDict>>) -> PyResult<mesh::Mesh> {
+        mesh::of_tree(py, &self.species.inner, &self.inner, options)
     }
 
     fn __repr__(&self) -> String {
@@ -274,7 +405,7 @@ impl Tree {
 }
 
 impl Tree {
-    fn mesh(
+    fn file(
         &self,
         py: Python<'_>,
         format: MeshFormat,
@@ -284,7 +415,9 @@ impl Tree {
         let export = Export::from_json(&json::from_dict(options)?).map_err(of_export)?;
         let made =
             pool::on(py, None, || export.to_file(format, &self.species.inner, self.seed, &self.inner, stem))?;
-        made.map_err(of_export)
+        let file = made.map_err(of_export)?;
+        warn(py, file.note.as_deref())?;
+        Ok(file)
     }
 
     fn painted(
@@ -309,4 +442,10 @@ impl Tree {
             Preview::new(&tree, &palette, size).picture(&settings)
         })
     }
+}
+
+/// Warns of what is to be told of a file that was written.
+pub(crate) fn warn(py: Python<'_>, note: Option<&str>) -> PyResult<()> {
+    let Some(note) = note.and_then(|note| CString::new(note).ok()) else { return Ok(()) };
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &note, 1)
 }

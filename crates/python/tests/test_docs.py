@@ -35,7 +35,7 @@ def test_native_classes() -> None:
 
 
 def test_everything_is_documented() -> None:
-    for one in (_native.Species, _native.Tree):
+    for one in (_native.Species, _native.Tree, _native.Skeleton, _native.Mesh, _native.MeshPart):
         for name in dir(one):
             if not name.startswith("_"):
                 assert (getattr(one, name).__doc__ or "").strip(), f"{one.__name__}.{name}"

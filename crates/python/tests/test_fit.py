@@ -58,6 +58,11 @@ def test_this_very_tree_can_be_left_out() -> None:
     for off in ("off", False):
         found = pleach.fit(GOAL, **{**SMALL, "individual": off})
         assert found.individuals == [] and found.best is found.species
+    # An acer is like those that what is built in knows, once there are pixels enough to tell.
+    found = pleach.fit(GOAL, **{**SMALL, "size": 128, "individual": "off"})
+    assert len(found.intervals) > 20 and set(found.intervals) <= set(found.identifiability)
+    for number in found.intervals.values():
+        assert number.posterior.low <= number.posterior.median <= number.posterior.high and 0 <= number.shrunk <= 1
     with pytest.raises(pleach.FitError, match="400trees`, `share` or `off`"):
         pleach.fit(GOAL, **{**SMALL, "individual": "on"})
 

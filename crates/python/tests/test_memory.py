@@ -20,6 +20,7 @@ def test_ten_thousand_trees_take_no_more_than_one_at_a_time() -> None:
         for seed in seeds:
             tree = palm.grow(seed, leaves=False)
             grown += len(tree.knots) + tree.silhouette(32).shape[0]
+            grown += len(tree.mesh(tolerance=50.0).levels[0]["bark"].triangles) + len(tree.places)
         return grown
 
     total += grow(range(500))

@@ -74,6 +74,16 @@ def test_files_go_there_and_back(tmp_path: pathlib.Path) -> None:
         acer.named("a/b")
 
 
+def test_species_of_other_programs_are_files_too(tmp_path: pathlib.Path) -> None:
+    file = tmp_path / "small.py"
+    file.write_text("params = {'g_scale': 6, 'levels': 2, 'bevel_res': [10, 10, 10, 10]}")
+    small = pleach.species(file)
+    assert small.name == "small" and small["g_scale"] == 6 and len(small.grow().parents) > 10
+    file.write_text("import os\n")
+    with pytest.raises(pleach.SpeciesError, match="small.py:1:1: `import`"):
+        pleach.species(file)
+
+
 def test_what_is_declared_is_told() -> None:
     about = pleach.species("acer").declared("length")
     assert [slot["slot"] for slot in about["slots"]] == [f"length[{i}]" for i in range(4)]

@@ -110,6 +110,33 @@ def test_levels_keep_to_budgets(tmp_path: Path) -> None:
             tree.to_glb(triangles=wrong)
 
 
+def test_skeletons_are_files_of_nodes_and_of_cylinders(tmp_path: Path) -> None:
+    tree = pleach.species("acer").grow(1)
+    assert tree.export(tmp_path / "acer.swc") == [tmp_path / "acer.swc"]
+    nodes = np.loadtxt(tmp_path / "acer.swc")
+    parents = nodes[:, 6].astype(int)
+    assert (parents < nodes[:, 0]).all() and (nodes[parents < 0][:, 4] == 0).all()
+    tree.export(tmp_path / "acer.csv")
+    cylinders = np.genfromtxt(tmp_path / "acer.csv", delimiter=",", names=True, deletechars="")
+    assert cylinders["length"].sum() == pytest.approx(sum(tree.stats["length_total_m"]), rel=0.01)
+    assert {"radius", "parent", "extension", "BranchOrder"} <= set(cylinders.dtype.names or ())
+    with pytest.raises(pleach.PleachError, match="takes no options"):
+        tree.export(tmp_path / "acer.swc", season="winter")
+
+
+def test_a_glb_is_for_engines_unless_it_is_to_be_the_finest() -> None:
+    """A budget by default; every leaf if asked for; a tree that does not fit is whole, with a warning."""
+    tree = pleach.species("quaking_aspen").grow(1)
+    usual, finest = tree.to_glb(), tree.to_glb(finest=True)
+    assert b'"bark normal"' in usual and b'"twigs"' in usual and len(usual) < 5e6
+    assert b'"bark normal"' not in finest and len(finest) > 15e6
+    assert len(tree.to_glb(textures=0)) < len(usual)
+    dragon = (Path(__file__).parents[3] / "species/lsystem/abop_dragon.toml").read_text()
+    long = pleach.Species.from_toml(dragon.replace("steps: 10", "steps: 15"))
+    with pytest.warns(UserWarning, match="does not fit into a level of 50000 triangles"):
+        assert len(long.grow(1).to_glb()) > 30e6
+
+
 def test_too_large_a_tree_is_an_error() -> None:
     huge = pleach.species("quaking_aspen").replace({"branches": (1, 500, 500, 500), "levels": 4})
     with pytest.raises(pleach.GrowError):

@@ -5,9 +5,10 @@
 
 use crate::picture::Picture;
 use crate::preview::bark::{shade, smooth};
+use crate::srgb;
 use pleach_mesh::palette::{BarkPattern, linear};
 use pleach_mesh::{BARK_TILE, Material, Pictures};
-use pleach_plant::{Color, math};
+use pleach_plant::Color;
 use rayon::prelude::*;
 
 /// Sides of pictures in pixels that are offered.
@@ -47,10 +48,9 @@ pub fn bark(pattern: BarkPattern, color: Color, side: u32) -> Pictures<Picture> 
         [byte(0.55 + 0.45 * smooth(0.4, 0.9, height)), byte(0.95 - 0.15 * smooth(0.6, 1.2, height)), 0]
     };
     Pictures {
-        material: Material::Bark,
-        color: picture(side, |x, y| tones.tone(height(x, y))),
         normal: Some(picture(side, normal)),
         roughness: Some(picture(side, roughness)),
+        ..Pictures::colors(Material::Bark, picture(side, |x, y| tones.tone(height(x, y))))
     }
 }
 
@@ -75,13 +75,9 @@ impl Tones {
 
     fn new(color: Color) -> Self {
         let own = linear(color);
-        let encode = |light: f32| {
-            let light = light.clamp(0.0, 1.0);
-            if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * math::powf(light, 1.0 / 2.4) - 0.055 }
-        };
         let of = |step: usize| {
             let shade = Self::LIGHTEST * step as f32 / Self::STEPS as f32;
-            own.map(|channel| byte(encode(channel * shade)))
+            own.map(|channel| srgb::encode(channel * shade))
         };
         Self((0..=Self::STEPS).map(of).collect())
     }

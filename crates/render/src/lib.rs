@@ -19,7 +19,7 @@
 //! | [`billboard`] | a tree from a few sides, for the cards of a last level of detail |
 //! | [`twig_sheet`] | some of a tree's twigs, for the cards of a level with few triangles |
 //! | [`bark_picture`] | pictures of bark that repeat: colour, relief, roughness |
-//! | [`leaf_picture`] | pictures of leaves and blossoms for cards |
+//! | [`leaf_atlas`] | pictures of leaves and blossoms that differ from each other |
 //! | [`picture`], [`png_file`] | pixels in memory and in files |
 //!
 //! # Invariants
@@ -30,11 +30,14 @@
 
 pub mod bark_picture;
 pub mod billboard;
+mod blade;
 mod few_colors;
-pub mod leaf_picture;
+pub mod leaf_atlas;
+mod petals;
 pub mod picture;
 pub mod png_file;
 pub mod preview;
+mod srgb;
 pub mod twig_sheet;
 
 pub use billboard::Billboards;

@@ -11,10 +11,25 @@ pub struct Picture {
     pub rgba: Vec<u8>,
 }
 
+/// Whether a picture of normals is painted beside the colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relief {
+    /// Colours alone.
+    Omitted,
+    /// Colours and normals.
+    Painted,
+}
+
 impl Picture {
     /// A picture that shows nothing.
     pub(crate) fn transparent(width: u32, height: u32) -> Self {
         Self { width, height, rgba: vec![0; (width * height * 4) as usize] }
+    }
+
+    /// A picture of directions that all look towards the viewer.
+    pub(crate) fn towards_viewer(width: u32, height: u32) -> Self {
+        let pixels = (width * height) as usize;
+        Self { width, height, rgba: [128, 128, 255, 255].repeat(pixels) }
     }
 
     /// Gives transparent pixels the mean colour of the others: filters mix it into the edges.

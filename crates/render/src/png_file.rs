@@ -2,6 +2,7 @@
 
 use crate::few_colors::FewColors;
 use crate::picture::Picture;
+use rayon::prelude::*;
 use std::io::{self, Write};
 
 /// Writes `pictures`, all of one size, as a PNG; several become an animation that loops (APNG), each
@@ -55,6 +56,14 @@ pub fn bytes(picture: &Picture) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     write(&mut bytes, std::slice::from_ref(picture), 0)?;
     Ok(bytes)
+}
+
+/// Each of `pictures` as the bytes of a PNG file, several at a time.
+///
+/// # Errors
+/// If one is not a rectangle of pixels.
+pub fn all_bytes(pictures: &[&Picture]) -> io::Result<Vec<Vec<u8>>> {
+    pictures.par_iter().map(|picture| bytes(picture)).collect()
 }
 
 /// Writes `picture` as a PNG of at most 256 colours, about a third of the size; opacity is left out.

@@ -3,16 +3,18 @@
 //! The pictures hold the twigs' own colours, without sun, since the engine lights them again.
 
 use crate::picture::Picture;
-use crate::preview::{Frame, Preview};
+use crate::preview::{Foliage, Frame, Preview};
 use glam::{DVec3, Vec3};
 use pleach_mesh::twigs::{MARGIN, Sheet};
-use pleach_mesh::{Palette, TwigModel, Twigs};
+use pleach_mesh::{Material, Palette, Pictures, TwigModel, Twigs};
 use pleach_plant::{Knot, Leaf, Stem, StemKind, Tree};
+use std::sync::Arc;
 
 /// Width and height of a cell in pixels.
 const CELL: u32 = 256;
 
-/// Paints the models of the levels of some trees, which share a sheet; see [`pleach_mesh::lod::painted`].
+/// Paints the models of the levels of some trees, which share a sheet; see [`pleach_mesh::lod::painted`]. There is no
+/// picture of normals: with it, and the tangents that it needs, a tree of 50,000 triangles has a third more bytes.
 ///
 /// ```
 /// use pleach_mesh::{MeshSettings, Palette, lod};
@@ -21,31 +23,40 @@ const CELL: u32 = 256;
 /// let tree = species.grow(1)?;
 /// let levels = lod::budgets(&[&tree], MeshSettings::default(), &[8_000, 2_000])?;
 /// let palette = Palette::new(&species.appearance, None);
-/// let picture = pleach_render::twig_sheet::paint(&palette, lod::painted(&[&tree], &levels));
+/// let sheet = pleach_render::twig_sheet::paint(&palette, lod::painted(&[&tree], &levels));
+/// let picture = sheet.color;
 /// assert!(picture.width.is_power_of_two() && picture.height.is_power_of_two());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn paint<'a>(palette: &Palette, levels: impl IntoIterator<Item = (&'a Tree, &'a Twigs)>) -> Picture {
-    let mut whole: Option<Picture> = None;
+pub fn paint<'a>(
+    palette: &Palette,
+    levels: impl IntoIterator<Item = (&'a Tree, &'a Twigs)>,
+) -> Pictures<Picture> {
+    let mut color = Picture::transparent(1, 1);
+    let mut foliage: Option<Arc<Foliage>> = None;
     for (tree, twigs) in levels {
+        let foliage = foliage.get_or_insert_with(|| Arc::new(Foliage::new(tree, palette, CELL as f32 / 2.0)));
         let Sheet { columns, rows } = twigs.sheet;
-        let whole = whole.get_or_insert_with(|| Picture::transparent(columns * CELL, rows * CELL));
+        let (width, height) = (columns * CELL, rows * CELL);
+        if color.width == 1 {
+            color = Picture::transparent(width, height);
+        }
         for (cell, model) in (twigs.first_cell as u32..).zip(&twigs.models) {
-            whole.paste(&twig(tree, palette, model), cell % columns * CELL, cell / columns * CELL);
+            let (x, y) = (cell % columns * CELL, cell / columns * CELL);
+            color.paste(&twig(tree, palette, model, foliage), x, y);
         }
     }
-    let mut whole = whole.unwrap_or_else(|| Picture::transparent(1, 1));
-    whole.bleed();
-    whole
+    color.bleed();
+    Pictures::colors(Material::Twig, color)
 }
 
 /// One twig, stretched so that its card fills a cell but for the margin.
-fn twig(tree: &Tree, palette: &Palette, model: &TwigModel) -> Picture {
+fn twig(tree: &Tree, palette: &Palette, model: &TwigModel, foliage: &Arc<Foliage>) -> Picture {
     let stretched = stretched(tree, model);
     let half = 0.5 / (1.0 - 2.0 * MARGIN);
     let frame = Frame { middle: Vec3::Z * 0.5, azimuth: 0.0, half: [half; 2], pixels: [CELL; 2] };
-    let mut picture = Preview::of_twig(&stretched, palette, CELL).flat(&frame);
+    let mut picture = Preview::of_twig(&stretched, palette, CELL, Arc::clone(foliage)).colors(&frame);
     keep_coverage(&mut picture);
     picture
 }
@@ -138,8 +149,9 @@ mod tests {
             let levels = lod::budgets(&[&tree], MeshSettings::default(), &[5_000]).unwrap();
             let twigs = levels[0][0].twigs.as_ref().unwrap();
             let palette = Palette::new(&species.appearance, None);
+            let foliage = Arc::new(Foliage::new(&tree, &palette, 64.0));
             for model in &twigs.models {
-                let picture = twig(&tree, &palette, model);
+                let picture = twig(&tree, &palette, model, &foliage);
                 let shown: Vec<(u32, u32)> = (0..CELL * CELL)
                     .filter(|i| picture.rgba[(*i * 4 + 3) as usize] > 100)
                     .map(|i| (i % CELL, i / CELL))

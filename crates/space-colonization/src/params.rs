@@ -2,7 +2,7 @@
 
 use pleach_tree::leaf_shape::LeafShape;
 use pleach_tree::param::table::{always, list, scalar};
-use pleach_tree::param::{Effect, Scale};
+use pleach_tree::param::{Effect, Handle, Scale};
 use pleach_tree::{Kind, Param, Unit};
 
 /// Heights at which the crown's profile is given, evenly from its base to its top.
@@ -54,13 +54,13 @@ pleach_tree::parameters! {
     pub(crate) struct Numbers, enum Id, when Numbers {
         height: f64, when always =>
             metres((0.05, 150.0), (3.0, 40.0), 15.0).group("crown")
-                .doc("height of the crown's top above the ground");
+                .handle(0, Handle::Height).doc("height of the crown's top above the ground");
         crown_width: f64, when always =>
             real((0.02, 5.0), (0.2, 1.8), 0.8).scale([Scale::Log]).group("crown")
-                .doc("greatest width of the crown over the height");
+                .handle(0, Handle::CrownWidth).doc("greatest width of the crown over the height");
         bare_height: f64, when always =>
             real((0.0, 0.95), (0.02, 0.65), 0.25).group("crown")
-                .doc("height of the crown's base over the height");
+                .handle(0, Handle::BareTrunk).doc("height of the crown's base over the height");
         profile: [f64; STATIONS], when always =>
             list("station", Kind::real(0.0, 1.0), [0.45, 0.85, 1.0, 0.95, 0.75, 0.35]).search([(0.05, 1.0)])
                 .group("crown").source("ours, after Runions and others 2007, §3 (envelopes)")
@@ -84,7 +84,7 @@ pleach_tree::parameters! {
 
         points: u32, when always =>
             count((20, MAX_POINTS), (150.0, 2500.0), 1200.0).group("points").source(COLONIES)
-                .doc("attraction points in the crown: the scaffold gets finer with them");
+                .handle(0, Handle::Density).doc("attraction points in the crown: the scaffold gets finer with them");
         shade: f64, when always =>
             real((0.0, 1.0), (0.0, 0.9), 0.3).neutral(0.0).effect([Effect::Layout]).group("points")
                 .doc("part of the points that shade leaves out, deep below the crown's surface");
@@ -109,7 +109,7 @@ pleach_tree::parameters! {
                 .doc("by how much each of several trunks leans away from the others");
         lean: f64 [f64::to_radians], when always =>
             degrees((0.0, 60.0), (0.0, 30.0), 0.0).neutral(0.0).group("trunk")
-                .doc("lean of the trunk, with which the crown is displaced");
+                .handle(0, Handle::Lean).doc("lean of the trunk, with which the crown is displaced");
         lean_azimuth: f64 [f64::to_radians], when Numbers::has_lean =>
             degrees((-180.0, 180.0), (-180.0, 180.0), 0.0).group("trunk")
                 .doc("where it leans to, from +x towards +y");
@@ -131,7 +131,7 @@ pleach_tree::parameters! {
                 .doc("height from the first limb to the last over the height");
         fork_angle: f64 [f64::to_radians], when Numbers::has_limbs =>
             degrees((0.0, 100.0), (10.0, 75.0), 40.0).group("limbs")
-                .doc("angle between a limb and the trunk");
+                .handle(0, Handle::Spread).doc("angle between a limb and the trunk");
         fork_rise: f64, when Numbers::has_limbs =>
             real((-1.0, 1.0), (-0.5, 0.8), 0.2).neutral(0.0).group("limbs")
                 .doc("part of that angle that a limb turns upwards by its end; negative: it arches over");
@@ -153,7 +153,7 @@ pleach_tree::parameters! {
                 .doc("how much shoots go straight on instead of to the points");
         tropism: f64, when always =>
             real((-1.0, 1.0), (-0.4, 0.6), 0.0).neutral(0.0).group("growth").source(FATES)
-                .doc("pull on shoots, upwards or (negative) downwards");
+                .handle(0, Handle::Rise).doc("pull on shoots, upwards or (negative) downwards");
         outward: f64, when always =>
             real((0.0, 2.0), (0.0, 1.0), 0.5).neutral(0.0).group("growth").source(FATES)
                 .doc("pull on shoots out of the crown's middle");
@@ -174,7 +174,7 @@ pleach_tree::parameters! {
 
         thickness: f64, when always =>
             real((0.001, 0.25), (0.006, 0.06), 0.02).scale([Scale::Log]).group("wood")
-                .doc("radius of the thickest trunk at its foot over the height, without flare");
+                .handle(0, Handle::Trunk).doc("radius of the thickest trunk at its foot over the height, without flare");
         pipe: f64, when always =>
             real((1.0, 5.0), (1.4, 3.0), 1.9).group("wood").source("Runions and others 2007, §3; Murray 1927")
                 .doc("exponent of the pipe model: small makes twigs fine, large makes them thick");
@@ -214,14 +214,14 @@ pleach_tree::parameters! {
         leaf_number: f64, when Numbers::has_twigs =>
             real((0.0, 80.0), (0.0, 16.0), 7.0).unit(Unit::Count).effect([Effect::Layout]).neutral(0.0)
                 .group("leaves").source(LEAVES)
-                .doc("leaves on each twig; side twigs have fewer, by their length");
+                .handle(0, Handle::Leaves).doc("leaves on each twig; side twigs have fewer, by their length");
         leaf_shape: LeafShape [leaf_shape_from_number], when Numbers::has_leaves =>
             scalar(Kind::choice(1, LeafShape::ALL.map(LeafShape::name)), 8.0).effect([Effect::Layout])
                 .group("leaves").source(LEAVES)
                 .doc("outline of the leaves");
         leaf_length: f64, when Numbers::has_leaves =>
             metres((0.001, 5.0), (0.03, 0.6), 0.22).group("leaves").source(LEAVES)
-                .doc("length of a leaf");
+                .handle(0, Handle::LeafSize).doc("length of a leaf");
         leaf_width: f64, when Numbers::has_leaves =>
             real((0.02, 4.0), (0.2, 1.6), 1.0).scale([Scale::Log]).group("leaves").source(LEAVES)
                 .doc("width of a leaf over that of its outline");

@@ -4,7 +4,7 @@
 //! allowed wherever it has a meaning.
 
 use pleach_tree::param::table::{always, scalar};
-use pleach_tree::param::{Effect, Kind, Param, Scale, Unit};
+use pleach_tree::param::{Effect, Handle, Kind, Param, Scale, Unit};
 
 /// Several trunks part only above this height.
 pub(crate) const MIN_PARTING_HEIGHT: f64 = 0.65;
@@ -71,7 +71,7 @@ pleach_tree::parameters! {
             .scale([Scale::Log])
             .effect([Effect::Size])
             .group("trunk")
-            .doc("metres for one unit of every length and width below");
+            .handle(0, Handle::Height).doc("metres for one unit of every length and width below");
         trunk_width_base: f64, when always => factor(1.0, (0.3, 3.0))
             .group("trunk")
             .doc("width at the foot of the trunk");
@@ -80,19 +80,19 @@ pleach_tree::parameters! {
             .doc("width at the top end of every trunk over that of its body");
         trunk_width: f64, when always => factor(1.0, (0.3, 3.0))
             .group("trunk")
-            .doc("width of the trunk between foot and end");
+            .handle(0, Handle::Trunk).doc("width of the trunk between foot and end");
         trunk_height: f64, when always => factor(1.0, (0.4, 4.0))
             .group("trunk")
-            .doc("height of the trunk");
+            .handle(0, Handle::BareTrunk).doc("height of the trunk");
         trunk_randomness: f64, when always => share(0.0)
             .group("trunk")
             .doc("random offsets of the trunk's vertices; with `trunks = 0`, how many trunks there may be");
         leaves_quantity: f64, when always => quantity()
             .group("leaves")
-            .doc("chance of foliage at a branch's end, in per cent");
+            .handle(0, Handle::Leaves).doc("chance of foliage at a branch's end, in per cent");
         leaves_size: f64, when Numbers::has_leaves => factor(1.0, (0.3, 3.0))
             .group("leaves")
-            .doc("size of a blob's first sphere");
+            .handle(0, Handle::LeafSize).doc("size of a blob's first sphere");
         leaves_randomness: f64, when Numbers::has_leaves => share(0.0)
             .effect([Effect::Layout])
             .group("leaves")
@@ -102,13 +102,13 @@ pleach_tree::parameters! {
                 .neutral(0.0)
                 .source(SOURCE)
                 .group("branches")
-                .doc("branches and their foliage rise (positive) or hang (negative)");
+                .handle(0, Handle::Rise).doc("branches and their foliage rise (positive) or hang (negative)");
         branch_quantity: f64, when always => quantity()
             .group("branches")
-            .doc("branches on each trunk, in per cent of twelve");
+            .handle(0, Handle::Density).doc("branches on each trunk, in per cent of twelve");
         branch_length: f64, when Numbers::has_branches => factor(1.0, (0.3, 3.0))
             .group("branches")
-            .doc("length of branches");
+            .handle(0, Handle::CrownWidth).doc("length of branches");
         branch_randomness: f64, when Numbers::has_branches => share(0.0)
             .group("branches")
             .doc("random offsets of a branch's two inner vertices and its end");

@@ -8,7 +8,7 @@ use js_sys::{Array, Function, Uint8Array};
 use pleach::plan::library_with;
 use pleach::{
     Control, Drawings, FitDrawing, FitOptions, FitReport, FitSource, Foliage, GuessLibrary,
-    IndividualProgress, LooksLike, Observer, Prepared, Stepwise, StopReason,
+    IndividualProgress, LooksLike, Observer, Prepared, Scored, Stepwise, StepwiseRace, StopReason,
 };
 use serde_json::json;
 use std::sync::atomic::AtomicBool;
@@ -19,6 +19,8 @@ use wasm_bindgen::{JsError, JsValue};
 /// How far a fit has come.
 enum Stage {
     Prepared(Box<GuessLibrary>),
+    /// Generators are searched in turn, to find out which suits the goal.
+    Racing(Box<StepwiseRace>),
     Searching(Box<Stepwise>),
     Done(Box<FitReport>),
     /// A step has failed.
@@ -71,16 +73,44 @@ impl Fit {
         Ok(())
     }
 
-    /// Makes the first guess; `progress` is called with the trees that are done, and all. What it looks like: JSON.
-    pub fn guess(&mut self, progress: &Function) -> Result<String, JsError> {
+    /// Compares the goal with the known species; `progress` is called with the trees that are done, and all.
+    pub fn compare(&mut self, progress: &Function) -> Result<(), JsError> {
         let Stage::Prepared(library) = std::mem::replace(&mut self.stage, Stage::Failed) else {
-            return Err(thrown("the first guess has been made"));
+            return Err(thrown("the goal has been compared with the known species"));
         };
         let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
         let mut callback = Callback(progress);
         let control = Control { observers: vec![&mut callback], ..Control::new(&clock, &stop) };
         let Prepared { problem, settings, .. } = &self.prepared;
-        let fit = Stepwise::begin(problem, settings, *library, control).map_err(thrown)?;
+        let race = StepwiseRace::begin(problem, settings, *library, control).map_err(thrown)?;
+        self.stage = Stage::Racing(Box::new(race));
+        Ok(())
+    }
+
+    /// The next search of the race between generators: `recipe` for the `Evaluator`s that score its individuals, and
+    /// whose it is. `undefined` once the race is over, and where there is none.
+    pub fn next_leg(&mut self) -> Result<Option<Leg>, JsError> {
+        let Stage::Racing(race) = &mut self.stage else { return Err(thrown(NOT_RACING)) };
+        let Some(leg) = race.next_leg(self.elapsed).map_err(thrown)? else { return Ok(None) };
+        let recipe = message::recipe(&self.prepared.options, leg.problem, &leg.settings)?;
+        Ok(Some(Leg {
+            recipe,
+            family: leg.family.to_owned(),
+            species: leg.species.to_owned(),
+            number: leg.number,
+            count: leg.count,
+        }))
+    }
+
+    /// Ends the race, and begins the search with the generator that is ahead. What the goal looks like: JSON.
+    pub fn begin(&mut self) -> Result<String, JsError> {
+        let Stage::Racing(race) = std::mem::replace(&mut self.stage, Stage::Failed) else {
+            return Err(thrown(NOT_RACING));
+        };
+        // The time of the search begins with it: a race takes longer on a slow machine, and finds the same.
+        self.elapsed = Duration::ZERO;
+        let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
+        let fit = race.finish(Control::new(&clock, &stop)).map_err(thrown)?;
         let prepared = fit.prepared();
         let looks_like = json!({
             "looks_like": LooksLike::from_guess(prepared.guess.as_ref()),
@@ -91,20 +121,22 @@ impl Fit {
         Ok(looks_like.to_string())
     }
 
-    /// What `Evaluator`s are made of.
+    /// What `Evaluator`s of the search are made of.
     pub fn recipe(&self) -> Result<Vec<u8>, JsError> {
-        message::recipe(&self.prepared.options, self.search()?.prepared())
+        let prepared = self.search()?.prepared();
+        message::recipe(&self.prepared.options, &prepared.problem, &prepared.settings)
     }
 
-    /// The next batch in at most `parts` pieces, `elapsed` seconds after the fit began; none once the search is over.
+    /// The next batch of the leg of a race, or of the search, in at most `parts` pieces; none once it is over. `elapsed`
+    /// is in seconds since the leg or the search began.
     pub fn ask(&mut self, parts: usize, elapsed: f64) -> Result<Vec<Uint8Array>, JsError> {
         self.elapsed = seconds(elapsed)?;
-        let now = self.elapsed;
-        let Stage::Searching(search) = &mut self.stage else { return Err(thrown(NOT_SEARCHING)) };
-        if search.ended(now).is_some() {
-            return Ok(Vec::new());
-        }
-        let batch = search.ask(parts);
+        let batch = match &mut self.stage {
+            Stage::Racing(race) => race.ask(parts),
+            Stage::Searching(search) if search.ended(self.elapsed).is_none() => search.ask(parts),
+            Stage::Searching(_) => return Ok(Vec::new()),
+            _ => return Err(thrown(NOT_SEARCHING)),
+        };
         let size = batch.genomes.len().div_ceil(parts.max(1)).max(1);
         let pieces = batch.genomes.chunks(size);
         self.pieces = pieces.clone().map(<[_]>::len).collect();
@@ -125,35 +157,49 @@ impl Fit {
         if scores.length() as usize != self.pieces.len() {
             return Err(thrown("scores are missing"));
         }
-        let now = self.elapsed;
-        let Stage::Searching(search) = &mut self.stage else { return Err(thrown(NOT_SEARCHING)) };
-        let _ = search.tell(&all, now);
+        match &mut self.stage {
+            Stage::Racing(race) => race.tell(&all, self.elapsed),
+            Stage::Searching(search) => {
+                let _ = search.tell(&all, self.elapsed);
+            }
+            _ => return Err(thrown(NOT_SEARCHING)),
+        }
         Ok(())
     }
 
-    /// How far the search has come: JSON.
+    /// How far the leg or the search has come: JSON.
     pub fn progress(&self) -> Result<String, JsError> {
-        let search = self.search()?;
-        let score = search.best().map(|best| best.score).filter(|score| score.cost.is_finite());
+        let best = self.best()?;
+        let score = best.map(|best| best.score).filter(|score| score.cost.is_finite());
+        let (evaluations, generation, likeness, used, ended) = match &self.stage {
+            Stage::Racing(race) => {
+                (race.evaluations(), 0, score.and_then(|score| score.likeness), race.used(), None)
+            }
+            _ => {
+                let search = self.search()?;
+                let ended = search.ended(self.elapsed);
+                let (generation, used) = (search.history().len(), search.used(self.elapsed));
+                (search.evaluations(), generation, search.likeness(), used, ended)
+            }
+        };
         Ok(json!({
-            "evaluations": search.evaluations(),
-            "generation": search.history().len(),
+            "evaluations": evaluations,
+            "generation": generation,
             "cost": score.map(|score| score.cost),
             "iou": score.map(|score| score.iou),
-            "likeness": search.likeness(),
-            "used": search.used(self.elapsed),
-            "ended": search.ended(self.elapsed).map(|stop: StopReason| stop.to_string()),
+            "likeness": likeness,
+            "used": used,
+            "ended": ended.map(|stop: StopReason| stop.to_string()),
         })
         .to_string())
     }
 
     /// The best tree so far over the goal: one byte per pixel, 1 for tree; empty before there is one.
     pub fn best_silhouette(&self) -> Result<Vec<u8>, JsError> {
-        let search = self.search()?;
-        let Some(best) = search.best().filter(|best| best.score.cost.is_finite()) else {
+        let Some(best) = self.best()?.filter(|best| best.score.cost.is_finite()) else {
             return Ok(Vec::new());
         };
-        let drawing = self.drawing(search);
+        let drawing = self.drawing()?;
         let tree = drawing.grow(&drawing.species(&best.genome).map_err(thrown)?).map_err(thrown)?;
         let (silhouette, original) = drawing.silhouettes(&tree);
         Ok(ink(original.as_ref().unwrap_or(&silhouette)))
@@ -161,9 +207,8 @@ impl Fit {
 
     /// The species file of the best tree so far.
     pub fn best_toml(&self) -> Result<String, JsError> {
-        let search = self.search()?;
-        let best = search.best().ok_or_else(|| thrown("no tree has been tried yet"))?;
-        Ok(self.drawing(search).species(&best.genome).map_err(thrown)?.to_toml(&[]))
+        let best = self.best()?.ok_or_else(|| thrown("no tree has been tried yet"))?;
+        Ok(self.drawing()?.species(&best.genome).map_err(thrown)?.to_toml(&[]))
     }
 
     /// Ends the search, judges the result, searches the goal's own tree, and reports: JSON. `progress` is called with
@@ -197,6 +242,9 @@ impl Fit {
 const NOT_SEARCHING: &str =
     "there is no search: the first guess has to be made, and the fit not to have ended";
 
+const NOT_RACING: &str =
+    "there is no race: the goal has to be compared first, and the search not to have begun";
+
 impl Fit {
     fn search(&self) -> Result<&Stepwise, JsError> {
         match &self.stage {
@@ -205,10 +253,38 @@ impl Fit {
         }
     }
 
-    fn drawing(&self, search: &Stepwise) -> FitDrawing<'_> {
-        let prepared = search.prepared();
-        self.prepared.drawing(&prepared.problem, prepared.settings.limits)
+    /// The best individual of the leg or of the search.
+    fn best(&self) -> Result<Option<&Scored>, JsError> {
+        match &self.stage {
+            Stage::Racing(race) => Ok(race.best()),
+            _ => Ok(self.search()?.best()),
+        }
     }
+
+    /// Draws the trees of the leg or of the search.
+    fn drawing(&self) -> Result<FitDrawing<'_>, JsError> {
+        if let Stage::Racing(race) = &self.stage {
+            let leg = race.leg().ok_or_else(|| thrown(NOT_SEARCHING))?;
+            return Ok(self.prepared.drawing(leg.problem, leg.settings.limits));
+        }
+        let prepared = self.search()?.prepared();
+        Ok(self.prepared.drawing(&prepared.problem, prepared.settings.limits))
+    }
+}
+
+/// A search of the race between generators.
+#[wasm_bindgen(getter_with_clone)]
+pub struct Leg {
+    /// What `Evaluator`s of its individuals are made of.
+    pub recipe: Vec<u8>,
+    /// The family of the generator that is searched.
+    pub family: String,
+    /// The known species that its trees are nearest to.
+    pub species: String,
+    /// Its number in its round, from 1.
+    pub number: usize,
+    /// Searches of the round.
+    pub count: usize,
 }
 
 fn seconds(elapsed: f64) -> Result<Duration, JsError> {

@@ -3,7 +3,7 @@
 use crate::error::thrown;
 use glam::Vec3;
 use pleach::{LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Season, Tree, send};
-use pleach_mesh::block::{Block, Wind};
+use pleach_mesh::block::Block;
 use pleach_mesh::lod;
 use pleach_mesh::palette::linear;
 use serde_json::json;
@@ -60,7 +60,7 @@ impl MeshBuffers {
     }
 
     /// Four numbers per vertex: how far it sways (0 at the foot, 1 at the top), the phase of its stem in turns, how far
-    /// it flutters (leaves), and the level of its stem.
+    /// it flutters in metres (leaves), and the level of its stem, 0 to 2.
     #[must_use]
     pub fn wind(&self) -> Vec<f32> {
         self.wind.clone()
@@ -126,7 +126,7 @@ pub(crate) fn buffers(
             "first": buffers.indices.len(),
             "count": 3 * block.triangles.len(),
         }));
-        buffers.append(block, part.material, top);
+        buffers.append(block, top);
     }
     buffers.parts = json!(parts).to_string();
     Ok(buffers)
@@ -138,16 +138,15 @@ fn turned(v: Vec3) -> [f32; 3] {
 }
 
 impl MeshBuffers {
-    fn append(&mut self, block: &Block, material: Material, top: f32) {
+    fn append(&mut self, block: &Block, top: f32) {
         let first = self.vertices();
         for vertex in &block.vertices {
             self.positions.extend(turned(vertex.position));
             self.normals.extend(turned(vertex.normal));
         }
-        for (Wind { phase, level, place, .. }, vertex) in block.wind.iter().zip(&block.vertices) {
+        for (wind, vertex) in block.wind.iter().zip(&block.vertices) {
             let sway = (vertex.position.z / top).clamp(0.0, 1.0);
-            let flutter = if material == Material::Bark { 0.0 } else { *place };
-            self.wind.extend([sway * sway, *phase, flutter, *level]);
+            self.wind.extend([sway * sway, wind.phase, wind.flutter, wind.level]);
         }
         self.indices.extend(block.triangles.iter().flatten().map(|corner| first + corner));
     }

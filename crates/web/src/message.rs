@@ -2,8 +2,8 @@
 
 use crate::error::thrown;
 use pleach::{
-    Bitmap, FitOptions, FitProblem, FitSettings, Foliage, Frame, Genome, GoalView, Limits, Placement,
-    PreparedSearch, Score, Start,
+    Bitmap, FitOptions, FitProblem, FitSettings, Foliage, Frame, Genome, GoalView, Limits, Placement, Score,
+    Start,
 };
 use pleach::{Evaluator as Scorer, evaluator};
 use pleach_fit::{Evaluate as _, Size};
@@ -36,9 +36,12 @@ struct Piece {
     most: Size,
 }
 
-/// The bytes of the recipe of a fit to one picture.
-pub(crate) fn recipe(options: &FitOptions, prepared: &PreparedSearch) -> Result<Vec<u8>, JsError> {
-    let PreparedSearch { problem, settings, .. } = prepared;
+/// The bytes of the recipe of a search for one picture.
+pub(crate) fn recipe(
+    options: &FitOptions,
+    problem: &FitProblem,
+    settings: &FitSettings,
+) -> Result<Vec<u8>, JsError> {
     let [GoalView { goal, frame, registered, .. }] = problem.goals.as_slice() else {
         return Err(thrown("the page fits one picture, and there are several"));
     };

@@ -112,7 +112,8 @@ impl Tree {
         mesh::buffers(&tree, &palette, leaf_style(leaves)?, level)
     }
 
-    /// A mesh file, and the files that it names: pairs of a name and bytes, the mesh file first. `format` is a suffix
+    /// A mesh file, and the files that it names: pairs of a name and bytes, the mesh file first; and behind that list
+    /// what the user is to be told, empty for nothing. `format` is a suffix
     /// such as `glb`, `stem` the name without it, and `options` those of `pleach::Export` as JSON.
     pub fn export(&self, format: &str, stem: &str, options: &str) -> Result<Array, JsError> {
         let known = || {
@@ -125,7 +126,8 @@ impl Tree {
         let pair = |name: &str, bytes: &[u8]| Array::of2(&JsValue::from_str(name), &Uint8Array::from(bytes));
         let name = format!("{stem}.{}", format.suffix());
         let beside = file.beside.iter().map(|beside| pair(&beside.name, &beside.bytes));
-        Ok(std::iter::once(pair(&name, &file.bytes)).chain(beside).collect())
+        let files: Array = std::iter::once(pair(&name, &file.bytes)).chain(beside).collect();
+        Ok(Array::of2(&files, &JsValue::from_str(file.note.as_deref().unwrap_or_default())))
     }
 
     /// The shaded picture from a direction in degrees: four bytes per pixel, row by row.

@@ -26,6 +26,7 @@ export class Client {
   private worker: Worker | null = null;
   private waiting = new Map<number, Waiting>();
   private nextId = 1;
+  private cancels = 0;
 
   /** `what` names the worker in messages: "the map". */
   constructor(readonly what: string) {}
@@ -40,7 +41,10 @@ export class Client {
     progress?: (progress: Progress) => void,
     transfer: Transferable[] = [],
   ): Promise<Ops[K]["out"]> {
+    const { cancels } = this;
     const module = await wasmModule();
+    // Given up while the library was loading.
+    if (cancels !== this.cancels) throw new Cancelled();
     const worker = this.start(module);
     const id = this.nextId++;
     return new Promise<Ops[K]["out"]>((resolve, reject) => {
@@ -52,6 +56,7 @@ export class Client {
 
   /** Stops what runs at once. The next call starts a fresh worker, whose memory is small again. */
   cancel(): void {
+    this.cancels++;
     this.stop(new Cancelled());
   }
 

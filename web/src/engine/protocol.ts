@@ -34,6 +34,8 @@ export interface Slot {
   plausible: [number, number];
   scale: "linear" | "log" | "fine_near_zero" | "count";
   effect: "plain" | "size" | "size_jitter" | "layout";
+  /** What people call it, for the few numbers that are shown first, in this order. */
+  handle: { name: string; order: number } | null;
 }
 /** What is declared about a parameter, with the keys of `pleach params --json`. */
 export interface Parameter {
@@ -93,6 +95,13 @@ export interface MeshData {
   high: [number, number, number];
   stats: TreeStats;
 }
+/** What the cards of a material show. */
+export interface CardPicture {
+  material: string;
+  png: Uint8Array<ArrayBuffer>;
+  /** Places in it for the vertices of cards, in their order, to be repeated from the start. */
+  uv: Float32Array<ArrayBuffer>;
+}
 export interface Picture {
   size: number;
   rgba: Uint8Array<ArrayBuffer>;
@@ -121,6 +130,8 @@ export interface MaskHints {
 
 export interface GoalData {
   info: GoalInfo;
+  /** Pixels of the file; the goal has fewer if there are very many. */
+  full: { width: number; height: number };
   ink: Uint8Array<ArrayBuffer>;
   photo: Uint8Array<ArrayBuffer>;
 }
@@ -169,6 +180,7 @@ export interface Card {
 /** Options of a fit: keys and words of the library's `FitOptions`. What is left out has its default. */
 export interface FitOptions {
   height?: number;
+  /** One family, "trees" for those of natural trees, or "auto" for all; without it the library chooses by the picture. */
   generator?: string;
   /** Seconds for the whole fit. */
   timeout?: number;
@@ -187,6 +199,17 @@ export interface Guess {
   looks_like: LooksLike[];
   leaves: boolean;
   species: string;
+}
+/** A short search of one generator: several of them, of one family or of more, race for a goal. */
+export interface Leg {
+  recipe: Uint8Array<ArrayBuffer>;
+  /** Of the generator. */
+  family: string;
+  /** The known species that its trees are nearest to. */
+  species: string;
+  /** Its number in its round, from 1. */
+  number: number;
+  count: number;
 }
 export interface FitProgress {
   evaluations: number;
@@ -227,7 +250,17 @@ export interface FitReport extends Card {
   references: References | null;
   /** In what the tree differs from the goal, the largest difference first. */
   readings: { differences: { measure: string; size: number; words: string }[] };
-  parameters: { slot: string; value: number; seen: Seen }[];
+  parameters: FittedParameter[];
+  /** The trees that the intervals of the parameters are learnt from; null where nothing is known of such trees. */
+  intervals: { species: string; is_familiar: boolean } | null;
+}
+/** A number of a fitted species, and what its picture says of it. */
+export interface FittedParameter {
+  slot: string;
+  value: number;
+  seen: Seen;
+  /** Nine in ten trees whose pictures look like the goal have the number in it. */
+  interval: { low: number; high: number } | null;
 }
 export interface FitResult {
   report: FitReport;
@@ -266,6 +299,11 @@ interface At {
 export type MeshFormat = "glb" | "obj" | "ply" | "stl" | "usda";
 /** Options of a mesh file: keys and words of the library's `Export`. What is left out has its default. */
 export interface ExportOptions {
+  finest?: boolean;
+  /** So many levels of fixed coarseness. */
+  lod?: number;
+  /** Only this one, counted from 0. */
+  level?: number;
   triangles?: readonly number[];
   billboard?: number;
   textures?: number;
@@ -290,14 +328,18 @@ export interface Ops {
     out: Ink & { stats: TreeStats };
   };
   mesh: { in: { spec: Spec; seed: number; season: string; leaves: string; level: number }; out: MeshData };
+  cardPictures: { in: { spec: Spec; seed: number; season: string }; out: CardPicture[] };
   picture: {
     in: { spec: Spec; seed: number; season: string; size: number; azimuth: number; elevation: number };
     out: Picture;
   };
-  /** The mesh file first, then the files that it names. `stem` is its name without the suffix. */
+  /**
+   * The mesh file first, then the files that it names, and what the user is to be told, if anything. `stem` is the
+   * file's name without the suffix.
+   */
   export: {
     in: { spec: Spec; seed: number; format: MeshFormat; stem: string; options: ExportOptions };
-    out: NamedFile[];
+    out: { files: NamedFile[]; note: string };
   };
   goalRead: {
     in: { name: string; bytes: Uint8Array; mask: MaskWay; hints: MaskHints };
@@ -313,8 +355,11 @@ export interface Ops {
   mapTree: { in: At & { size: number; detail: "bare" | "coarse" | "full" }; out: Ink };
   mapAbout: { in: At; out: PointAbout };
   mapToml: { in: At & { name: string }; out: string };
-  fitGuess: { in: { goal: GoalPixels; options: FitOptions; drawings: Uint8Array | null }; out: Guess };
-  fitRecipe: { in: null; out: Uint8Array<ArrayBuffer> };
+  fitCompare: { in: { goal: GoalPixels; options: FitOptions; drawings: Uint8Array | null }; out: null };
+  /** The next search of the race between generators; null once it is over, and where there is none. */
+  fitLeg: { in: null; out: Leg | null };
+  /** Ends the race. The recipe is that of the search. */
+  fitBegin: { in: null; out: { guess: Guess; recipe: Uint8Array<ArrayBuffer> } };
   fitStep: {
     in: { scores: Uint8Array[] | null; parts: number; elapsed: number; best: boolean };
     out: FitStep;

@@ -9,13 +9,20 @@ import type {
   FoundTrees,
   GoalPixels,
   Guess,
+  Leg,
+  Op,
+  Ops,
   Progress,
 } from "./protocol";
 
 export interface FitEvents {
   stage(progress: Progress): void;
+  /** Trees of the goal are searched from now on: first of several generators in turn, where there are several. */
+  began(): void;
+  /** A generator is tried. */
+  tries(leg: Leg): void;
   guessed(guess: Guess): void;
-  /** Seconds of search so far, without pauses. `best` comes a few times a second. */
+  /** Seconds of this search so far, without pauses. `best` comes a few times a second. */
   step(progress: FitProgress, elapsed: number, best: FitStep["best"]): void;
 }
 
@@ -39,11 +46,16 @@ export class FitSession {
   private elapsed = 0;
   private since: number | null = null;
   private stopping = false;
+  /** Cancelled or done: whatever still comes back is of no use. */
+  private over = false;
+  private leave: () => void = () => {};
   private goOn: (() => void) | null = null;
   private paused: Promise<void> | null = null;
 
   constructor(
     private readonly goal: GoalPixels,
+    /** Reads the colours of its picture. */
+    private readonly colors: () => Promise<string | null>,
     private readonly options: FitOptions,
     private readonly events: FitEvents,
   ) {}
@@ -51,20 +63,19 @@ export class FitSession {
   async run(): Promise<FoundTrees & { result: FitResult }> {
     try {
       this.events.stage({ stage: "Loading what is known" });
-      const known = await knownDrawings();
-      const goal = { ...this.goal, ink: this.goal.ink.slice() };
-      const guess = await this.coordinator.call(
-        "fitGuess",
-        { goal, options: this.options, drawings: known },
-        (progress) => this.events.stage(progress),
-      );
+      const stage = (progress: Progress) => this.events.stage(progress);
+      const [colors, known] = await this.unlessCancelled(Promise.all([this.colors(), knownDrawings()]));
+      const goal = { ...this.goal, colors, ink: this.goal.ink.slice() };
+      const input = { goal, options: this.options, drawings: known };
+      await this.ask(this.coordinator, "fitCompare", input, stage);
+      this.events.began();
+      await this.race();
+      const { guess, recipe } = await this.ask(this.coordinator, "fitBegin", null);
       this.events.guessed(guess);
-      const recipe = await this.coordinator.call("fitRecipe", null);
-      this.recipe = recipe;
-      await Promise.all(this.evaluators.map((each) => each.call("evaluator", recipe)));
-      await this.search();
+      // A search that was stopped before it began has a tree all the same.
+      await this.search(recipe, 1);
       for (const each of this.evaluators) each.cancel();
-      return await this.coordinator.call("fitFinish", null, (progress) => this.events.stage(progress));
+      return await this.ask(this.coordinator, "fitFinish", null, stage);
     } finally {
       this.end();
     }
@@ -92,11 +103,39 @@ export class FitSession {
   /** Gives all up at once. */
   cancel(): void {
     this.stopping = true;
-    this.resume();
     this.end();
+    this.resume();
+    this.leave();
+  }
+
+  /** Ends at once what has no worker that could be stopped: files that are loaded, colours that are read. */
+  private unlessCancelled<T>(work: Promise<T>): Promise<T> {
+    return new Promise((resolve, reject) => {
+      this.leave = () => reject(new Cancelled());
+      if (this.over) this.leave();
+      work.then(resolve, reject);
+    });
+  }
+
+  /** A call that starts no worker once all is over, and whose answer does not come after that. */
+  private async ask<K extends Op>(
+    client: Client,
+    op: K,
+    input: Ops[K]["in"],
+    progress?: (progress: Progress) => void,
+  ): Promise<Ops[K]["out"]> {
+    this.check();
+    const answer = await client.call(op, input, progress);
+    this.check();
+    return answer;
+  }
+
+  private check(): void {
+    if (this.over) throw new Cancelled();
   }
 
   private end(): void {
+    this.over = true;
     this.coordinator.cancel();
     for (const each of this.evaluators) each.cancel();
   }
@@ -110,28 +149,49 @@ export class FitSession {
     this.since = null;
   }
 
-  private async search(): Promise<void> {
+  /** Searches one generator after the other for a short while; the library keeps the one that suits the goal best. */
+  private async race(): Promise<void> {
+    while (!this.stopping) {
+      const leg = await this.ask(this.coordinator, "fitLeg", null);
+      if (!leg) break;
+      this.events.tries(leg);
+      await this.search(leg.recipe, 0);
+    }
+  }
+
+  /**
+   * Has trees scored by evaluators of `recipe` until the leg or the search is over, or the user stops it after `least`
+   * batches.
+   */
+  private async search(recipe: Uint8Array, least: number): Promise<void> {
+    this.recipe = recipe;
+    this.elapsed = 0;
+    await Promise.all(this.evaluators.map((each) => this.ask(each, "evaluator", recipe)));
     const parts = this.evaluators.length;
     let scores: Uint8Array[] | null = null;
+    let told = 0;
+    const stops = () => this.stopping && told >= least;
     let drawn = Number.NEGATIVE_INFINITY;
     this.since = performance.now();
     for (;;) {
       if (this.paused) {
         this.holdClock();
         await this.paused;
+        this.check();
         this.since = performance.now();
       }
-      if (this.stopping && scores === null) break;
+      if (stops() && scores === null) break;
       const best = performance.now() - drawn > BEST_EVERY;
       if (best) drawn = performance.now();
-      const step: FitStep = await this.coordinator.call("fitStep", {
+      const step: FitStep = await this.ask(this.coordinator, "fitStep", {
         scores,
         parts,
         elapsed: this.clock(),
         best,
       });
+      if (scores) told += 1;
       this.events.step(step.progress, this.clock(), step.best);
-      if (step.pieces.length === 0 || this.stopping) break;
+      if (step.pieces.length === 0 || stops()) break;
       scores = await Promise.all(step.pieces.map((piece, at) => this.evaluate(at, piece)));
     }
     this.holdClock();
@@ -142,11 +202,11 @@ export class FitSession {
     const client = this.evaluators[at % this.evaluators.length];
     if (!client || !this.recipe) throw new Cancelled();
     try {
-      return await client.call("evaluate", piece);
+      return await this.ask(client, "evaluate", piece);
     } catch (error) {
       if (error instanceof Cancelled) throw error;
-      await client.call("evaluator", this.recipe);
-      return client.call("evaluate", piece);
+      await this.ask(client, "evaluator", this.recipe);
+      return this.ask(client, "evaluate", piece);
     }
   }
 }

@@ -16,20 +16,31 @@ function running(): Fit {
 }
 
 export const fitHandlers: Handlers<
-  "fitGuess" | "fitRecipe" | "fitStep" | "fitFinish" | "evaluator" | "evaluate"
+  "fitCompare" | "fitLeg" | "fitBegin" | "fitStep" | "fitFinish" | "evaluator" | "evaluate"
 > = {
-  fitGuess({ goal, options, drawings }, report) {
+  fitCompare({ goal, options, drawings }, report) {
     const made = makeGoal(goal);
     fit?.free();
     fit = new Fit(made, JSON.stringify(options));
     if (drawings) fit.use_drawings(drawings);
-    const found = fit.guess((done: number, all: number) =>
-      report({ stage: "Comparing with known species", done, all }),
-    );
-    return JSON.parse(found) as Guess;
+    fit.compare((done: number, all: number) => report({ stage: "Comparing with known species", done, all }));
+    return null;
   },
 
-  fitRecipe: () => running().recipe().slice(),
+  fitLeg() {
+    const leg = running().next_leg();
+    if (!leg) return null;
+    const { family, species, number, count } = leg;
+    const recipe = leg.recipe.slice();
+    leg.free();
+    return { recipe, family, species, number, count };
+  },
+
+  fitBegin() {
+    const search = running();
+    const guess = JSON.parse(search.begin()) as Guess;
+    return { guess, recipe: search.recipe().slice() };
+  },
 
   fitStep({ scores, parts, elapsed, best }) {
     const search = running();

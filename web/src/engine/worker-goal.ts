@@ -1,6 +1,7 @@
 // Goals: reading pictures, and checking a mask that was painted.
 import { Goal } from "../wasm/pleach_web.js";
-import type { GoalInfo, GoalPixels, Look } from "./protocol";
+import type { GoalData, GoalInfo, GoalPixels, Look } from "./protocol";
+import { decoded, smallerInk, smallerPhoto, within } from "./smaller";
 import type { Handlers } from "./worker";
 
 const info = (goal: Goal) => JSON.parse(goal.info()) as GoalInfo;
@@ -15,12 +16,31 @@ export function makeGoal(pixels: GoalPixels): Goal {
   return lined;
 }
 
+/**
+ * Longest side of a goal in pixels. A fit looks at far fewer; the page paints and keeps this many. The mask of a larger
+ * photograph is found at its own size.
+ */
+const LONGEST = 1280;
+
+async function smaller({ info: whole, ink, photo, full }: GoalData, bytes: Uint8Array): Promise<GoalData> {
+  const size = within(full, LONGEST);
+  const less = smallerInk(ink, full, size);
+  const shown = photo.length > 0 ? smallerPhoto(photo, full, size) : await decoded(bytes, full, size);
+  const goal = Goal.from_pixels(whole.name, size.width, size.height, less);
+  const { masked, confidence, warnings } = whole;
+  const out = { ...info(goal), masked, confidence, warnings };
+  goal.free();
+  return { info: out, ink: less, photo: shown ?? new Uint8Array(0), full };
+}
+
 export const goalHandlers: Handlers<"goalRead" | "goalCheck" | "goalLook"> = {
-  goalRead({ name, bytes, mask, hints }) {
+  async goalRead({ name, bytes, mask, hints }) {
     const goal = Goal.read(name, bytes, mask, JSON.stringify(hints));
-    const out = { info: info(goal), ink: goal.pixels().slice(), photo: goal.photo().slice() };
+    const found = { info: info(goal), ink: goal.pixels().slice(), photo: goal.photo().slice() };
     goal.free();
-    return out;
+    const { width, height } = found.info;
+    const full = { width, height };
+    return Math.max(width, height) > LONGEST ? smaller({ ...found, full }, bytes) : { ...found, full };
   },
 
   goalCheck(pixels) {

@@ -1,9 +1,12 @@
 // Species and trees: opening, changing, growing, drawing, exporting.
 import { catalogue, Species, type Tree, version } from "../wasm/pleach_web.js";
 import { Cache } from "./cache";
+import { cardPictures, smallFile } from "./card-pictures";
 import type {
+  ExportOptions,
   Family,
   MeshData,
+  MeshFormat,
   MeshPart,
   OpenedSpecies,
   Parameter,
@@ -61,8 +64,29 @@ function bounds(positions: Float32Array): Pick<MeshData, "low" | "high"> {
   return { low, high };
 }
 
+/** The files with their names, and what the user is to be told. */
+function write(
+  spec: Spec,
+  seed: number,
+  format: MeshFormat,
+  stem: string,
+  options: ExportOptions,
+): [[string, Uint8Array<ArrayBuffer>][], string] {
+  const written: unknown = grow(spec, seed).export(format, stem, JSON.stringify(options));
+  return written as [[string, Uint8Array<ArrayBuffer>][], string];
+}
+
 export const speciesHandlers: Handlers<
-  "catalogue" | "open" | "active" | "dice" | "toml" | "silhouette" | "mesh" | "picture" | "export"
+  | "catalogue"
+  | "open"
+  | "active"
+  | "dice"
+  | "toml"
+  | "silhouette"
+  | "mesh"
+  | "cardPictures"
+  | "picture"
+  | "export"
 > = {
   catalogue: () => ({ version: version(), families: JSON.parse(catalogue()) as Family[] }),
 
@@ -130,8 +154,13 @@ export const speciesHandlers: Handlers<
     return { size, rgba: tree.picture(size, season, azimuth, elevation).slice(), stats: stats(tree) };
   },
 
+  cardPictures({ spec, seed, season }) {
+    const [[file]] = write(spec, seed, "glb", "cards", smallFile(season));
+    return file ? cardPictures(file[1]) : [];
+  },
+
   export({ spec, seed, format, stem, options }) {
-    const files = grow(spec, seed).export(format, stem, JSON.stringify(options));
-    return (files as [string, Uint8Array<ArrayBuffer>][]).map(([name, bytes]) => ({ name, bytes }));
+    const [files, note] = write(spec, seed, format, stem, options);
+    return { files: files.map(([name, bytes]) => ({ name, bytes })), note };
   },
 };

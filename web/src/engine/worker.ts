@@ -8,7 +8,10 @@ import { mapHandlers } from "./worker-map";
 import { speciesHandlers } from "./worker-species";
 
 export type Handlers<K extends Op> = {
-  [Name in K]: (input: Ops[Name]["in"], report: (progress: Progress) => void) => Ops[Name]["out"];
+  [Name in K]: (
+    input: Ops[Name]["in"],
+    report: (progress: Progress) => void,
+  ) => Ops[Name]["out"] | Promise<Ops[Name]["out"]>;
 };
 
 const handlers: Handlers<Op> = { ...speciesHandlers, ...goalHandlers, ...mapHandlers, ...fitHandlers };
@@ -36,7 +39,7 @@ async function answer<K extends Op>(id: number, op: K, input: Ops[K]["in"]): Pro
   try {
     await ready;
     const begun = performance.now();
-    const value = handlers[op](input, (progress) => send({ kind: "progress", id, progress }));
+    const value = await handlers[op](input, (progress) => send({ kind: "progress", id, progress }));
     const ms = performance.now() - begun;
     send({ kind: "done", id, value, ms }, [...new Set(buffers(value))]);
   } catch (error) {

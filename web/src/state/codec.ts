@@ -2,7 +2,9 @@
 
 export function toBase64Url(bytes: Uint8Array): string {
   let text = "";
-  for (const byte of bytes) text += String.fromCharCode(byte);
+  for (let at = 0; at < bytes.length; at += 4096) {
+    text += String.fromCharCode(...bytes.subarray(at, at + 4096));
+  }
   return btoa(text).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
@@ -33,12 +35,13 @@ export const unpackText = async (text: string) => new TextDecoder().decode(await
 /** Eight pixels per byte: a mask of 0 and 1 shrinks before it is deflated. */
 export function packBits(ink: Uint8Array): Uint8Array {
   const bits = new Uint8Array(Math.ceil(ink.length / 8));
-  ink.forEach((pixel, at) => {
-    if (pixel) bits[at >> 3] = (bits[at >> 3] ?? 0) | (1 << (at & 7));
-  });
+  // A plain loop: masks have more than a million pixels, and are packed while one paints.
+  for (let at = 0; at < ink.length; at++) if (ink[at]) bits[at >> 3] = (bits[at >> 3] ?? 0) | (1 << (at & 7));
   return bits;
 }
 
 export function unpackBits(bits: Uint8Array, length: number): Uint8Array<ArrayBuffer> {
-  return Uint8Array.from({ length }, (_, at) => ((bits[at >> 3] ?? 0) >> (at & 7)) & 1);
+  const ink = new Uint8Array(length);
+  for (let at = 0; at < length; at++) ink[at] = ((bits[at >> 3] ?? 0) >> (at & 7)) & 1;
+  return ink;
 }

@@ -1,7 +1,7 @@
 // "My species": species files that the user keeps, in this browser only.
-import { signal } from "@preact/signals";
 import { say } from "./notes";
-import { load, save } from "./store";
+import { fields, text } from "./shape";
+import { newId, StoredList } from "./stored-list";
 
 export interface Kept {
   id: string;
@@ -9,16 +9,15 @@ export interface Kept {
   toml: string;
 }
 
-export const mySpecies = signal<readonly Kept[]>(load<Kept[]>("species", []));
-
-function store(list: readonly Kept[]): boolean {
-  mySpecies.value = list;
-  return save("species", list);
-}
+export const mySpecies = new StoredList<Kept>({
+  key: "species",
+  version: 1,
+  field: "species",
+  is: fields({ id: text, name: text, toml: text }),
+});
 
 export function keepSpecies(name: string, toml: string): void {
-  const id = `${Date.now().toString(36)}${Math.floor(Math.random() * 1296).toString(36)}`;
-  const kept = store([{ id, name, toml }, ...mySpecies.peek()]);
+  const kept = mySpecies.update((list) => [{ id: newId(), name, toml }, ...list]);
   say(
     kept
       ? `${name} is kept in my species, in the gallery.`
@@ -27,5 +26,5 @@ export function keepSpecies(name: string, toml: string): void {
 }
 
 export function dropSpecies(id: string): void {
-  store(mySpecies.peek().filter((kept) => kept.id !== id));
+  mySpecies.update((list) => list.filter((kept) => kept.id !== id));
 }

@@ -6,6 +6,13 @@ export interface Note {
   id: number;
   kind: "info" | "error";
   text: string;
+  action: Action | null;
+}
+
+/** A button of a note, which goes once it is pressed. */
+export interface Action {
+  label: string;
+  run: () => void;
 }
 
 export const notes = signal<readonly Note[]>([]);
@@ -14,11 +21,25 @@ export const announced = signal("");
 
 let nextId = 1;
 
+/** Long enough to read a note, and to decide about one with a button, in milliseconds. */
+const SHORT = 5000;
+const LONG = 15_000;
+
+function add(text: string, kind: Note["kind"], action: Action | null, time: number | null): void {
+  const others = notes.peek().filter((note) => note.text !== text);
+  const note = { id: nextId++, kind, text, action };
+  notes.value = [...others.slice(-2), note];
+  if (time !== null) setTimeout(() => dismiss(note.id), time);
+}
+
 export function say(text: string, kind: Note["kind"] = "info"): void {
   if (notes.peek().some((note) => note.text === text)) return;
-  const note = { id: nextId++, kind, text };
-  notes.value = [...notes.peek().slice(-2), note];
-  if (kind === "info") setTimeout(() => dismiss(note.id), 5000);
+  add(text, kind, null, kind === "info" ? SHORT : null);
+}
+
+/** A note with a button. One that `stays` is there until it is pressed or closed. */
+export function offer(text: string, action: Action, stays = false): void {
+  add(text, "info", action, stays ? null : LONG);
 }
 
 export function dismiss(id: number): void {

@@ -1,6 +1,7 @@
 // Which room is open, and the link that keeps everything.
 import { effect, signal } from "@preact/signals";
 import { sayError } from "./notes";
+import { text } from "./shape";
 import { debounce, load, save } from "./store";
 
 export const ROOMS = ["fit", "map", "species", "gallery"] as const;
@@ -61,7 +62,8 @@ async function read(hash: string): Promise<void> {
 export const restored = signal(false);
 
 export async function startRouting(): Promise<void> {
-  const hash = location.hash.length > 1 ? location.hash : load("link", "");
+  const last = load("link");
+  const hash = location.hash.length > 1 || !text(last) ? location.hash : last;
   await read(hash).catch(sayError);
   restored.value = true;
   addEventListener("popstate", () => {

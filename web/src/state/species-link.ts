@@ -46,6 +46,25 @@ async function applied(source: SpeciesSource, text: string): Promise<readonly nu
   return values;
 }
 
+/** The hash that opens a species in the species room, in this season; "" is its own. */
+export async function linkTo(source: SpeciesSource, season: string): Promise<string> {
+  const fields = new URLSearchParams();
+  await writeSource(fields, source);
+  const { info } = await openSource(source);
+  if (info.tree_seed !== null && info.tree_seed !== 1) fields.set("seed", String(info.tree_seed));
+  if (season) fields.set("season", season);
+  return `#species?${fields}`;
+}
+
+async function writeSource(fields: URLSearchParams, source: SpeciesSource): Promise<void> {
+  if ("builtin" in source) {
+    fields.set("s", source.builtin);
+    return;
+  }
+  fields.set("n", source.name);
+  fields.set("t", await pack(source.toml));
+}
+
 export const speciesLink: Linked = {
   async write(fields) {
     const recipe = recipes.value;

@@ -2,12 +2,12 @@
 
 const PREFIX = "pleach-studio.";
 
-export function load<T>(key: string, otherwise: T): T {
+/** Undefined where nothing is stored, or no JSON. The caller checks the shape: an older page may have written it. */
+export function load(key: string): unknown {
   try {
-    const text = localStorage.getItem(PREFIX + key);
-    return text === null ? otherwise : (JSON.parse(text) as T);
+    return JSON.parse(localStorage.getItem(PREFIX + key) ?? "");
   } catch {
-    return otherwise;
+    return undefined;
   }
 }
 
@@ -20,6 +20,24 @@ export function save(key: string, value: unknown): boolean {
   } catch {
     return false;
   }
+}
+
+/** What is stored under keys that begin so. */
+export function keysFrom(start: string): string[] {
+  try {
+    const all = Object.keys(localStorage).filter((key) => key.startsWith(PREFIX + start));
+    return all.map((key) => key.slice(PREFIX.length));
+  } catch {
+    return [];
+  }
+}
+
+/** Calls `changed` when another tab has stored something under this key. */
+export function onStored(key: string, changed: () => void): void {
+  window.addEventListener("storage", (event) => {
+    // Without a key, all was cleared.
+    if (event.key === PREFIX + key || event.key === null) changed();
+  });
 }
 
 /** The same call, at most once per `wait` milliseconds, the last one always. */

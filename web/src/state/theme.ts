@@ -1,10 +1,13 @@
 import { effect, signal } from "@preact/signals";
+import { oneOf, type Shape } from "./shape";
 import { load, save } from "./store";
 
 export type Theme = "light" | "dark";
 
 const system = matchMedia("(prefers-color-scheme: dark)");
-const chosen = signal<Theme | null>(load<Theme | null>("theme", null));
+const isTheme: Shape<Theme> = oneOf("light", "dark");
+const stored = load("theme");
+const chosen = signal<Theme | null>(isTheme(stored) ? stored : null);
 const systemTheme = signal<Theme>(system.matches ? "dark" : "light");
 system.addEventListener("change", (event) => {
   systemTheme.value = event.matches ? "dark" : "light";

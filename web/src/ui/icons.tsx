@@ -24,6 +24,7 @@ const PATHS = {
   stop: "M5 5h10v10H5z",
   download: "M10 3v9M6 8.500L10 12.500l4-4M4 16.500h12",
   keep: "M6 3h8v14l-4-3-4 3z",
+  copy: "M7 7h10v10H7zM13 7V3H3v10h4",
   edit: "M4 16l.8-3.500L13 4.300l2.700 2.700-8.200 8.200z",
   upload: "M10 13V4M6 7.500L10 3.500l4 4M4 16.500h12",
   brush:

@@ -19,7 +19,7 @@ const EXAMPLES: &str = "Examples:
 The exam has 60 goals around the species of Hewitt's dissertation, whose numbers no library has, and ten trees of other \
 programs. Every row of the leaderboard is a way to find a tree for a picture, with a budget of 100 or 1,000 trees, or of \
 5 or 60 seconds; these are on trees of other programs and on photographs only. Rows that are bounded by trees are the \
-same on every machine and any number of threads, but for the last bits of cma.
+same on every machine and any number of threads.
 
 A table of answers has the columns goal, species (a file from the table's folder, or a known name) and seed, or goal and \
 picture (a silhouette of the goal's size), and, if wanted, budget and seconds. docs/bench.md says what is measured.";

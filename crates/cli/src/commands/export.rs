@@ -2,9 +2,9 @@
 
 use super::format::Format;
 use crate::choice::{Choice, one_of};
-use crate::files;
+use crate::{files, output};
 use anyhow::{Context, bail};
-use pleach::{Export, Forest, LeafForm, MeshFormat};
+use pleach::{Compression, Export, Forest, LeafForm, MeshFormat, Written};
 use pleach_mesh::lod;
 use pleach_mesh::weld::WeldSettings;
 use pleach_mesh::write::glb::level_name;
@@ -33,11 +33,21 @@ const LEAVES: &[Choice<LeafForm>] = &[
     (LeafForm::None.name(), "No leaves and no blossom", LeafForm::None),
 ];
 
+const COMPRESSIONS: &[Choice<Compression>] = &[(
+    Compression::Quantize.name(),
+    "Positions and texture coordinates of 16 bits, normals of 8 (KHR_mesh_quantization)",
+    Compression::Quantize,
+)];
+
 /// Options of mesh files.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Meshes (.glb, .obj, .ply, .stl, .usda)")]
 pub(crate) struct MeshArgs {
-    /// Levels of detail in a .glb, the finest included [default: 1]
+    /// Every leaf and twig, in however many triangles, where a .glb would otherwise have 50,000 at most and pictures of
+    /// bark and leaves. Other formats are so by themselves
+    #[arg(long, conflicts_with = "triangles")]
+    pub(super) finest: bool,
+    /// Levels of detail of fixed coarseness in a .glb, every leaf and twig the finest
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(lod::MAX_LEVELS)))]
     pub(super) lod: Option<u32>,
     /// Levels of detail of so many triangles each, such as 30000,8000,2000: one or, in a .glb, up to 6. Where leaves
@@ -65,16 +75,19 @@ pub(crate) struct MeshArgs {
     /// A last level of detail: N crossing cards that show the tree, 1 to 8, in a .glb
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(billboard::MAX_SIDES)))]
     pub(super) billboard: Option<u32>,
-    /// How far bark may stray from its true surface, in millimetres [default: 2]
+    /// How far bark may stray from its true surface, in millimetres [default: 2, or as --triangles allow]
     #[arg(long, value_name = "MM", value_parser = tolerance)]
     pub(super) tolerance: Option<f64>,
-    /// How leaves are drawn [default: outline]
+    /// How leaves are drawn [default: outline, or as --triangles allow]
     #[arg(long, value_parser = one_of(LEAVES), value_name = "HOW", conflicts_with = "no_leaves")]
     pub(super) leaves: Option<LeafForm>,
-    /// Pictures of the bark of so many pixels a side: colour, normals, roughness and occlusion, in the file or beside
-    /// it (.glb, .obj, .usda)
-    #[arg(long, value_name = "512|1024|2048", value_parser = textures, conflicts_with = "weld")]
+    /// Pictures of bark and leaves of so many pixels a side: colour and normals, of bark also roughness and occlusion, in
+    /// the file or beside it (.glb, .obj, .usda) [default: 1024 in a .glb]
+    #[arg(long, value_name = "512|1024|2048|none", value_parser = textures, conflicts_with = "weld")]
     pub(super) textures: Option<u32>,
+    /// Make the file smaller (.glb); gltfpack makes it smaller still, for pages
+    #[arg(long, value_parser = one_of(COMPRESSIONS), value_name = "HOW", conflicts_with_all = ["wind", "sway"])]
+    pub(super) compress: Option<Compression>,
     /// Season; by default the species file's own, or summer with all its blossom
     #[arg(long, value_parser = one_of(SEASONS))]
     pub(super) season: Option<Season>,
@@ -120,8 +133,8 @@ fn cell(text: &str) -> Result<f64, String> {
 
 fn textures(text: &str) -> Result<u32, String> {
     let sides = bark_picture::SIDES;
-    let side = text.parse().ok().filter(|side| sides.contains(side));
-    side.ok_or_else(|| format!("pixels: {}", sides.map(|side| side.to_string()).join(", ")))
+    let side = if text == "none" { Some(0) } else { text.parse().ok().filter(|side| sides.contains(side)) };
+    side.ok_or_else(|| format!("pixels: {}, or none", sides.map(|side| side.to_string()).join(", ")))
 }
 
 fn fillet(text: &str) -> Result<f64, String> {
@@ -156,17 +169,19 @@ impl MeshArgs {
     pub(super) fn export(&self) -> Export {
         let usual = Export::default();
         Export {
-            lod: self.lod.unwrap_or(usual.lod),
+            finest: self.finest,
+            lod: self.lod,
             triangles: self.triangles.clone(),
             level: None,
             lod_extension: self.lod_extension,
             billboard: self.billboard.unwrap_or(usual.billboard),
-            tolerance: self.tolerance.unwrap_or(usual.tolerance),
+            tolerance: self.tolerance,
             weld: self.weld,
             fillet: self.fillet.unwrap_or(usual.fillet),
             roots: self.roots,
-            leaves: self.leaves.unwrap_or(usual.leaves),
+            leaves: self.leaves,
             textures: self.textures,
+            compress: self.compress,
             season: self.season,
             wind: self.wind,
             sway: self.sway,
@@ -181,7 +196,7 @@ impl MeshArgs {
         };
         let option = if self.leaves == Some(LeafForm::Cards) {
             "--leaves cards"
-        } else if self.textures.is_some() {
+        } else if self.textures.is_some_and(|side| side > 0) {
             "--textures"
         } else if !self.triangles.is_empty() {
             "--triangles"
@@ -235,12 +250,13 @@ impl MeshArgs {
         let (width, depth) = self.forest.context("no forest was asked for")?;
         let (spacing, variants, separate) = (self.spacing, self.variants, self.separate);
         let forest = Forest { width, depth, spacing, variants, separate };
-        let mut trees = 0;
+        let mut written = Written::default();
         files::write_out(path, |out| {
-            trees = self.export().write_forest(&forest, species, seed, grow, out)?;
+            written = self.export().write_forest(&forest, species, seed, grow, out)?;
             Ok(())
         })?;
-        Ok(trees)
+        written.note.iter().for_each(output::note);
+        Ok(written.trees)
     }
 }
 
@@ -255,12 +271,13 @@ fn write_one(
 ) -> anyhow::Result<()> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let stem = (!files::is_stdout(path)).then_some(&*stem);
-    let mut beside = Vec::new();
+    let mut written = Written::default();
     files::write_out(path, |out| {
-        beside = export.write(format, species, seed, tree, stem, out)?;
+        written = export.write(format, species, seed, tree, stem, out)?;
         Ok(())
     })?;
-    for file in beside {
+    written.note.iter().for_each(output::note);
+    for file in written.beside {
         files::write_whole(&path.with_file_name(&file.name), |out| Ok(out.write_all(&file.bytes)?))?;
     }
     Ok(())

@@ -3,7 +3,7 @@
 use anyhow::bail;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
-use pleach::MeshFormat;
+use pleach::{MeshFormat, SkeletonFormat};
 use std::path::Path;
 
 /// A kind of file.
@@ -13,6 +13,8 @@ pub(crate) enum Format {
     Json,
     /// A flat drawing.
     Png,
+    /// The axes of stems with radii.
+    Skeleton(SkeletonFormat),
     /// Triangles.
     Mesh(MeshFormat),
 }
@@ -26,6 +28,11 @@ impl ValueEnum for Format {
         let help = match self {
             Self::Json => "The skeleton: stems, leaves and blossoms",
             Self::Png => "A flat drawing",
+            Self::Skeleton(SkeletonFormat::Swc) => {
+                "The axes of stems with radii, for programs of neuroscience"
+            }
+            Self::Skeleton(SkeletonFormat::Csv) => "A table of cylinders, as of TreeQSM",
+            Self::Skeleton(SkeletonFormat::Mtg) => "A multiscale tree graph, as of OpenAlea",
             Self::Mesh(MeshFormat::Glb) => "Binary glTF",
             Self::Mesh(MeshFormat::Obj) => "Wavefront, with a .mtl file beside it",
             Self::Mesh(MeshFormat::Ply) => "Binary, with colours",
@@ -38,12 +45,17 @@ impl ValueEnum for Format {
 
 impl Format {
     /// Every format, in the order of the table.
-    pub(crate) const ALL: [Self; 2 + MeshFormat::ALL.len()] = {
-        let mut all = [Self::Json; 2 + MeshFormat::ALL.len()];
+    pub(crate) const ALL: [Self; 2 + SkeletonFormat::ALL.len() + MeshFormat::ALL.len()] = {
+        const SKELETONS: usize = SkeletonFormat::ALL.len();
+        let mut all = [Self::Json; 2 + SKELETONS + MeshFormat::ALL.len()];
         all[1] = Self::Png;
-        let mut i = 0;
-        while i < MeshFormat::ALL.len() {
-            all[2 + i] = Self::Mesh(MeshFormat::ALL[i]);
+        let mut i = 2;
+        while i < all.len() {
+            all[i] = if i < 2 + SKELETONS {
+                Self::Skeleton(SkeletonFormat::ALL[i - 2])
+            } else {
+                Self::Mesh(MeshFormat::ALL[i - 2 - SKELETONS])
+            };
             i += 1;
         }
         all
@@ -54,6 +66,7 @@ impl Format {
         match self {
             Self::Json => "json",
             Self::Png => "png",
+            Self::Skeleton(format) => format.suffix(),
             Self::Mesh(format) => format.suffix(),
         }
     }

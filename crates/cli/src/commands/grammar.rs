@@ -1,7 +1,9 @@
 //! `pleach grammar`: checks, prints, derives and draws grammars.
 
+use crate::choice::{Choice, one_of};
 use crate::{files, input, output};
 use anyhow::{Context, anyhow, bail};
+use pleach_import::{GrammarProgram, translate_grammar};
 use pleach_lsystem::{Derivation, LSystem, LSystemFamily, MAX_BYTES};
 use pleach_tree::{Family, SpeciesDoc};
 use std::borrow::Cow;
@@ -13,8 +15,16 @@ const EXAMPLES: &str = "Examples:
   pleach grammar abop_plant_f --derive 2          the string after two steps
   pleach grammar abop_plant_f --svg plant.svg     the turtle's drawing
   pleach grammar hewitt_palm --check              whether anything is wrong
+  pleach grammar bush.lpy --from lpy              one of another program, translated
+
+Of grammars of L-Py and cpfg, headers, constants and rules are read. Python and C in them are errors, and nothing is run.
 
 docs/grammars.md teaches the language in ten minutes.";
+
+const PROGRAMS: &[Choice<GrammarProgram>] = &[
+    ("lpy", "L-Py", GrammarProgram::LPy),
+    ("cpfg", "cpfg, of the Virtual Laboratory", GrammarProgram::Cpfg),
+];
 
 /// Check, print, derive or draw a grammar
 #[derive(Debug, clap::Args)]
@@ -22,6 +32,9 @@ docs/grammars.md teaches the language in ten minutes.";
 pub(crate) struct GrammarCommand {
     /// A file with a grammar, a species (by name or file) that has one, or `-` for a grammar from standard input
     file: String,
+    /// The program that the file is a grammar of
+    #[arg(long, value_name = "PROGRAM", value_parser = one_of(PROGRAMS))]
+    from: Option<GrammarProgram>,
     /// Print the string after this many steps
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=100_000))]
     derive: Option<u32>,
@@ -68,12 +81,21 @@ impl GrammarCommand {
         Ok(())
     }
 
+    /// A grammar of another program as one of pleach.
+    fn translated(&self, text: &str, program: GrammarProgram) -> anyhow::Result<String> {
+        let grammar = translate_grammar(&self.file, text, program)?;
+        if !grammar.left_out.is_empty() {
+            output::note(format!("left out are colours and shapes: {}", grammar.left_out.join(" ")));
+        }
+        Ok(grammar.text)
+    }
+
     /// The grammar, and the values of its parameters where a species has its own.
     fn read(&self) -> anyhow::Result<(LSystem, Option<Vec<f64>>)> {
         let path = Path::new(&self.file);
         let is_preset = LSystemFamily.presets().iter().any(|(name, _)| *name == self.file);
         let is_species = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("toml"));
-        if is_preset || is_species {
+        if self.from.is_none() && (is_preset || is_species) {
             let species = input::species(&self.file)?;
             let doc = SpeciesDoc::parse(&self.file, &species.generator.structure())?;
             let Ok(Some(text)) = doc.text("grammar") else {
@@ -105,6 +127,10 @@ impl GrammarCommand {
             let (file, byte) = (&self.file, bytes[at]);
             bail!("{file}:{line}:{column}: the byte 0x{byte:02x} is not UTF-8 text, expected a grammar");
         }
+        let text = match self.from {
+            Some(program) => Cow::Owned(self.translated(&text, program)?),
+            None => text,
+        };
         match LSystem::read(&self.file, &text) {
             Ok(system) => Ok((system, None)),
             Err(report) => {

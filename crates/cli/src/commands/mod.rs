@@ -15,6 +15,7 @@ mod gallery;
 mod grammar;
 mod grow;
 mod hints;
+mod import;
 mod landmarks;
 mod man;
 mod map;
@@ -59,6 +60,7 @@ enum Command {
     Mask(mask::MaskCommand),
     Read(read::Read),
     Blend(Box<blend::BlendCommand>),
+    Import(import::Import),
     Sample(sample::Sample),
     Dataset(Box<dataset::Dataset>),
     Species(species::SpeciesCommand),
@@ -103,6 +105,7 @@ impl Arguments {
             Command::Mask(command) => command.run(),
             Command::Read(command) => command.run(),
             Command::Blend(command) => command.run(),
+            Command::Import(command) => command.run(),
             Command::Sample(command) => command.run(),
             Command::Dataset(command) => command.run(),
             Command::Species(command) => command.run(),

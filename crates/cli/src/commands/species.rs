@@ -1,6 +1,7 @@
 //! `pleach species`: the known species, or one of them as a file.
 
 use crate::{input, output};
+use anyhow::bail;
 use pleach_tree::species::{Form, Key, appearance_keys};
 use pleach_tree::{Foliage, Species};
 use serde_json::json;
@@ -28,6 +29,12 @@ impl SpeciesCommand {
         if let Some(name) = &self.name {
             let mut species = input::species(name)?;
             species.tree_seed = self.seed.or(species.tree_seed);
+            let generator = species.generator.family();
+            if pleach_generators::family(generator).is_err() {
+                bail!(
+                    "{name} is one tree and has no species file: its generator, `{generator}`, has no numbers"
+                );
+            }
             return if self.json {
                 output::json(&all_values(&species))
             } else {

@@ -56,11 +56,17 @@ fn a_list_that_is_wrong_is_refused_before_work_begins() {
     let cases = [
         ("height\n3\n", "goals.csv:1: expected a header with the column `file`"),
         ("goals/1.png\ngoals/2.png\n", "`goals/1.png` is not a column"),
-        ("file,height\ngoals/1.png\n", "line: 2"),
+        ("file,height\ngoals/1.png\n", "goals.csv:2: the row has 1 cell, expected 2"),
         (
             "file\ngoals/1.png\ngoals/2.png\ngoals/1.png\n",
             "goals.csv:4: goals/1.png is listed twice, first in line 2",
         ),
+        (
+            "file,heihgt\ngoals/1.png,3\n",
+            "`heihgt` is not a column of a list of goals, did you mean `height`?",
+        ),
+        ("file,height (cm)\ngoals/1.png,300\n", "`height (cm)` is not a column"),
+        ("file;height\ngoals/1.png;3,5\ngoals/2.png;3.5\n", "goals.csv:3: `height` is `3.5`, with a point"),
         ("file\ngoals/1.png\nother/1.png\n", "would both be fitted into runs/1"),
         ("file\n..\n", "has no file name"),
         ("file\ngoals/...png\n", "has no file name"),

@@ -1,6 +1,7 @@
 //! `pleach fit`, as a user runs it: results and determinism.
 
 use pleach_tests::{Dir, read, results, small, target};
+use std::collections::HashMap;
 use std::path::Path;
 
 #[test]
@@ -83,6 +84,26 @@ fn the_run_folder_holds_what_it_should() {
     assert_eq!(summary["determined"]["determined"], count("determined"));
     assert_eq!(summary["determined"]["not_seen"], count("not-seen"));
     assert!(count("determined") > 0 && count("not-seen") > 0, "{parameters}");
+    // What is built in knows acers: the numbers that vary around one have intervals, narrower where they are seen.
+    assert_eq!(
+        (&summary["intervals"]["species"], &summary["intervals"]["is_familiar"]),
+        (&serde_json::json!("acer"), &serde_json::json!(true))
+    );
+    let mut table = csv::Reader::from_reader(parameters.as_bytes());
+    let rows: Vec<HashMap<String, String>> = table.deserialize().map(Result::unwrap).collect();
+    let known: Vec<&HashMap<String, String>> = rows.iter().filter(|row| !row["shrunk"].is_empty()).collect();
+    assert!(known.len() > 30, "{parameters}");
+    for row in known {
+        let number = |column: &str| row[column].parse::<f64>().unwrap();
+        let [low, median, high] = ["low", "median", "high"].map(number);
+        assert!(low <= median && median <= high && number("low_before") <= number("high_before"), "{row:?}");
+        let word = match number("shrunk") {
+            0.5.. => "determined",
+            0.2.. => "loosely",
+            _ => "not-seen",
+        };
+        assert_eq!(row["seen"], word, "{row:?}");
+    }
     // A variation of size is not seen in one tree, so other seeds keep the size of the goal.
     let best = String::from_utf8(read(&folder.join("best.toml"))).unwrap();
     assert!(best.contains("0 are g_scale_v, length_v[0]") && best.contains("\ng_scale_v = 0\n"), "{best}");

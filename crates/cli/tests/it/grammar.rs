@@ -106,3 +106,23 @@ fn mistakes_in_a_species_file_are_drawn_where_they_stand() {
     std::fs::write(dir.path("acer.toml"), "levels = 9\n").unwrap();
     dir.run(["grow", "acer.toml"]).fails(1, &["acer.toml:1:10: `levels` is 9", "1 | levels = 9", "^"]);
 }
+
+#[test]
+fn grammars_of_other_programs_are_translated_and_derived() {
+    let dir = Dir::new();
+    let lpy = "R = 2\nAxiom: _(0.1);(2)A(8)\nderivation length: 2\nproduction:\nA(s) --> F(s)[+(85)A(s/R)]\nendlsystem\n";
+    let _ = dir.file("bush.lpy", lpy);
+    let run = dir.run(["grammar", "bush.lpy", "--from", "lpy", "--derive", "2"]);
+    assert!(run.stderr().contains("left out are colours and shapes: ;"), "{run}");
+    assert_eq!(run.ok().trim(), "!(0.1)F(8)[+(85)F(4)[+(85)A(2)]]");
+    let cpfg =
+        "#define N 1\nLsystem: 1\nderivation length: N\nAxiom: X\nX --> F[+X]/* left */F\nendlsystem\n";
+    let _ = dir.file("plant.l", cpfg);
+    let normal = dir.run(["grammar", "plant.l", "--from", "cpfg"]).ok();
+    assert!(normal.contains("const N = 1") && normal.contains("X -> F[+X]F"), "{normal}");
+    let _ = dir.file("code.lpy", "Axiom: A\nimport math\n");
+    dir.run(["grammar", "code.lpy", "--from", "lpy"])
+        .fails(1, &["code.lpy:2:1", "`import math`", "no code is run"]);
+    let _ = dir.file("odd.lpy", "Axiom: A\n\nA --> F(\n");
+    dir.run(["grammar", "odd.lpy", "--from", "lpy"]).fails(1, &["odd.lpy:3:"]);
+}

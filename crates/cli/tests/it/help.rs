@@ -1,5 +1,6 @@
 //! Help texts as people read them: how wide they are, and that their examples work.
 
+use crate::import;
 use pleach_tests::Dir;
 
 /// The commands that the help of `path` lists, and those below them.
@@ -138,6 +139,15 @@ fn furnished(names: &[&str]) -> Dir {
     std::fs::create_dir(dir.path("photos")).unwrap();
     std::fs::copy(dir.path("oak.jpg"), dir.path("photos/oak.jpg")).unwrap();
     let _ = dir.file("goals.csv", "file,height\noak.png,12\n");
+    let lpy = "Axiom: A(8)\nderivation length: 2\nproduction:\nA(s) --> F(s)[+(85)A(s/2)]\nendlsystem\n";
+    for (name, text) in [
+        ("bush.lpy", lpy),
+        ("oak.xml", import::BIRCH),
+        ("white_birch.py", import::MAPLE),
+        ("ash.json", import::ASH),
+    ] {
+        let _ = dir.file(name, text);
+    }
     let toml = dir.run(["species", "palm"]).ok();
     let toml = toml.replace("name = \"palm\"", "name = \"mine\"");
     for name in ["my_tree.toml", "mine.toml", "my-trees/one.toml"] {
@@ -209,7 +219,17 @@ fn run_examples_of(names: &[&str]) {
 
 #[test]
 fn examples_that_grow_work() {
-    run_examples_of(&["grow", "species", "params", "grammar", "silhouette", "score", "completions", "man"]);
+    run_examples_of(&[
+        "grow",
+        "species",
+        "params",
+        "grammar",
+        "import",
+        "silhouette",
+        "score",
+        "completions",
+        "man",
+    ]);
 }
 
 #[test]

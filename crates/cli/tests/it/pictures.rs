@@ -155,3 +155,87 @@ fn a_colour_profile_that_unpacks_to_a_gigabyte_fits_in_less() {
     let output = std::process::Command::new("sh").args(["-c", &script]).output().unwrap();
     assert_eq!(Run::new("a bomb".to_owned(), output).json()["iou"], 1.0);
 }
+
+#[test]
+fn gif_and_bmp_are_goals_like_any_other() {
+    let dir = Dir::new();
+    let picture = image::open(target("palm.png")).unwrap();
+    let palm = target("palm.png");
+    let iou = |name: &str| {
+        dir.run(["score", name, palm.to_str().unwrap(), "--json"]).json()["iou"].as_f64().unwrap()
+    };
+    for name in ["palm.gif", "palm.bmp"] {
+        picture.to_rgb8().save(dir.path(name)).unwrap();
+        assert_eq!(iou(name), 1.0, "{name}");
+        let whole = std::fs::read(dir.path(name)).unwrap();
+        let _ = dir.file("half.pic", &whole[..whole.len() / 2]);
+        dir.run(["score", "half.pic", "half.pic"]).fails(1, &["half.pic", "damaged or incomplete"]);
+    }
+    // Of an animation the first picture counts.
+    let mut frames = Vec::new();
+    let mut encoder = image::codecs::gif::GifEncoder::new(&mut frames);
+    let blank = image::RgbaImage::from_pixel(picture.width(), picture.height(), image::Rgba([255; 4]));
+    for frame in [picture.to_rgba8(), blank] {
+        encoder.encode_frame(image::Frame::new(frame)).unwrap();
+    }
+    drop(encoder);
+    let _ = dir.file("palms.gif", &frames);
+    assert_eq!(iou("palms.gif"), 1.0);
+}
+
+#[test]
+fn pictures_that_claim_to_be_huge_are_refused_before_they_are_decoded() {
+    let dir = Dir::new();
+    let mut bmp = b"BM\x00\x00\x00\x00\0\0\0\0\x36\0\0\0\x28\0\0\0".to_vec();
+    for side in [60_000_i32, -60_000] {
+        bmp.extend(side.to_le_bytes());
+    }
+    bmp.extend([1, 0, 24, 0]);
+    bmp.resize(54, 0);
+    let _ = dir.file("huge.bmp", &bmp);
+    let gif = [
+        b"GIF89a",
+        &[0xff, 0xff, 0xff, 0xff, 0, 0, 0][..],
+        &[0x2c, 0, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 0, 2, 1, 7, 0, 0x3b],
+    ];
+    let _ = dir.file("huge.gif", gif.concat());
+    for name in ["huge.bmp", "huge.gif"] {
+        dir.run(["score", name, name]).fails(1, &[name, "at most 8192 to a side"]);
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn pictures_of_telephones_are_converted_by_a_program_of_the_system() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let dir = Dir::new();
+    let palm = target("palm.png");
+    // What a converter would make of it stands behind the head of a HEIC file.
+    let head = b"\0\0\0\x18ftypheic\0\0\0\0mif1heic";
+    let _ = dir.file("-palm.heic", [&head[..], &std::fs::read(&palm).unwrap()].concat());
+    let score = |path: &str| {
+        let mut command = dir.command(["score", "./-palm.heic", palm.to_str().unwrap(), "--json"]);
+        Run::new("score".to_owned(), command.env("PATH", path).output().unwrap())
+    };
+    score("").fails(1, &["-palm.heic is a HEIC picture", "none of the programs", "heif-convert", "libheif"]);
+    let _ = dir.file("heif-convert", "#!/bin/sh\n/usr/bin/tail -c +25 \"$1\" > \"$2\"\n");
+    let tool = dir.path("heif-convert");
+    std::fs::set_permissions(&tool, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let bin = dir.path("").display().to_string();
+    let run = score(&bin);
+    assert_eq!(run.json()["iou"], 1.0, "{run}");
+    assert!(run.stderr().contains("converted by heif-convert"), "{run}");
+    // A run is known by the file, whatever a converter writes into its picture.
+    let text = "#!/bin/sh\n/usr/bin/tail -c +25 \"$1\" > \"$2\"; /bin/date +%N >> \"$2\"\n";
+    std::fs::write(&tool, text).unwrap();
+    let fit = |resume: &[&str]| {
+        let flags =
+            ["--evaluations", "3", "--size", "64", "--from", "palm", "--individual", "off", "--out", "run"];
+        let mut command = dir.command(["fit", "./-palm.heic"].iter().chain(&flags).chain(resume));
+        Run::new("fit".to_owned(), command.env("PATH", &bin).output().unwrap())
+    };
+    let _ = fit(&[]).ok();
+    let _ = fit(&["--resume"]).ok();
+    std::fs::write(&tool, "#!/bin/sh\necho no codec >&2; exit 3\n").unwrap();
+    score(&bin).fails(1, &["heif-convert does not convert", "no codec"]);
+}

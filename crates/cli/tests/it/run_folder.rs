@@ -426,12 +426,15 @@ fn a_list_of_goals_gives_each_its_options() {
     goals(&dir);
     let _ = dir.file(
         "a/goals.csv",
-        "file,height,view,ground_row,leaves\ntree.png,12.5,90,60,\n../acer.png,,,,off\n",
+        // As a spreadsheet of another country saves it.
+        b"\xef\xbb\xbfFile;Height (m);View;Ground Row;Leaves;Remark;\r\ntree.png;12,5;90;60,0;;;\r\n../acer.png;;;;off;old, sick;\r\n;;;;;;\r\n",
     );
     let list = |more: &[&'static str]| {
         dir.run([&FIT[..], &["--list", "a/goals.csv", "--evaluations", "20", "--out", "runs"], more].concat())
     };
-    let _ = list(&["--height", "7"]).ok();
+    let run = list(&["--height", "7"]);
+    let _ = run.ok();
+    assert!(run.stderr().contains("columns that are not read: `Remark`"), "{run}");
     let (tree, acer) = (summary(&dir.path("runs/tree")), summary(&dir.path("runs/acer")));
     assert_eq!((&tree["height_m"], &acer["height_m"]), (&12.5.into(), &7.0.into()));
     assert_eq!((&tree["options"]["view"], &tree["options"]["leaves"]), (&"90".into(), &"auto".into()));
@@ -452,7 +455,7 @@ fn a_list_of_goals_gives_each_its_options() {
         ("file,heihgt\nx.png,3\n", "`heihgt`"),
         ("file,height\ntree.png,-3\n", "goals.csv:2: height: `-3`"),
         ("file,height\n,3\n", "goals.csv:2: `file` is empty"),
-        ("file,height\ntree.png\n", "line: 2"),
+        ("file,height\ntree.png\n", "goals.csv:2: the row has 1 cell, expected 2"),
         ("file\n", "no goal"),
         ("file,view\ntree.png,90=x.png\n", "further pictures"),
     ];

@@ -17,7 +17,7 @@ fn entries(dir: &Dir) -> usize {
 
 #[test]
 fn a_dash_is_standard_output_with_the_bytes_of_the_file() {
-    for format in ["json", "png", "glb", "ply", "stl", "usda"] {
+    for format in ["json", "png", "swc", "csv", "glb", "ply", "stl", "usda"] {
         let dir = Dir::new();
         let out = output(&dir, &["grow", "acer", "-o", "-", "--format", format]);
         assert_eq!(entries(&dir), 0, "{format}: no file, and no folder called `-`");

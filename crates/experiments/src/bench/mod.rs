@@ -63,7 +63,7 @@ impl Kind for BenchSpec {
     }
 
     /// A row for each contestant and budget on each goal, budget by budget; a slice has the first goals and the budgets
-    /// of no more trees. Nothing is checked that depends on the machine: time, and the last bits of `cma`.
+    /// of no more trees. Nothing is checked that depends on the time.
     fn rows(&self, folder: &Path, slice: Slice, journal: &mut Journal) -> anyhow::Result<()> {
         let mut origins = self.origins(folder)?;
         origins.truncate(slice.take_of(origins.len()));
@@ -74,8 +74,7 @@ impl Kind for BenchSpec {
         };
         let budgets = self.budgets().into_iter().filter(is_in);
         let goals = goals(&origins)?;
-        let mut contestants = self.contestants();
-        contestants.retain(|one| journal.is_kept() || *one != Contestant::Cma);
+        let contestants = self.contestants();
         let mut jobs = Vec::new();
         for budget in budgets {
             for goal in &goals {

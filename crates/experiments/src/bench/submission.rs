@@ -10,7 +10,7 @@ use crate::record::{self, Fixed};
 use crate::table::Table;
 use crate::{progress, stop};
 use anyhow::{Context, anyhow, bail, ensure};
-use pleach_console::{files, regular};
+use pleach_console::files;
 use pleach_silhouette::goal::{Goal as Picture, GoalOptions, Polarity};
 use pleach_tree::param::{nearest, shown};
 use std::collections::BTreeMap;
@@ -104,40 +104,47 @@ fn names(submissions: &[PathBuf], rows: &[Row]) -> anyhow::Result<Vec<String>> {
 
 /// The answers of a table; paths in it are from its folder.
 fn lines(path: &Path, goals: &[Origin]) -> anyhow::Result<Vec<Line>> {
-    let text = regular::read_text(path)?;
-    let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
-    let file = path.display();
-    let header: Vec<String> =
-        csv.headers().with_context(|| file.to_string())?.iter().map(str::to_owned).collect();
-    if header.iter().all(String::is_empty) {
-        bail!(
+    // A pipe is not waited for.
+    ensure!(path.metadata().is_ok_and(|found| found.is_file()), "{} is not a file", path.display());
+    let bytes = pleach_table::load(path).with_context(|| format!("cannot read {}", path.display()))?;
+    let file = path.display().to_string();
+    let table = pleach_table::Table::new(&file, &bytes).map_err(|error| match error.problem {
+        pleach_table::Problem::Empty => anyhow!(
             "{file} is empty, expected a table with the columns goal, species and seed, or goal and picture"
-        );
-    }
-    for name in &header {
-        if !COLUMNS.contains(&name.as_str()) {
-            let near =
-                nearest(name, COLUMNS).map_or_else(String::new, |near| format!(", did you mean `{near}`?"));
+        ),
+        _ => error.into(),
+    })?;
+    let head = format!("{file}:{}", table.first_line());
+    for name in table.others(&COLUMNS) {
+        if let Some(near) = nearest(&pleach_table::plain(name), COLUMNS) {
             bail!(
-                "{file}:1: no column is called `{}`{near}; columns are {}",
+                "{head}: no column is called `{}`, did you mean `{near}`? Columns are {}",
                 shown(name),
                 COLUMNS.join(", ")
             );
         }
-        let times = header.iter().filter(|other| *other == name).count();
-        ensure!(times == 1, "{file}:1: the column `{name}` is there {times} times");
     }
-    let has = |name: &str| header.iter().any(|column| column == name);
-    ensure!(has("goal"), "{file}:1: the column `goal` is missing");
-    ensure!(has("species") || has("picture"), "{file}:1: a column `species` or `picture` is missing");
+    let mut columns = BTreeMap::new();
+    for name in COLUMNS {
+        columns.extend(table.column(&[name])?.map(|at| (name, at)));
+    }
+    let has = |name: &str| columns.contains_key(name);
+    ensure!(has("goal"), "{head}: the column `goal` is missing");
+    ensure!(has("species") || has("picture"), "{head}: a column `species` or `picture` is missing");
     let folder = path.parent().unwrap_or(Path::new(""));
     let (mut found, mut seen): (Vec<Line>, BTreeMap<(usize, String), u64>) = Default::default();
-    for record in csv.records() {
-        // The message of the parser has the line.
-        let record = record.with_context(|| file.to_string())?;
-        let number = record.position().map_or(0, csv::Position::line);
-        let cells: BTreeMap<&str, &str> =
-            header.iter().map(String::as_str).zip(&record).filter(|(_, cell)| !cell.is_empty()).collect();
+    for row in table.rows() {
+        let row = row?;
+        let number = row.line();
+        // Numbers with decimal commas are as good as those with points.
+        let seconds = columns.get("seconds").map(|&at| row.number(at)).transpose()?.flatten();
+        let seconds = seconds.map(|seconds| seconds.to_string());
+        let mut cells: BTreeMap<&str, &str> = columns
+            .iter()
+            .map(|(name, at)| (*name, row.text(*at)))
+            .filter(|(name, cell)| *name != "seconds" && !cell.is_empty())
+            .collect();
+        cells.extend(seconds.as_deref().map(|seconds| ("seconds", seconds)));
         let place = format!("{file}:{number}");
         let line = line(&cells, goals, folder).map_err(|error| anyhow!("{place}: {error:#}"))?;
         let line = Line { place, ..line };

@@ -48,7 +48,7 @@ fn answers_that_are_wrong_say_where() {
         ("", &["mine.csv is empty, expected a table with the columns goal, species and seed"]),
         ("goal,species,seed\n", &["mine.csv has no answer, expected a line for each goal"]),
         ("goal,spieces\n", &["mine.csv:1: no column is called `spieces`, did you mean `species`?"]),
-        ("goal,species,goal\n", &["mine.csv:1: the column `goal` is there 2 times"]),
+        ("goal,species,goal\n", &["mine.csv:1: the headings `goal` and `goal` mean the same column"]),
         ("species,seed\n", &["mine.csv:1: the column `goal` is missing"]),
         ("goal,seed\n", &["mine.csv:1: a column `species` or `picture` is missing"]),
         ("goal,species\nacre-1,palm\n", &["mine.csv:2: no goal is called", "did you mean `acer-1`?"]),
@@ -70,7 +70,7 @@ fn answers_that_are_wrong_say_where() {
             &["mine.csv:2: the picture is 64 × 64 pixels, expected 256 × 256 as the goal `acer-1` is"],
         ),
         ("goal,seed,picture\nacer-1,3,small.png\n", &["mine.csv:2: a `seed` is beside a `picture`"]),
-        ("goal,species\nacer-1\n", &["mine.csv", "line: 2"]),
+        ("goal,species\nacer-1\n", &["mine.csv:2: the row has 1 cell, expected 2"]),
     ];
     for (text, words) in cases {
         let error = checked(folder.path(), text).unwrap_err();
@@ -87,7 +87,7 @@ fn answers_of_others_stand_beside_an_exam() {
     let options = asked(&["acer-1"]);
     hand_out(&options, folder.path()).unwrap();
     std::fs::write(here("same.csv"), "goal,picture,seconds\nacer-1,acer-1.png,2\n").unwrap();
-    std::fs::write(here("known.csv"), "goal , species\nacer-1, acer\n").unwrap();
+    std::fs::write(here("known.csv"), "Notes;Goal;Species;Seconds\nnone, yet;acer-1;acer;1,5\n").unwrap();
     let files = [here("same.csv"), here("known.csv")];
     let text = check_submissions(&options, &files, Some(&here("out"))).unwrap();
     let line =

@@ -1,15 +1,14 @@
 //! How good trees look to a person, and how well numbers agree with that.
 
 use anyhow::{Context, bail};
-use serde::Deserialize;
+use pleach_table::{Row, Table, TableError};
 use std::path::{Path, PathBuf};
 
 /// The best that a person can say; 0 is the worst.
 const BEST: f64 = 5.0;
 
 /// What a person says of the trees of a picture: 0 to 5, empty where one was not looked at.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Eye {
     pub(super) picture: String,
     /// Of the kind's own tree.
@@ -30,8 +29,20 @@ pub(super) fn read(folder: &Path, names: &[String]) -> anyhow::Result<Vec<Eye>> 
         return Ok(Vec::new());
     }
     let unreadable = || format!("cannot use {}", path.display());
-    let mut csv = csv::Reader::from_path(&path).with_context(unreadable)?;
-    let said = csv.deserialize().collect::<Result<Vec<Eye>, _>>().with_context(unreadable)?;
+    let bytes = pleach_table::load(&path).with_context(unreadable)?;
+    let name = path.display().to_string();
+    let table = Table::new(&name, &bytes)?;
+    if let Some(other) = table.others(&["picture", "kind", "tree"]).next() {
+        let other = pleach_tree::param::shown(other);
+        bail!("{name}: `{other}` is not a column of scores, expected picture, kind and tree");
+    }
+    let picture = table.expect_column(&["picture"])?;
+    let [kind, tree] = [table.column(&["kind"])?, table.column(&["tree"])?];
+    let eye = |row: Row| -> Result<Eye, TableError> {
+        let score = |column: Option<usize>| Ok(column.map(|at| row.number(at)).transpose()?.flatten());
+        Ok(Eye { picture: row.text(picture).to_owned(), kind: score(kind)?, tree: score(tree)? })
+    };
+    let said: Vec<Eye> = table.rows().map(|row| eye(row?)).collect::<Result<_, _>>()?;
     for eye in &said {
         let place = || format!("{}: {}", path.display(), pleach_tree::param::shown(&eye.picture));
         if !names.contains(&eye.picture) {
@@ -60,6 +71,7 @@ mod tests {
         };
         let said = read("picture,kind,tree\noak,3,4.5\nelm,,2\n").unwrap();
         let eye = |picture: &str, kind, tree| Eye { picture: picture.to_owned(), kind, tree };
+        assert_eq!(read("Picture;Kind;Tree\noak;3;4,5\nelm;;2\n").unwrap(), said);
         assert_eq!(said, [eye("oak", Some(3.0), Some(4.5)), eye("elm", None, Some(2.0))]);
         assert!(read("picture,kind,tree\nash,3,4\n").unwrap_err().contains("ash is not a picture"));
         assert!(

@@ -26,6 +26,19 @@ pub enum Identifiability {
     NotTried,
 }
 
+impl Identifiability {
+    /// How well a picture determines a number whose variance is smaller by this part since it was seen, over trees
+    /// around a species: by half or more it does, by a fifth loosely.
+    #[must_use]
+    pub fn from_shrunk(shrunk: f64) -> Self {
+        match shrunk {
+            0.5.. => Self::Determined,
+            0.2.. => Self::Loosely,
+            _ => Self::NotSeen,
+        }
+    }
+}
+
 /// What is known of one free number after a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
@@ -34,7 +47,8 @@ pub struct Profile {
     /// How well it is determined.
     pub seen: Identifiability,
     /// By how much the cost rises when the number goes down, and up, by [`PROFILE_STEPS`] of its search range; for a
-    /// choice only the least of all other choices. `None` beyond the range.
+    /// choice only the least of all other choices. `None` beyond the range, and for small moves where no large one is
+    /// seen.
     pub rises: [[Option<f64>; 2]; 2],
 }
 
@@ -58,54 +72,72 @@ pub fn profile(
     until: Until<'_>,
 ) -> Result<Vec<Profile>, FitError> {
     let (space, evaluator) = prepare(problem, settings)?;
-    let mut moves: Vec<Genome> = Vec::new();
-    let mut plan: Vec<(Slot, Vec<Move>)> = Vec::new();
     // They move this tree, and its size can compensate: a picture does not show them.
     let hidden = space.hidden_jitters(&best.genome.values);
     // Nuisances stay as they are: they are not parameters of the tree.
+    let mut tried: Vec<Tried> = Vec::new();
     for (gene, slot) in space.genes().iter().filter_map(|gene| Some((gene, gene.slot()?))) {
-        let mut of_gene = Vec::new();
-        if !hidden.contains(&slot) && space.is_active(&best.genome.values, gene) {
-            for (place, value) in alternatives(gene, gene.get(&best.genome)) {
-                of_gene.push(Move { place, number: moves.len() });
+        let is_read = !hidden.contains(&slot) && space.is_active(&best.genome.values, gene);
+        let moves = if is_read { alternatives(gene, gene.get(&best.genome)) } else { Vec::new() };
+        tried.push(Tried { gene, slot, moves, rises: [[None; 2]; 2], is_late: false });
+    }
+    for step in [LARGE, SMALL] {
+        let mut moves: Vec<(usize, usize, Genome)> = Vec::new();
+        for (number, one) in tried.iter().enumerate() {
+            // Most numbers of a tree are not seen. A small move is tried only where a large one is, or where there is none.
+            let has_large = one.moves.iter().any(|((step, _), _)| *step == LARGE);
+            if step == SMALL && has_large && !one.is_seen(LARGE, tolerance) {
+                continue;
+            }
+            for &((_, side), value) in one.moves.iter().filter(|((of, _), _)| *of == step) {
                 let mut genome = best.genome.clone();
-                gene.set(&mut genome, value);
-                moves.push(genome);
+                one.gene.set(&mut genome, value);
+                moves.push((number, side, genome));
             }
         }
-        plan.push((slot, of_gene));
-    }
-    let scores = until.map(&moves, |genome| evaluator.score(genome))?;
-    Ok(plan
-        .into_iter()
-        .map(|(slot, of_gene)| {
-            let mut rises = [[None; 2]; 2];
-            let mut is_late = false;
-            for Move { place: (step, side), number } in of_gene {
-                let Some(score) = scores.get(number) else {
-                    is_late = true;
-                    continue;
-                };
-                let rise = score.cost - best.score.cost;
-                let known: &mut Option<f64> = &mut rises[step][side];
-                *known = Some(known.map_or(rise, |least| least.min(rise)));
-            }
-            let is_seen = |step: usize| rises[step].iter().flatten().any(|rise| *rise > tolerance);
-            let seen = match (is_seen(0), is_seen(1)) {
-                (true, _) => Identifiability::Determined,
-                _ if is_late => Identifiability::NotTried,
-                (_, true) => Identifiability::Loosely,
-                _ => Identifiability::NotSeen,
+        let scores = until.map(&moves, |(.., genome)| evaluator.score(genome))?;
+        for (at, (number, side, _)) in moves.iter().enumerate() {
+            let one = &mut tried[*number];
+            let Some(score) = scores.get(at) else {
+                one.is_late = true;
+                continue;
             };
-            Profile { slot, seen, rises }
-        })
-        .collect())
+            let rise = score.cost - best.score.cost;
+            let known: &mut Option<f64> = &mut one.rises[step][*side];
+            *known = Some(known.map_or(rise, |least| least.min(rise)));
+        }
+    }
+    Ok(tried.into_iter().map(|one| one.profile(tolerance)).collect())
 }
 
-/// One trial: which of [`PROFILE_STEPS`] and which side, and its number among all trials.
-struct Move {
-    place: (usize, usize),
-    number: usize,
+/// Places in [`PROFILE_STEPS`].
+const SMALL: usize = 0;
+const LARGE: usize = 1;
+
+/// A number, and what is known of its moves.
+struct Tried<'a> {
+    gene: &'a Gene,
+    slot: Slot,
+    /// Step, side and value of each.
+    moves: Vec<((usize, usize), f64)>,
+    rises: [[Option<f64>; 2]; 2],
+    is_late: bool,
+}
+
+impl Tried<'_> {
+    fn is_seen(&self, step: usize, tolerance: f64) -> bool {
+        self.rises[step].iter().flatten().any(|rise| *rise > tolerance)
+    }
+
+    fn profile(self, tolerance: f64) -> Profile {
+        let seen = match (self.is_seen(SMALL, tolerance), self.is_seen(LARGE, tolerance)) {
+            (true, _) => Identifiability::Determined,
+            _ if self.is_late => Identifiability::NotTried,
+            (_, true) => Identifiability::Loosely,
+            _ => Identifiability::NotSeen,
+        };
+        Profile { slot: self.slot, seen, rises: self.rises }
+    }
 }
 
 /// The values that are tried instead of `value`, with step and side.

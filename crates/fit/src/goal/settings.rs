@@ -6,6 +6,7 @@ use crate::control::Outcome;
 use crate::guess::{Candidate, FirstGuess, GuessSettings, References};
 use crate::individual::{FoundIndividual, IndividualSettings};
 use crate::posterior::{Posterior, PosteriorSettings};
+use crate::predictor::Answer;
 use crate::problem::{FitProblem, Scored};
 use crate::run::FitSettings;
 use pleach_silhouette::score::ScoreCard;
@@ -92,6 +93,10 @@ pub struct Fitted {
     /// What the goal says about the numbers of its tree; `None` if it was not asked for, too few trees of the prior grew,
     /// or the fit was interrupted.
     pub posterior: Option<Posterior>,
+    /// What the goal says about the numbers of its tree if that is one around a known species, by what is built in
+    /// ([`crate::Predictors::answer`]): around the species that it looks like, or that the fit started from. `None` where
+    /// nothing was learnt about that species, and where the goal is not a level view.
+    pub answer: Option<Answer>,
 }
 
 impl Fitted {

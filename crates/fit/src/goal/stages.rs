@@ -6,14 +6,15 @@ use crate::assess::{AssessmentSettings, Assessor, best_kind, finer_leaves};
 use crate::control::{Control, Outcome, PreparedSearch, StopReason, Until};
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
-use crate::guess::GuessLibrary;
+use crate::guess::{FirstGuess, GuessLibrary, OpenGuess};
 use crate::individual::{IndividualSettings, individuals};
+use crate::method::Start;
 use crate::posterior::{Posterior, PosteriorModel, PosteriorSettings, Prior};
 use crate::problem::FitProblem;
 use crate::registration::{Closeness, with_registered_frames};
 use crate::run::{FitSettings, evaluator_in, search_space};
-use crate::space::SpaceError;
-use pleach_tree::Limits;
+use crate::space::{Gene, SpaceError};
+use pleach_tree::{Limits, Species};
 use std::sync::atomic::Ordering;
 
 /// Whether former bests of such a search may be validated on other seeds.
@@ -22,7 +23,7 @@ fn validates(search: &FitSettings) -> bool {
 }
 
 /// Assesses the result of a search, unless the flag of `control` is raised, and searches for this very tree.
-pub(crate) fn conclude(
+pub(super) fn conclude(
     mut prepared: PreparedSearch,
     mut outcome: Outcome,
     settings: &GoalSettings,
@@ -107,8 +108,16 @@ pub(crate) fn conclude(
             Err(error) => return Err(error),
         }
     }
+    let answer = library.answer(&prepared.problem, known_species(&prepared, settings));
     let PreparedSearch { problem, settings, guess } = prepared;
-    Ok(Fitted { problem, settings, guess, outcome, best, assessment, individuals: found, posterior })
+    Ok(Fitted { problem, settings, guess, outcome, best, assessment, individuals: found, posterior, answer })
+}
+
+/// The known species that the goal looks like; without a first guess the one that the search started from.
+fn known_species<'a>(prepared: &'a PreparedSearch, settings: &'a GoalSettings) -> &'a Species {
+    let named = prepared.guess.as_ref().and_then(|guess| guess.names.first());
+    let of_name = |name: &str| settings.candidates.iter().find(|one| one.species.name == name);
+    named.and_then(|(name, _)| of_name(name)).map_or(&prepared.problem.start, |known| &known.species)
 }
 
 /// What the goals say about the numbers of their tree; `None` where too few trees of the prior grow.
@@ -128,25 +137,75 @@ fn learnt(
     }
 }
 
+/// Where a search without a first guess starts. If that is a known species, it is also from the numbers that the goal's
+/// tree has by it, of those that are free.
+fn start_of_known(
+    problem: &FitProblem,
+    search: &FitSettings,
+    library: &GuessLibrary,
+) -> Result<Start, FitError> {
+    let own = problem.start.params.values();
+    let is_species = search.start.lists() == [own] && validates(search);
+    let predicted = is_species.then(|| library.predicted(problem)).flatten();
+    let Some(predicted) = predicted else { return Ok(search.start.clone()) };
+    let mut list = own.to_vec();
+    for slot in search_space(problem, search)?.genes().iter().filter_map(Gene::slot) {
+        list[slot.index()] = predicted[slot.index()];
+    }
+    let lists = if list == own { vec![own.to_vec()] } else { vec![own.to_vec(), list] };
+    Ok(Start::Lists(lists))
+}
+
+/// A first guess whose race is still to be run; `None` for settings without one.
+pub(super) fn open(
+    problem: &FitProblem,
+    settings: &GoalSettings,
+    library: &mut GuessLibrary,
+    control: &mut Control<'_>,
+) -> Result<Option<OpenGuess>, FitError> {
+    let Guessing::Compare(how) = &settings.guess else { return Ok(None) };
+    let (stop, observers) = (control.stop, &mut control.observers);
+    let notify = |done, all| observers.iter_mut().for_each(|observer| observer.guessing(done, all));
+    library.open_guess(problem, &settings.search, &settings.candidates, how, stop, notify).map(Some)
+}
+
 /// Makes the first guess, registers the frames and lets the observers accept what the search begins with.
-pub(crate) fn begin(
+pub(super) fn begin(
     problem: &FitProblem,
     settings: &GoalSettings,
     library: &mut GuessLibrary,
     control: &mut Control<'_>,
 ) -> Result<PreparedSearch, FitError> {
+    let mut guess = None;
+    if let Some(mut open) = open(problem, settings, library, control)? {
+        let (stop, observers) = (control.stop, &mut control.observers);
+        open.race.run(stop, |done, all| {
+            observers.iter_mut().for_each(|observer| observer.guessing(done, all));
+        })?;
+        guess = Some(library.close_guess(open, stop)?);
+    }
+    begin_with(problem, settings, guess, library, control)
+}
+
+/// [`begin`] with the first guess that was made for `settings`.
+pub(super) fn begin_with(
+    problem: &FitProblem,
+    settings: &GoalSettings,
+    guess: Option<FirstGuess>,
+    library: &GuessLibrary,
+    control: &mut Control<'_>,
+) -> Result<PreparedSearch, FitError> {
     let search = &settings.search;
-    let guess = match &settings.guess {
-        Guessing::Off => None,
+    let known = || match &settings.guess {
         Guessing::Known(guess) => Some((**guess).clone()),
-        Guessing::Compare(how) => {
-            let (stop, observers) = (control.stop, &mut control.observers);
-            let notify = |done, all| observers.iter_mut().for_each(|observer| observer.guessing(done, all));
-            Some(library.first_guess(problem, search, &settings.candidates, how, stop, notify)?)
-        }
+        Guessing::Off | Guessing::Compare(_) => None,
     };
-    let mut prepared = match guess {
-        None => PreparedSearch { problem: problem.clone(), settings: search.clone(), guess: None },
+    let mut prepared = match guess.or_else(known) {
+        None => {
+            let start = start_of_known(problem, search, library)?;
+            let settings = FitSettings { start, ..search.clone() };
+            PreparedSearch { problem: problem.clone(), settings, guess: None }
+        }
         Some(guess) => PreparedSearch {
             problem: guess.problem(problem),
             settings: FitSettings { start: guess.start(), ..search.clone() },

@@ -1,16 +1,12 @@
 //! A whole fit that its caller drives, batch by batch.
 
+use super::driven::{Asked, Driven};
 use super::settings::{Fitted, GoalSettings};
 use super::stages::{begin, conclude};
 use crate::control::{Control, Outcome, PreparedSearch, Row, StopReason};
 use crate::error::FitError;
-use crate::evaluator::Evaluator;
 use crate::guess::GuessLibrary;
-use crate::method::AnyMethod;
-use crate::problem::{FitProblem, Genome, Score, Scored, Size};
-use crate::run::{Course, evaluator_in, search_space};
-use crate::search::{AskTell as _, Search, SearchState};
-use std::sync::Arc;
+use crate::problem::{FitProblem, Score, Scored};
 use std::time::Duration;
 
 /// [`crate::fit_goal`] step by step, for callers that cannot block in one call, and whose trees are grown
@@ -54,20 +50,9 @@ pub struct Stepwise {
     prepared: PreparedSearch,
     settings: GoalSettings,
     library: GuessLibrary,
-    /// For likenesses that scores do not contain.
-    objective: Evaluator,
-    course: Course<AnyMethod>,
+    driven: Driven,
     /// Time that had passed when the search began.
     before_search: Duration,
-}
-
-/// Individuals that need scores.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
-    /// The individuals.
-    pub genomes: Vec<Genome>,
-    /// A tree larger than this may be abandoned and scored as invalid.
-    pub max_size: Size,
 }
 
 impl Stepwise {
@@ -82,14 +67,18 @@ impl Stepwise {
         mut control: Control<'_>,
     ) -> Result<Self, FitError> {
         let prepared = begin(problem, settings, &mut library, &mut control)?;
-        let space = search_space(&prepared.problem, &prepared.settings)?;
-        let objective = evaluator_in(&space, &prepared.problem, &prepared.settings)?;
-        let search = &prepared.settings;
-        let method = search.optimizer.method(search.seed, search.start.clone());
-        let state = SearchState::new(method, &search.start);
-        let now = control.clock.elapsed();
-        let course = Course::new(Search::resume(state, Arc::new(space)), search.budget, Vec::new(), now);
-        Ok(Self { prepared, settings: settings.clone(), library, objective, course, before_search: now })
+        Self::of_prepared(prepared, settings.clone(), library, control.clock.elapsed())
+    }
+
+    /// The search that `prepared` begins with, from `now` on.
+    pub(super) fn of_prepared(
+        prepared: PreparedSearch,
+        settings: GoalSettings,
+        library: GuessLibrary,
+        now: Duration,
+    ) -> Result<Self, FitError> {
+        let driven = Driven::new(&prepared.problem, &prepared.settings, now)?;
+        Ok(Self { prepared, settings, library, driven, before_search: now })
     }
 
     /// The fit as its search begins.
@@ -101,74 +90,50 @@ impl Stepwise {
     /// The reason why the search is over, if it is; `now` is the time since the fit began.
     #[must_use]
     pub fn ended(&self, now: Duration) -> Option<StopReason> {
-        self.course.verdict(&self.course.spent(now, false))
+        self.driven.ended(now)
     }
 
     /// The next individuals: as many as take about a third of a second on `workers` workers, or fewer.
     ///
     /// May be called again before the scores of the last ones are told; with too many in flight it returns none.
     pub fn ask(&mut self, workers: usize) -> Asked {
-        let max_size = self.course.search.state.max_size();
-        let mut genomes = Vec::new();
-        let wanted = self.course.batch_size(workers);
-        while genomes.len() < wanted {
-            self.course.search.max_chunk = wanted - genomes.len();
-            let some = self.course.search.ask().genomes;
-            if some.is_empty() {
-                break;
-            }
-            genomes.extend_from_slice(some);
-        }
-        Asked { genomes, max_size }
+        self.driven.ask(workers)
     }
 
     /// Takes the scores of the oldest individuals without a score, in the order in which they were asked for. Returns
     /// the rows of the generations that they finished.
-    pub fn tell(&mut self, mut scores: &[Score], now: Duration) -> Vec<Row> {
-        let mut rows = Vec::new();
-        while !scores.is_empty() {
-            let awaited = self.course.search.awaited().min(scores.len());
-            if awaited == 0 {
-                // More scores than individuals.
-                break;
-            }
-            let (these, others) = scores.split_at(awaited);
-            self.course.search.tell(these);
-            rows.extend(self.course.after_scores(&self.objective, now));
-            scores = others;
-        }
-        self.course.set_pace(now);
-        rows
+    pub fn tell(&mut self, scores: &[Score], now: Duration) -> Vec<Row> {
+        self.driven.tell(scores, now)
     }
 
     /// The best individual so far; `None` before the first score.
     #[must_use]
     pub const fn best(&self) -> Option<&Scored> {
-        self.course.search.state.best.as_ref()
+        self.driven.course.search.state.best.as_ref()
     }
 
     /// Likeness of the best individual, in 0..=1, once it is known.
     #[must_use]
     pub fn likeness(&self) -> Option<f64> {
-        self.course.likeness()
+        self.driven.course.likeness()
     }
 
     /// Individuals evaluated.
     #[must_use]
     pub const fn evaluations(&self) -> u64 {
-        self.course.search.state.evaluations
+        self.driven.course.search.state.evaluations
     }
 
     /// The largest used share of any limit of the budget, in 0..=1; `None` without a limit.
     #[must_use]
     pub fn used(&self, now: Duration) -> Option<f64> {
-        self.course.budget.used(&self.course.spent(now, false))
+        self.driven.used(now)
     }
 
     /// One row for every finished generation.
     #[must_use]
     pub fn history(&self) -> &[Row] {
-        &self.course.history
+        &self.driven.course.history
     }
 
     /// Ends the search where it is and assesses its result, by the clock of `control`. A search that was not over
@@ -177,7 +142,7 @@ impl Stepwise {
     /// # Errors
     /// Those of [`crate::fit_goal`].
     pub fn finish(self, control: Control<'_>) -> Result<Fitted, FitError> {
-        let Self { prepared, settings, mut library, course, before_search, .. } = self;
+        let Self { prepared, settings, mut library, driven: Driven { course, .. }, before_search } = self;
         let elapsed = control.clock.elapsed();
         let stop = course.verdict(&course.spent(elapsed, false)).unwrap_or(StopReason::Interrupted);
         let state = course.search.state;

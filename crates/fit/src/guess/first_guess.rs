@@ -2,13 +2,13 @@
 
 use super::candidate::Candidate;
 use super::comparison::pictures_of;
-use super::found::{FirstGuess, References};
+use super::found::{FirstGuess, Reference, References};
 use super::goal_context::{GoalContext, known_views, likeness_evaluator};
-use super::library::{GuessLibrary, compare};
+use super::library::{GuessLibrary, Resemblance, compare};
 use super::measured::measured;
 use super::near::Near;
 use super::predicted::predicted;
-use super::race;
+use super::race::{Contender, Race, contenders};
 use super::ranking::{confidence, first_of, ranked, scored};
 use super::references;
 use super::settings::GuessSettings;
@@ -40,6 +40,24 @@ pub fn first_guess(
 
 /// Seeds of each candidate for references alone.
 const REFERENCE_SEEDS: u32 = 1;
+
+/// A first guess before its race is run.
+#[derive(Debug)]
+pub(crate) struct OpenGuess {
+    /// The goals whose views are known.
+    known: FitProblem,
+    settings: FitSettings,
+    candidates: Vec<Candidate>,
+    /// 1 minus the likeness of each candidate.
+    costs: Vec<f64>,
+    /// How the library's trees compare with the goals.
+    found: Vec<Option<Resemblance>>,
+    /// Those of them that are trees of candidates as they are, by candidate.
+    by_candidate: Vec<Vec<Reference>>,
+    foliage: Foliage,
+    pub(crate) race: Race,
+}
+
 impl GuessLibrary {
     /// [`first_guess`] with the trees of this library, which grows missing ones.
     ///
@@ -54,6 +72,24 @@ impl GuessLibrary {
         stop: &AtomicBool,
         mut progress: impl FnMut(usize, usize),
     ) -> Result<FirstGuess, FitError> {
+        let mut open = self.open_guess(problem, settings, candidates, guess, stop, &mut progress)?;
+        open.race.run(stop, &mut progress)?;
+        self.close_guess(open, stop)
+    }
+
+    /// A first guess whose race is left to the caller, who then calls [`Self::close_guess`].
+    ///
+    /// # Errors
+    /// As [`first_guess`].
+    pub(crate) fn open_guess(
+        &mut self,
+        problem: &FitProblem,
+        settings: &FitSettings,
+        candidates: &[Candidate],
+        guess: &GuessSettings,
+        stop: &AtomicBool,
+        mut progress: impl FnMut(usize, usize),
+    ) -> Result<OpenGuess, FitError> {
         let known = known_views(problem);
         let evaluator = likeness_evaluator(&known, settings)?;
         let context = GoalContext::new(&known, candidates, &evaluator, settings, stop, self.prepared.clone())
@@ -78,18 +114,27 @@ impl GuessLibrary {
         alike.extend(measured(&context, &alike, foliage)?);
         alike.extend(predicted(&context, predictors.as_ref(), &costs, &alike, foliage)?);
         // A tree that looks like the goal may still stand beside it: the objective of the search decides.
-        let known = FitProblem { foliage, ..known.clone() };
-        let mut all = race::contenders(&context, scored(&known, &context, alike)?, &costs, keep);
-        if let (Some(how), 2..) = (guess.race, all.len()) {
-            all = race::race(&known, &context, how, all, &mut progress)?;
-        }
+        let raced = FitProblem { foliage, ..known.clone() };
+        let all = contenders(&context, scored(&raced, &context, alike)?, &costs, keep);
+        let race = Race::new(&raced, &context, guess.race, all)?;
+        let (settings, candidates) = (settings.clone(), candidates.to_vec());
+        drop(context);
+        Ok(OpenGuess { known, settings, candidates, costs, found, by_candidate, foliage, race })
+    }
+
+    /// The first guess that a race decides, run or not; `open` is of this library, which has made no other since.
+    ///
+    /// # Errors
+    /// As [`first_guess`].
+    pub(crate) fn close_guess(&mut self, open: OpenGuess, stop: &AtomicBool) -> Result<FirstGuess, FitError> {
+        let OpenGuess { known, settings, candidates, mut costs, found, by_candidate, foliage, race } = open;
+        let all = race.into_contenders();
         let Some(winner) = all.first() else { return Err(FitError::NoStart) };
         let values = winner.lists[0].values.clone();
         let mut species =
             with_values(&candidates[winner.candidate].species, values).map_err(SpaceError::Start)?;
-        let family = context.family(winner.candidate);
-        for (candidate, cost) in costs.iter_mut().enumerate() {
-            if context.family(candidate) != family {
+        for (cost, candidate) in costs.iter_mut().zip(&candidates) {
+            if candidate.species.generator.family() != winner.family {
                 *cost = f64::INFINITY;
             }
         }
@@ -97,15 +142,18 @@ impl GuessLibrary {
         if let Some(named) = named {
             species.appearance = candidates[named].species.appearance;
         }
-        let pictures = pictures_of(&context, named, (entries, &found), foliage)?;
-        let references = References::new(&known, candidates, &by_candidate, named, &pictures);
+        let evaluator = likeness_evaluator(&known, &settings)?;
+        let drawings = self.prepared.clone();
+        let context = GoalContext::new(&known, &candidates, &evaluator, &settings, stop, drawings);
+        let pictures = pictures_of(&context, named, (self.latest(), &found), foliage)?;
+        let references = References::new(&known, &candidates, &by_candidate, named, &pictures);
         self.close();
         Ok(FirstGuess {
             species,
             nearest: winner.lists.clone(),
             raced: winner.found.clone(),
-            runners: all.iter().map(|one| one.runner(&context)).collect(),
-            names: confidence(candidates, &costs),
+            runners: all.iter().map(Contender::runner).collect(),
+            names: confidence(&candidates, &costs),
             foliage,
             references,
         })

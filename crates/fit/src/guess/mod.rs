@@ -37,7 +37,9 @@ mod silhouettes;
 
 pub use candidate::Candidate;
 pub use drawings::{Drawings, DrawingsError};
+pub(crate) use first_guess::OpenGuess;
 pub use first_guess::first_guess;
 pub use found::{FirstGuess, Guess, Reference, References, Runner};
 pub use library::GuessLibrary;
+pub use race::Leg;
 pub use settings::{Contradictions, GuessSettings, RaceCriterion, RaceSettings};

@@ -2,13 +2,29 @@
 
 use super::contradiction::NO_START;
 use super::goal_context::{GoalContext, is_level};
-use super::library::{Resemblance, compare_once};
+use super::library::{GuessLibrary, Resemblance, compare_once};
 use super::ranking::Alike;
 use super::samples::Sample;
 use crate::error::FitError;
-use crate::predictor::Predictors;
-use crate::problem::Genome;
+use crate::predictor::{Answer, Predictors};
+use crate::problem::{FitProblem, Genome};
 use pleach_tree::{Foliage, Species};
+
+impl GuessLibrary {
+    /// The numbers of the first goal's tree, if it is one around the start of `problem`; `None` where nothing was learnt
+    /// about that.
+    pub(crate) fn predicted(&self, problem: &FitProblem) -> Option<Vec<f64>> {
+        let goal = problem.goals.first().filter(|goal| is_level(&goal.view))?;
+        self.predictors.as_ref()?.predict(&goal.goal, problem.foliage, [&problem.start]).pop()?
+    }
+
+    /// What the first goal says about the numbers of its tree, if that is one around `species`.
+    pub(crate) fn answer(&self, problem: &FitProblem, species: &Species) -> Option<Answer> {
+        let goal = problem.goals.first().filter(|goal| is_level(&goal.view))?;
+        let predictors = self.predictors.as_ref()?;
+        predictors.answer(&goal.goal, goal.frame.meters_per_pixel, problem.foliage, species)
+    }
+}
 
 /// So many candidates, those that look most like the goal.
 const CANDIDATES: usize = 4;

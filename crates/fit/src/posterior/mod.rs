@@ -9,6 +9,7 @@ mod prior;
 mod ridge;
 
 pub(crate) use examples::features;
+pub(crate) use model::quantiles;
 pub use model::{HeldOut, Interval, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings};
 pub use prior::{NoSample, Prior};
 pub(crate) use ridge::{Columns, Ridge, dot};

@@ -209,9 +209,8 @@ impl PosteriorModel {
     fn posterior_of(&self, goals: &[Descriptor], samples: usize) -> Posterior {
         let asked = features(goals);
         let means = self.ridge.predict(&asked);
-        let interval = |gene: &Gene, mut units: Vec<f64>| {
-            units.sort_by(f64::total_cmp);
-            let [low, median, high] = [0.05, 0.5, 0.95].map(|part| gene.from_unit(quantile(&units, part)));
+        let interval = |gene: &Gene, units: Vec<f64>| {
+            let [low, median, high] = quantiles(units).map(|unit| gene.from_unit(unit));
             Interval { low, median, high }
         };
         let numbers = self
@@ -290,6 +289,12 @@ fn differs(gene: &Gene, known: &[Genome]) -> bool {
     let mut values = known.iter().map(|genome| gene.get(genome));
     let first = values.next();
     values.any(|value| Some(value) != first)
+}
+
+/// The middle of `numbers` and the ends of an interval that holds nine in ten: those of an [`Interval`], in its order.
+pub(crate) fn quantiles(mut numbers: Vec<f64>) -> [f64; 3] {
+    numbers.sort_by(f64::total_cmp);
+    [0.05, 0.5, 0.95].map(|part| quantile(&numbers, part))
 }
 
 /// The value below which `part` of `sorted` lies, between its neighbours.

@@ -14,7 +14,7 @@ use std::sync::atomic::AtomicBool;
 /// Side of the pictures that are learnt from, in pixels: that of goals.
 const SIDE: u32 = 256;
 /// The height in metres that every tree is brought to before its numbers are learnt.
-const HEIGHT: f64 = 10.0;
+pub(super) const HEIGHT: f64 = 10.0;
 /// The seed of the trees that are learnt from.
 const SEED: u64 = 0x6c65_6172;
 

@@ -69,6 +69,15 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     assert_eq!(seen("length[3]"), Identifiability::NotSeen);
     assert_eq!(seen("blossom_shape"), Identifiability::NotSeen);
 
+    // A small move is tried only where a large one is seen.
+    for profile in &profiles {
+        let is_tried = profile.rises[0].iter().any(Option::is_some);
+        let large = profile.rises[1].iter().flatten();
+        let is_seen = large.clone().any(|rise| *rise > 0.05);
+        assert!(is_seen || !is_tried || large.count() == 0, "{profile:?}");
+    }
+    assert!(profiles.iter().any(|profile| profile.rises[0] == [None; 2] && profile.rises[1][0].is_some()));
+
     // What is not seen goes back to the start, and nothing else does.
     let mut start = base(&problem).to_vec();
     let slot = |name: &str| space.select(name).unwrap()[0];

@@ -10,6 +10,7 @@ mod height;
 mod hull;
 mod individual;
 mod judged;
+mod known_start;
 mod nuisances;
 mod pole;
 mod problems;

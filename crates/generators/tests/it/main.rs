@@ -3,4 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod default_limits;
+mod foreign;
+mod handles;
 mod text;

@@ -2,6 +2,7 @@
 
 mod ear;
 
+use crate::atlas::{Form, bounds};
 use crate::block::{Block, Vertex};
 use crate::part::Count;
 use crate::settings::LeafStyle;
@@ -30,9 +31,40 @@ impl UnitMesh {
             LeafStyle::Outline => Self::flat(shape.corners()),
             LeafStyle::Reduced => Self::flat(&reduced(shape)),
             LeafStyle::Simple => Self::flat(&simple(shape)),
+            LeafStyle::Card => Self::flat(&rectangle(bounds(shape.corners()))),
             LeafStyle::CrossedCards => Self::crossed(shape.width()),
             LeafStyle::None => Self::default(),
         }
+    }
+
+    /// The leaf in this style and form; its texture coordinates fill the rectangle around that form.
+    pub(crate) fn leaf_in_form(shape: &Outline, style: LeafStyle, form: Form) -> Self {
+        let outline = form.outline(shape.corners());
+        let around = bounds(&outline);
+        let mut mesh = match style {
+            LeafStyle::Outline => Self::flat(&outline),
+            LeafStyle::Reduced => Self::flat(&form.outline(&reduced(shape))),
+            LeafStyle::Simple => Self::flat(&form.outline(&simple(shape))),
+            LeafStyle::Card => Self::flat(&rectangle(around)),
+            LeafStyle::CrossedCards => Self::crossed_around(around),
+            LeafStyle::None => Self::default(),
+        };
+        let [left, bottom, right, top] = around;
+        let part = |x: f32, low: f32, high: f32| ((x - low) / (high - low)).clamp(0.0, 1.0);
+        for corner in &mut mesh.corners {
+            // A card that stands across the blade shows what is as far from the midrib.
+            let across = corner.at.x + corner.at.z;
+            corner.uv = [part(across, left, right), 1.0 - part(corner.at.y, bottom, top)];
+        }
+        mesh
+    }
+
+    /// The same with texture coordinates in a part of a picture, of which `cell` gives left, top, right and bottom.
+    pub(crate) fn in_cell(mut self, [left, top, right, bottom]: [f32; 4]) -> Self {
+        for Corner { uv: [u, v], .. } in &mut self.corners {
+            (*u, *v) = (left + (right - left) * *u, top + (bottom - top) * *v);
+        }
+        self
     }
 
     /// The blossom in this style.
@@ -40,7 +72,7 @@ impl UnitMesh {
         match style {
             LeafStyle::Outline | LeafStyle::Reduced => Self::petals(shape),
             LeafStyle::Simple => Self::pyramid(shape),
-            LeafStyle::CrossedCards => Self::level_card(shape),
+            LeafStyle::Card | LeafStyle::CrossedCards => Self::level_card(shape),
             LeafStyle::None => Self::default(),
         }
     }
@@ -78,12 +110,16 @@ impl UnitMesh {
 
     /// Two cards through the middle of the blade, at right angles to each other.
     fn crossed(width: f32) -> Self {
-        let half = width / 2.0;
+        Self::crossed_around([-width / 2.0, 0.0, width / 2.0, 1.0])
+    }
+
+    /// The same of a blade within left, bottom, right and top.
+    fn crossed_around([left, bottom, right, top]: [f32; 4]) -> Self {
         let card = |axis: Vec3, normal: Vec3| {
-            [(-1.0, 0.0), (1.0, 0.0), (1.0, 1.0), (-1.0, 1.0)].map(|(s, v): (f32, f32)| Corner {
-                at: axis * (s * half) + Vec3::Y * v,
+            [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(s, t): (f32, f32)| Corner {
+                at: axis * (left + (right - left) * s) + Vec3::Y * (bottom + (top - bottom) * t),
                 normal,
-                uv: [0.5 + 0.5 * s, 1.0 - v],
+                uv: [s, 1.0 - t],
             })
         };
         let corners = [card(Vec3::X, Vec3::Z), card(Vec3::Z, -Vec3::X)].concat();
@@ -156,6 +192,11 @@ impl UnitMesh {
         }));
         Self { corners, triangles: vec![[0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 1, 4]] }
     }
+}
+
+/// The corners of a rectangle between left, bottom, right and top, counter-clockwise.
+fn rectangle([left, bottom, right, top]: [f32; 4]) -> Vec<[f32; 2]> {
+    vec![[left, bottom], [right, bottom], [right, top], [left, top]]
 }
 
 /// How far a unit blossom reaches from its axis, and how high it is.

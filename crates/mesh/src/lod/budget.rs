@@ -145,7 +145,10 @@ fn leaf_styles(tree: &Tree, settings: MeshSettings, most: u64) -> Vec<(LeafStyle
         return vec![(LeafStyle::None, 1.0)];
     }
     let styles = [(LeafStyle::Outline, FEW), (LeafStyle::Reduced, FEW), (LeafStyle::Simple, RUN)];
-    let fitting = styles.into_iter().filter_map(|(style, most_run)| {
+    let has_place = |(style, _): &(LeafStyle, f64)| !settings.pictured || style.pictured() == *style;
+    let pictures = settings.pictured.then_some((LeafStyle::Card, RUN));
+    let styles = styles.into_iter().filter(has_place).chain(pictures);
+    let fitting = styles.filter_map(|(style, most_run)| {
         let run =
             leaf_triangles(tree, MeshSettings { leaves: style, ..settings }) as f64 / most.max(1) as f64;
         (run <= most_run).then_some((style, run.max(1.0)))
@@ -193,7 +196,8 @@ fn with_blobs<'a>(
     let mut coarse = tree.clone();
     blobs::reduce(&mut coarse, for_blobs as usize);
     let blobs = coarse.blob_triangles.len() as u64;
-    let settings = MeshSettings { min_sides: 3, leaves: LeafStyle::Simple, ..bark.settings };
+    let style = if bark.settings.pictured { LeafStyle::Card } else { LeafStyle::Simple };
+    let settings = MeshSettings { min_sides: 3, leaves: style, ..bark.settings };
     let leaves = leaf_triangles(tree, settings);
     if leaves > 0 {
         let run = leaves as f64 / for_blobs.saturating_sub(blobs).max(1) as f64;

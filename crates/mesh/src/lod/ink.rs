@@ -2,14 +2,15 @@
 //!
 //! A card is flat where a twig is round, and seen from its edge it is nothing: cards of the size of their twigs cover
 //! less. What a tree and a level cover is counted on a grid from two sides, and all cards of the level grow about
-//! their middles by one factor.
+//! their middles by one factor, but none to more than twice the size of the twig that it shows: a few groups lie far
+//! apart on their stem, and their card would show a leaf of a metre.
 
 use crate::block::Block;
 use crate::foliage::UnitMesh;
 use crate::mesher::Mesher;
 use crate::part::Source as _;
 use crate::settings::{LeafStyle, MeshSettings};
-use crate::twigs::{TwigModel, Twigs};
+use crate::twigs::{MAX_GROWTH, TwigModel, Twigs};
 use glam::{Vec2, Vec3, vec2};
 use pleach_plant::{Leaf, Tree};
 use rayon::prelude::*;
@@ -18,8 +19,6 @@ use rayon::prelude::*;
 const CELLS: usize = 512;
 /// Cells along a side of the grid that shows what a card's picture covers.
 const CARD_CELLS: usize = 64;
-/// Most times that a card grows: a leaf in its picture grows with it.
-const MOST: f32 = 2.0;
 /// Size that is tried after 1.
 const FIRST: f32 = 1.2;
 /// Sizes that are tried at most.
@@ -127,7 +126,9 @@ impl Ink {
             let of_side = |(side, wood): (&Side, &Grid)| {
                 let mut grid = wood.clone();
                 for card in &twigs.cards {
-                    show(&grown(card, growth), side, &mut grid, &pictures[usize::from(card.shape)]);
+                    let shape = usize::from(card.shape);
+                    let grown = twigs.models[shape].limited(grown(card, growth));
+                    show(&grown, side, &mut grid, &pictures[shape]);
                 }
                 grid.covered()
             };
@@ -141,12 +142,14 @@ impl Ink {
             let now = (size, covered(size));
             let slope = (now.1 - last.1) / (now.0 - last.0);
             let next = if slope > 0.0 { now.0 + (wanted - now.1) / slope } else { now.0 };
-            (last, size) = (now, next.clamp(1.0 / MOST, MOST));
+            (last, size) = (now, next.clamp(1.0 / MAX_GROWTH, MAX_GROWTH));
             if (size - last.0).abs() < 1e-3 {
                 break;
             }
         }
-        twigs.cards.iter_mut().for_each(|card| *card = grown(card, size));
+        for card in &mut twigs.cards {
+            *card = twigs.models[usize::from(card.shape)].limited(grown(card, size));
+        }
     }
 }
 
@@ -270,6 +273,10 @@ mod tests {
                     draw(&ink.sides, &mut grids, corners)
                 });
                 for card in &twigs.cards {
+                    let model = &twigs.models[usize::from(card.shape)].card;
+                    for (own, shown) in [(model.along, card.along), (model.across, card.across)] {
+                        assert!(shown.length() <= 2.001 * own.length(), "{name}: {shown} shows {own}");
+                    }
                     for (side, grid) in ink.sides.iter().zip(&mut grids) {
                         show(card, side, grid, &pictures[usize::from(card.shape)]);
                     }

@@ -100,6 +100,7 @@ pub fn level(tree: &Tree, settings: MeshSettings, level: u32) -> Level<'_> {
     };
     let tolerance = settings.tolerance * recipe.tolerance;
     let leaves = match settings.leaves {
+        LeafStyle::Outline if settings.pictured => recipe.leaves.pictured(),
         LeafStyle::Outline => recipe.leaves,
         chosen => chosen,
     };

@@ -108,11 +108,6 @@ impl Rings {
         unroll::tiles_at(&self.path.rings, along)
     }
 
-    /// Length in metres of what is drawn of the stem.
-    pub(crate) fn length(&self) -> Option<f64> {
-        self.rings.last().map(|ring| ring.along)
-    }
-
     /// Appends runs through rings `first` to `last` of the path, whose tangents there are `leaves` and `arrives`.
     fn stretch(&mut self, first: usize, last: usize, leaves: DVec3, arrives: DVec3, tolerance: f64) {
         let ring = |path: &Path, i: usize| match i {

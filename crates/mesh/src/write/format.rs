@@ -36,6 +36,8 @@ pub enum Feature {
     Sway,
     /// Many trees that share few meshes.
     Forest,
+    /// Vertices of whole numbers.
+    Compression,
 }
 
 impl Format {

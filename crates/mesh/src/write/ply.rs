@@ -50,9 +50,10 @@ impl<W: Write> Sink for Ply<W> {
             head.push_str(&format!("property uchar {name}\n"));
         }
         if wind {
-            let names =
-                ["pivot_x", "pivot_y", "pivot_z", "phase", "level", "place", "frequency", "amplitude"];
-            names.iter().for_each(|name| head.push_str(&format!("property float wind_{name}\n")));
+            let vectors = ["pivot", "bend", "parent_pivot", "parent_bend"];
+            let axes = vectors.iter().flat_map(|name| ["x", "y", "z"].map(|axis| format!("{name}_{axis}")));
+            let numbers = ["level_and_phase", "flutter_and_parent_phase"].map(str::to_owned);
+            axes.chain(numbers).for_each(|name| head.push_str(&format!("property float wind_{name}\n")));
         }
         head.push_str(&format!(
             "element face {triangles}\nproperty list uchar uint vertex_indices\nend_header\n"

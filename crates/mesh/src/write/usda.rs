@@ -163,7 +163,7 @@ impl<'a, W: Write> Usda<'a, W> {
                 Some(_) => vec![format!("color3f inputs:diffuseColor.connect = <{path}/color.outputs:rgb>")],
                 None => vec![format!("color3f inputs:diffuseColor = ({r:.4}, {g:.4}, {b:.4})")],
             };
-            if picture.is_some_and(|pictures| !pictures.repeats()) {
+            if picture.is_some_and(|pictures| pictures.is_cut_out) {
                 inputs.push(format!("float inputs:opacity.connect = <{path}/color.outputs:a>"));
                 inputs.push("float inputs:opacityThreshold = 0.4".to_owned());
             }

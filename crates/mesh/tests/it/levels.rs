@@ -18,7 +18,9 @@ fn levels_are_named_nodes_below_the_tree() {
         assert_eq!(node["name"], format!("acer_LOD{level}"));
         assert_eq!(node["name"], mesh["name"]);
     }
-    assert!(json["extensionsUsed"].is_null(), "nothing that a program may not know");
+    // Nothing that a program has to know.
+    assert!(json["extensionsRequired"].is_null());
+    assert_eq!(json["extensionsUsed"], serde_json::json!(["KHR_materials_diffuse_transmission"]));
 }
 
 #[test]

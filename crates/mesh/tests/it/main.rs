@@ -3,8 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod files;
+mod leaves;
 mod levels;
 mod mesh;
 mod pictures;
+mod quantized;
 mod silhouettes;
 mod stems;
+mod wind;

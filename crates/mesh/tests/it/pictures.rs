@@ -7,7 +7,7 @@ use pleach_mesh::write::{obj, usda};
 use pleach_mesh::{Material, MeshSettings, Mesher, Palette, Pictures, send};
 
 /// Bark with a colour, a relief and a roughness.
-fn bark() -> Pictures<Vec<u8>> {
+pub(crate) fn bark() -> Pictures<Vec<u8>> {
     Pictures { normal: Some(dot()), roughness: Some(dot()), ..Pictures::colors(Material::Bark, dot()) }
 }
 
@@ -80,6 +80,7 @@ fn bark_shows_tiles_with_their_relief() {
     let of = |what: &str| format!("acer-{what}.png");
     let named = Pictures {
         material: Material::Bark,
+        is_cut_out: false,
         color: of("bark"),
         normal: Some(of("normal")),
         roughness: Some(of("roughness")),

@@ -6,6 +6,7 @@ mod data;
 mod digest;
 mod leaf;
 mod parts;
+mod place;
 mod stem;
 
 pub use blob::Blob;

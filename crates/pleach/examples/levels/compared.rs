@@ -113,7 +113,7 @@ pub(crate) fn compare(name: &str, budgets: &[u32]) -> Result<Vec<Compared>, Box<
     goal.draw(&Mesh::new(&tree, MeshSettings::default()), None);
     let (goal, ink) = goal.picture();
     let levels = lod::budgets(&[&tree], MeshSettings::default(), budgets)?;
-    let sheet = twig_sheet::paint(&palette, lod::painted(&[&tree], &levels));
+    let sheet = twig_sheet::paint(&palette, lod::painted(&[&tree], &levels)).color;
     let compare = |level: &lod::Level<'_>| {
         let mut mesh = Mesh::default();
         send(&[level.mesher()], &mut mesh)?;

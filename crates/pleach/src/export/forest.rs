@@ -3,7 +3,7 @@
 use super::ExportError;
 use super::extras::extras;
 use super::options::{Export, LeafForm};
-use super::tree::cards;
+use super::tree::{Planned, Written, cards};
 use crate::option_error::{OptionError, from_json};
 use pleach_mesh::forest;
 use pleach_mesh::send;
@@ -70,7 +70,7 @@ impl Export {
     }
 
     /// Grows a few trees of `species`, from `seed` on, and writes a forest of them to `out`, an empty and buffered
-    /// file, as GLB. `grow` grows the tree of a seed. Returns how many trees stand there.
+    /// file, as GLB. `grow` grows the tree of a seed.
     ///
     /// # Errors
     /// An [`ExportError`]: options that [`Export::check_forest`] refuses, a forest that cannot be planted, a tree that
@@ -82,7 +82,7 @@ impl Export {
         seed: u64,
         grow: impl Fn(u64) -> Result<Tree, GrowError>,
         out: &mut W,
-    ) -> Result<usize, ExportError> {
+    ) -> Result<Written, ExportError> {
         self.check_forest(forest)?;
         let sites = forest::plant(forest.width, forest.depth, forest.spacing, forest.variants, seed)?;
         // Only variants that stand somewhere are grown.
@@ -102,17 +102,17 @@ impl Export {
         });
         let trees = grown.collect::<Result<Vec<Tree>, ExportError>>()?;
         let trees: Vec<&Tree> = trees.iter().collect();
-        let levels = self.levels(&trees)?;
-        let billboards = self.billboards(&trees, &palette);
+        let Planned { export, levels, note } = self.planned(Format::Glb, &trees)?;
+        let billboards = export.billboards(&trees, &palette);
         let mut sources = Vec::new();
         for (i, levels) in levels.iter().enumerate() {
-            sources.extend(self.sources(levels, None, None));
+            sources.extend(export.sources(levels, None, None));
             sources.extend(billboards.iter().map(|billboards| cards(&billboards.cards[i])));
         }
         let each = sources.len() / trees.len().max(1);
         let meshes = |variant: usize| (variant * each..(variant + 1) * each).collect();
         // An instance cannot hold instances.
-        let is_separate = forest.separate || self.leaves == LeafForm::Instances;
+        let is_separate = forest.separate || export.leaf_form() == LeafForm::Instances;
         let mut placed: Vec<Placed> = Vec::new();
         for (variant, number) in used.iter().enumerate() {
             let own = sites.iter().enumerate().filter(|(_, site)| site.variant == *number);
@@ -141,10 +141,11 @@ impl Export {
             extras: extras(species, json!(seeds)),
             placed,
             lod_extension: self.lod_extension,
+            grid: export.grid(&sources)?,
             rig: None,
-            pictures: self.pictures(&trees, &levels, &palette, billboards.as_ref())?,
+            pictures: export.pictures(&trees, &levels, &palette, billboards.as_ref())?,
         };
         send(&sources, &mut Glb::new(out, &scene))?;
-        Ok(sites.len())
+        Ok(Written { beside: Vec::new(), trees: sites.len(), note })
     }
 }

@@ -2,17 +2,20 @@
 //!
 //! [`Export`] says what a file is to hold: levels of detail, how leaves are drawn, a season, wind. It is plain values,
 //! read from and written to JSON, and [`Export::check`] says what is wrong with them for a format.
-//! [`Export::write`] streams one tree, [`Export::write_forest`] many. `pleach grow`, the Python package and the page
+//! [`Export::write`] streams one tree, [`Export::meshes`] keeps one in memory, [`Export::write_forest`] many. `pleach grow`, the Python package and the page
 //! in the browser are made of these, so that the same options give the same bytes in each.
 
+mod arrays;
 mod extras;
 mod forest;
 mod options;
 mod tree;
+mod usual;
 
+pub use arrays::ExportedMeshes;
 pub use forest::Forest;
-pub use options::{Export, LeafForm};
-pub use tree::{Beside, ExportedFile};
+pub use options::{Compression, Export, LeafForm};
+pub use tree::{Beside, ExportedFile, Written};
 
 use crate::option_error::OptionError;
 use pleach_mesh::MeshError;

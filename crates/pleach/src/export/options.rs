@@ -8,6 +8,9 @@ use pleach_render::{bark_picture, billboard};
 use pleach_tree::{Parts, Season, Species};
 use serde::{Deserialize, Serialize};
 
+/// How far bark may stray from its true surface, in millimetres, where nothing says so.
+const TOLERANCE: f64 = 2.0;
+
 /// How leaves are put into a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -61,7 +64,33 @@ impl LeafForm {
     }
 }
 
+/// How a GLB file is made smaller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Compression {
+    /// Positions and texture coordinates of 16 bits, normals and tangents of 8 (`KHR_mesh_quantization`): a position is
+    /// off by up to 1/131,072 of the longest side.
+    Quantize,
+}
+
+impl Compression {
+    /// The name in options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Quantize => "quantize",
+        }
+    }
+}
+
 /// What a mesh file is to hold; the defaults are those of `pleach grow -o tree.glb`.
+///
+/// Without options a GLB file is for engines: [`Export::USUAL_TRIANGLES`], with pictures of bark and leaves. `finest`, `lod`,
+/// `triangles`, `tolerance`, `weld`, `sway` and `leaves` (but for `none`) say how finely the tree is drawn, and take the
+/// place of that budget. A tree that does not fit into it is written whole, which [`Written::note`] tells. OBJ, USDA,
+/// PLY and STL files hold the whole tree.
+///
+/// [`Written::note`]: super::Written::note
 ///
 /// In JSON the keys are the names of the fields; a key that is left out has its default, and one that is not known is
 /// refused.
@@ -71,18 +100,21 @@ impl LeafForm {
 ///
 /// let species = pleach::species("acer")?;
 /// let tree = species.grow(1)?;
-/// let export = Export { lod: 3, season: Some(Season::Autumn), ..Export::default() };
+/// let export = Export { lod: Some(3), season: Some(Season::Autumn), ..Export::default() };
 /// let mut glb = std::io::Cursor::new(Vec::new());
 /// export.write(MeshFormat::Glb, &species, 1, &tree, None, &mut glb)?;
 /// # assert!(glb.into_inner().starts_with(b"glTF"));
 /// assert!(export.check(MeshFormat::Stl).is_err(), "STL holds triangles and nothing else");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Export {
-    /// Levels of detail, the finest included, 1 to 6.
-    pub lod: u32,
+    /// Whether every leaf and twig is drawn, where nothing else says how finely: without a budget and, unless
+    /// `textures` asks for them, without pictures.
+    pub finest: bool,
+    /// Levels of detail of fixed coarseness, every leaf and twig the finest, 1 to 6.
+    pub lod: Option<u32>,
     /// Budgets of levels of detail in triangles, the largest first, up to 6, instead of `lod`; twigs become cards where
     /// leaves have no room.
     pub triangles: Vec<u32>,
@@ -92,8 +124,9 @@ pub struct Export {
     pub lod_extension: bool,
     /// A last level of detail: this many crossing cards that show the tree, 1 to 8; 0 for none.
     pub billboard: u32,
-    /// How far bark may stray from its true surface, in millimetres, 0.01 to 1000.
-    pub tolerance: f64,
+    /// How far bark may stray from its true surface, in millimetres, 0.01 to 1000; by default 2, or as a budget of
+    /// triangles allows.
+    pub tolerance: Option<f64>,
     /// Weld all stems into one watertight surface, on a grid with cells of this many millimetres, 1 to 1000; what is
     /// thinner becomes as thick as a cell.
     pub weld: Option<f64>,
@@ -101,10 +134,14 @@ pub struct Export {
     pub fillet: f64,
     /// Whether roots are drawn, where the generator grows any.
     pub roots: bool,
-    /// How leaves are drawn.
-    pub leaves: LeafForm,
-    /// Pictures of the bark of so many pixels a side, 512, 1024 or 2048: colour, normals, roughness and occlusion.
+    /// How leaves are drawn; by default their outlines, or as a budget of triangles allows.
+    pub leaves: Option<LeafForm>,
+    /// Pictures of bark, leaves and blossoms of so many pixels a side, 512, 1024 or 2048, or 0 for none: colour and normals,
+    /// and of bark roughness and occlusion. By default 1024 in a GLB file, but for the finest and for welded stems, and none
+    /// in others.
     pub textures: Option<u32>,
+    /// How the file is made smaller; by default not at all.
+    pub compress: Option<Compression>,
     /// Season; by default the species file's own, or summer with all its blossom. In JSON its name.
     #[serde(with = "season")]
     pub season: Option<Season>,
@@ -112,27 +149,6 @@ pub struct Export {
     pub wind: bool,
     /// Whether there are joints, and a looping animation of the tree in wind.
     pub sway: bool,
-}
-
-impl Default for Export {
-    fn default() -> Self {
-        Self {
-            lod: 1,
-            triangles: Vec::new(),
-            level: None,
-            lod_extension: false,
-            billboard: 0,
-            tolerance: 2.0,
-            weld: None,
-            fillet: 0.0,
-            roots: false,
-            leaves: LeafForm::default(),
-            textures: None,
-            season: None,
-            wind: false,
-            sway: false,
-        }
-    }
 }
 
 /// A season by name.
@@ -169,7 +185,7 @@ impl Export {
     pub fn check(&self, format: Format) -> Result<(), OptionError> {
         self.check_ranges()?;
         self.check_together()?;
-        for (option, feature) in self.features() {
+        for (option, feature) in self.completed(format).features() {
             if !format.holds(feature) {
                 let others = Format::ALL.into_iter().filter(|other| other.holds(feature));
                 let others: Vec<String> = others.map(|other| format!(".{}", other.suffix())).collect();
@@ -183,8 +199,8 @@ impl Export {
 
     fn check_ranges(&self) -> Result<(), OptionError> {
         let error = |option, problem: String| Err(OptionError::new(option, problem));
-        if !(1..=lod::MAX_LEVELS).contains(&self.lod) {
-            return error("lod", format!("is {}, expected from 1 to {} levels", self.lod, lod::MAX_LEVELS));
+        if let Some(lod) = self.lod.filter(|lod| !(1..=lod::MAX_LEVELS).contains(lod)) {
+            return error("lod", format!("is {lod}, expected from 1 to {} levels", lod::MAX_LEVELS));
         }
         let (least, most) = (*lod::BUDGETS.start(), *lod::BUDGETS.end());
         if let Some(wrong) = self.triangles.iter().find(|budget| !lod::BUDGETS.contains(budget)) {
@@ -205,15 +221,15 @@ impl Export {
             let most = billboard::MAX_SIDES;
             return error("billboard", format!("is {}, expected up to {most} cards", self.billboard));
         }
-        if !(0.01..=1000.0).contains(&self.tolerance) {
-            return error("tolerance", format!("is {} mm, expected from 0.01 to 1000", self.tolerance));
+        if let Some(tolerance) = self.tolerance.filter(|tolerance| !(0.01..=1000.0).contains(tolerance)) {
+            return error("tolerance", format!("is {tolerance} mm, expected from 0.01 to 1000"));
         }
         if let Some(cell) = self.weld.filter(|cell| !(1.0..=1000.0).contains(cell)) {
             return error("weld", format!("has cells of {cell} mm, expected from 1 to 1000"));
         }
-        if let Some(side) = self.textures.filter(|side| !bark_picture::SIDES.contains(side)) {
+        if let Some(side) = self.side().filter(|side| !bark_picture::SIDES.contains(side)) {
             let sides = bark_picture::SIDES.map(|side| side.to_string()).join(", ");
-            return error("textures", format!("is {side} pixels, expected one of {sides}"));
+            return error("textures", format!("is {side} pixels, expected one of {sides}, or 0 for none"));
         }
         if !(0.0..=WeldSettings::MAX_FILLET).contains(&self.fillet) {
             let most = WeldSettings::MAX_FILLET;
@@ -224,10 +240,13 @@ impl Export {
 
     fn check_together(&self) -> Result<(), OptionError> {
         let has_budget = !self.triangles.is_empty();
-        if has_budget && self.lod > 1 {
+        if has_budget && self.finest {
+            return Err(OptionError::new("triangles", "gives each level a budget: leave out `finest`"));
+        }
+        if has_budget && self.lod.is_some_and(|lod| lod > 1) {
             return Err(OptionError::new("triangles", "gives each level a budget: leave out `lod`"));
         }
-        if has_budget && !matches!(self.leaves, LeafForm::Outline | LeafForm::None) {
+        if has_budget && !matches!(self.leaf_form(), LeafForm::Outline | LeafForm::None) {
             return Err(OptionError::new("triangles", "decides how leaves are drawn: leave out `leaves`"));
         }
         if self.lod_extension && self.shown_levels() < 2 {
@@ -237,7 +256,7 @@ impl Export {
             ));
         }
         let asks = [
-            ("lod", self.lod > 1),
+            ("lod", self.lod.is_some_and(|lod| lod > 1)),
             ("triangles", has_budget),
             ("billboard", self.billboard > 0),
             ("sway", self.sway),
@@ -246,7 +265,7 @@ impl Export {
         let asked = |names: &[&str]| {
             asks.iter().find(|(name, asked)| *asked && names.contains(name)).map(|(name, _)| *name)
         };
-        if self.weld.is_some() && self.textures.is_some() {
+        if self.weld.is_some() && self.side().is_some() {
             return Err(OptionError::new("textures", "cannot be laid on one surface, which `weld` makes"));
         }
         if self.weld.is_some()
@@ -259,6 +278,12 @@ impl Export {
         {
             return Err(OptionError::new("sway", format!("is of one mesh: leave out `{other}`")));
         }
+        if self.compress.is_some()
+            && let Some(other) = asked(&["wind", "sway"])
+        {
+            let problem = format!("moves vertices into a frame that `{other}` does not know: leave one out");
+            return Err(OptionError::new("compress", problem));
+        }
         if self.fillet > 0.0 && self.weld.is_none() {
             return Err(OptionError::new("fillet", "is about welded stems, and `weld` is not given"));
         }
@@ -268,15 +293,16 @@ impl Export {
     /// The options that ask for something that only some formats can hold.
     fn features(&self) -> impl Iterator<Item = (&'static str, Feature)> {
         let asked = [
-            ("leaves", self.leaves.feature()),
-            ("textures", self.textures.map(|_| Feature::Textures)),
+            ("leaves", self.leaf_form().feature()),
+            ("textures", self.side().map(|_| Feature::Textures)),
             ("wind", self.wind.then_some(Feature::Wind)),
             ("triangles", (!self.triangles.is_empty()).then_some(Feature::Budget)),
             ("triangles", (self.triangles.len() > 1 && self.level.is_none()).then_some(Feature::Levels)),
-            ("lod", (self.lod > 1 && self.level.is_none()).then_some(Feature::Levels)),
+            ("lod", (self.lod.is_some_and(|lod| lod > 1) && self.level.is_none()).then_some(Feature::Levels)),
             ("lod_extension", self.lod_extension.then_some(Feature::Levels)),
             ("billboard", (self.billboard > 0 && self.shows_billboard()).then_some(Feature::Billboard)),
             ("sway", self.sway.then_some(Feature::Sway)),
+            ("compress", self.compress.map(|_| Feature::Compression)),
         ];
         asked.into_iter().filter_map(|(option, feature)| feature.map(|feature| (option, feature)))
     }
@@ -289,7 +315,7 @@ impl Export {
 
     /// Levels without the cards that show the whole tree.
     pub(super) fn tree_levels(&self) -> u32 {
-        self.lod.max(self.triangles.len() as u32)
+        self.lod.unwrap_or(1).max(self.triangles.len() as u32)
     }
 
     /// How many levels are written.
@@ -300,6 +326,16 @@ impl Export {
     /// Whether the cards that show the whole tree are written.
     pub(super) fn shows_billboard(&self) -> bool {
         self.billboard > 0 && self.level.is_none_or(|level| level == self.tree_levels())
+    }
+
+    /// How leaves are drawn, where no budget decides it.
+    pub(super) fn leaf_form(&self) -> LeafForm {
+        self.leaves.unwrap_or_default()
+    }
+
+    /// Pixels a side of the pictures of the bark.
+    pub(super) fn side(&self) -> Option<u32> {
+        self.textures.filter(|side| *side > 0)
     }
 
     /// What of a tree is drawn.
@@ -314,10 +350,20 @@ impl Export {
         Palette::new(&species.appearance, self.season)
     }
 
+    /// Whether leaves and blossoms show pictures.
+    pub(super) fn shows_leaves(&self) -> bool {
+        self.side().is_some() || self.leaf_form() == LeafForm::Cards
+    }
+
     pub(super) fn settings(&self) -> MeshSettings {
         MeshSettings {
-            tolerance: self.tolerance / 1000.0,
-            leaves: self.leaves.style(),
+            tolerance: self.tolerance.unwrap_or(TOLERANCE) / 1000.0,
+            leaves: if self.side().is_some() {
+                self.leaf_form().style().pictured()
+            } else {
+                self.leaf_form().style()
+            },
+            pictured: self.shows_leaves(),
             wind: self.wind,
             parts: self.parts(),
             ..MeshSettings::default()
@@ -331,8 +377,8 @@ mod tests {
 
     #[test]
     fn options_read_back_from_json_and_unknown_ones_are_refused() {
-        let other = r#"{ "lod": 2, "triangles": [900], "level": 0, "lod_extension": true, "billboard": 3, "tolerance": 5.0, "weld": 30.0, "fillet": 1.0, "roots": true,
-            "leaves": "cards", "textures": 512, "season": "autumn", "wind": true, "sway": true }"#;
+        let other = r#"{ "finest": true, "lod": 2, "triangles": [900], "level": 0, "lod_extension": true, "billboard": 3, "tolerance": 5.0, "weld": 30.0, "fillet": 1.0, "roots": true,
+            "leaves": "cards", "textures": 512, "compress": "quantize", "season": "autumn", "wind": true, "sway": true }"#;
         let other = Export::from_json(other).unwrap();
         let written = serde_json::to_value(&other).unwrap();
         assert_eq!(serde_json::from_value::<Export>(written.clone()).unwrap(), other);
@@ -357,8 +403,8 @@ mod tests {
         }
         for format in Format::ALL {
             assert_eq!(Export::default().check(format), Ok(()));
-            assert_eq!(wrong(format, |e| e.lod = 0), "lod");
-            assert_eq!(wrong(format, |e| e.lod = 7), "lod");
+            assert_eq!(wrong(format, |e| e.lod = Some(0)), "lod");
+            assert_eq!(wrong(format, |e| e.lod = Some(7)), "lod");
             assert_eq!(wrong(format, |e| e.billboard = 9), "billboard");
             for triangles in [
                 &[0][..],
@@ -369,33 +415,39 @@ mod tests {
             ] {
                 assert_eq!(wrong(format, |e| e.triangles = triangles.to_vec()), "triangles", "{triangles:?}");
             }
-            assert_eq!(wrong(format, |e| (e.triangles, e.lod) = (vec![2_000], 2)), "triangles");
+            assert_eq!(wrong(format, |e| (e.triangles, e.lod) = (vec![2_000], Some(2))), "triangles");
             assert_eq!(
-                wrong(format, |e| (e.triangles, e.leaves) = (vec![2_000], LeafForm::Cards)),
+                wrong(format, |e| (e.triangles, e.leaves) = (vec![2_000], Some(LeafForm::Cards))),
                 "triangles"
             );
+            assert_eq!(wrong(format, |e| (e.triangles, e.finest) = (vec![2_000], true)), "triangles");
             assert_eq!(wrong(format, |e| (e.triangles, e.weld) = (vec![2_000], Some(5.0))), "weld");
             assert_eq!(wrong(format, |e| e.level = Some(1)), "level");
             assert_eq!(wrong(format, |e| e.lod_extension = true), "lod_extension");
-            assert_eq!(wrong(format, |e| e.tolerance = f64::NAN), "tolerance");
+            assert_eq!(wrong(format, |e| e.tolerance = Some(f64::NAN)), "tolerance");
             assert_eq!(wrong(format, |e| e.weld = Some(0.5)), "weld");
             assert_eq!(wrong(format, |e| (e.weld, e.fillet) = (Some(5.0), 4.5)), "fillet");
             assert_eq!(wrong(format, |e| e.fillet = 1.0), "fillet");
             assert_eq!(wrong(format, |e| e.textures = Some(65_536)), "textures");
             assert_eq!(wrong(format, |e| (e.weld, e.wind) = (Some(5.0), true)), "weld");
-            assert_eq!(wrong(format, |e| (e.sway, e.lod) = (true, 2)), "sway");
+            let small = Some(Compression::Quantize);
+            assert_eq!(wrong(format, |e| (e.compress, e.wind) = (small, true)), "compress");
+            assert_eq!(wrong(format, |e| (e.compress, e.sway) = (small, true)), "compress");
+            assert_eq!(wrong(format, |e| (e.sway, e.lod) = (true, Some(2))), "sway");
         }
-        assert_eq!(wrong(Format::Stl, |e| e.lod = 2), "lod");
+        assert_eq!(wrong(Format::Stl, |e| e.lod = Some(2)), "lod");
         assert_eq!(wrong(Format::Stl, |e| e.triangles = vec![2_000]), "triangles");
         assert_eq!(wrong(Format::Obj, |e| e.triangles = vec![4_000, 2_000]), "triangles");
         let one_level = Export { triangles: vec![4_000, 2_000], level: Some(1), ..Export::default() };
         assert_eq!(one_level.check(Format::Obj), Ok(()));
         assert_eq!(wrong(Format::Obj, |e| e.wind = true), "wind");
-        assert_eq!(wrong(Format::Ply, |e| e.leaves = LeafForm::Cards), "leaves");
+        assert_eq!(wrong(Format::Ply, |e| e.leaves = Some(LeafForm::Cards)), "leaves");
         assert_eq!(wrong(Format::Usda, |e| e.billboard = 2), "billboard");
+        assert_eq!(wrong(Format::Usda, |e| e.compress = Some(Compression::Quantize)), "compress");
         assert_eq!(wrong(Format::Stl, |e| e.textures = Some(512)), "textures");
         assert_eq!(wrong(Format::Ply, |e| e.textures = Some(512)), "textures");
-        let message = Export { lod: 2, ..Export::default() }.check(Format::Obj).unwrap_err().to_string();
+        let message =
+            Export { lod: Some(2), ..Export::default() }.check(Format::Obj).unwrap_err().to_string();
         assert_eq!(message, "`lod` is for .glb, and .obj cannot hold it");
     }
 }

@@ -2,13 +2,16 @@
 
 use super::ExportError;
 use super::extras::extras;
-use super::options::{Export, LeafForm};
+use super::options::{Compression, Export, LeafForm};
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::weld::{self, WeldSettings};
-use pleach_mesh::write::glb::{Glb, Placed, Scene, level_name};
+use pleach_mesh::write::glb::{Glb, Grid, Placed, Scene, level_name};
 use pleach_mesh::write::{Format, obj, ply, stl, usda};
-use pleach_mesh::{Block, Card, Cards, Material, Mesher, Palette, Pictures, Rig, Source, Welded, send};
-use pleach_render::{Billboards, Picture, bark_picture, leaf_picture, png_file, twig_sheet};
+use pleach_mesh::{
+    Block, Card, Cards, LeafStyle, Material, Mesher, Palette, Pictures, Rig, Source, Welded, send,
+};
+use pleach_render::picture::Relief;
+use pleach_render::{Billboards, Picture, bark_picture, leaf_atlas, png_file, twig_sheet};
 use pleach_tree::{Species, Tree};
 use serde_json::json;
 use std::io::{Cursor, Seek, Write};
@@ -22,6 +25,18 @@ pub struct Beside {
     pub bytes: Vec<u8>,
 }
 
+/// What was written, apart from the mesh file itself.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Written {
+    /// The files that the mesh file names.
+    pub beside: Vec<Beside>,
+    /// How many trees stand in it.
+    pub trees: usize,
+    /// What the user is to be told: that the tree is written whole, since it does not fit into
+    /// [`Export::USUAL_TRIANGLES`].
+    pub note: Option<String>,
+}
+
 /// A mesh in memory, with the files beside it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExportedFile {
@@ -29,7 +44,12 @@ pub struct ExportedFile {
     pub bytes: Vec<u8>,
     /// The files that it names.
     pub beside: Vec<Beside>,
+    /// What the user is to be told, as of [`Written::note`].
+    pub note: Option<String>,
 }
+
+/// Pixels a side of the pictures of leaves that are cards, where no other size is asked for.
+const CARDS_SIDE: u32 = 512;
 
 /// `mesher` with `bark` instead of its tubes, if there is one.
 fn with_bark<'a>(mesher: Mesher<'a>, bark: Option<&'a Block>) -> Box<dyn Source + 'a> {
@@ -45,7 +65,7 @@ pub(super) fn cards(cards: &[Card]) -> Box<dyn Source + '_> {
 
 impl Export {
     /// Writes `tree`, which `species` has grown from `seed`, to `out`, an empty and buffered file. What the tree does
-    /// not wear in the season is left out.
+    /// not wear in the season is left out. Options that are left open are filled in as [`Export`] says.
     ///
     /// `stem` is the name of the file without its suffix. With it an OBJ or USDA file names its materials and pictures,
     /// which are returned and are to be written into the same folder; without it, as on a stream, there are none.
@@ -61,21 +81,23 @@ impl Export {
         tree: &Tree,
         stem: Option<&str>,
         out: &mut W,
-    ) -> Result<Vec<Beside>, ExportError> {
+    ) -> Result<Written, ExportError> {
         self.check(format)?;
         let palette = self.palette(species);
         let tree = &*palette.dressed(tree);
         let bark = self.welded(tree)?;
-        let levels = self.levels(&[tree])?;
-        let one =
-            One { export: self, species, seed, tree, levels: &levels, palette, bark: bark.as_ref(), stem };
+        let Planned { export, levels, note } = self.planned(format, &[tree])?;
+        let export = &export;
+        let one = One { export, species, seed, tree, levels: &levels, palette, bark: bark.as_ref(), stem };
+        let mut beside = Vec::new();
         match format {
-            Format::Glb => one.write_glb(out).map(|()| Vec::new()),
-            Format::Obj => one.write_obj(out),
-            Format::Ply => Ok(send(&[one.source()], &mut ply::Ply::new(out, palette)).map(|()| Vec::new())?),
-            Format::Stl => Ok(send(&[one.source()], &mut stl::Stl::new(out)).map(|()| Vec::new())?),
-            Format::Usda => one.write_usda(out),
+            Format::Glb => one.write_glb(out)?,
+            Format::Obj => beside = one.write_obj(out)?,
+            Format::Ply => send(&[one.source()], &mut ply::Ply::new(out, palette))?,
+            Format::Stl => send(&[one.source()], &mut stl::Stl::new(out))?,
+            Format::Usda => beside = one.write_usda(out)?,
         }
+        Ok(Written { beside, trees: 1, note })
     }
 
     /// The same in memory.
@@ -91,11 +113,11 @@ impl Export {
         stem: &str,
     ) -> Result<ExportedFile, ExportError> {
         let mut out = Cursor::new(Vec::new());
-        let beside = self.write(format, species, seed, tree, Some(stem), &mut out)?;
-        Ok(ExportedFile { bytes: out.into_inner(), beside })
+        let Written { beside, note, .. } = self.write(format, species, seed, tree, Some(stem), &mut out)?;
+        Ok(ExportedFile { bytes: out.into_inner(), beside, note })
     }
 
-    fn welded(&self, tree: &Tree) -> Result<Option<Block>, ExportError> {
+    pub(super) fn welded(&self, tree: &Tree) -> Result<Option<Block>, ExportError> {
         let Some(cell) = self.weld else { return Ok(None) };
         let settings =
             WeldSettings { fillet: self.fillet, parts: self.parts(), ..WeldSettings::new(cell / 1000.0) };
@@ -114,12 +136,25 @@ impl Export {
             if let Some(rig) = rig {
                 mesher = mesher.with_rig(rig);
             }
-            if self.leaves == LeafForm::Instances {
+            if self.leaf_form() == LeafForm::Instances {
                 mesher = mesher.with_instanced_leaves();
             }
             with_bark(mesher, bark)
         };
         levels.iter().map(mesher).collect()
+    }
+
+    /// What is written of `trees`.
+    pub(super) fn planned<'a>(&self, format: Format, trees: &[&'a Tree]) -> Result<Planned<'a>, ExportError> {
+        let export = self.completed(format);
+        match export.levels(trees) {
+            Err(ExportError::Budget(too_few)) if self.has_usual_budget(format) => {
+                let export = Self { triangles: Vec::new(), ..export };
+                let levels = export.levels(trees)?;
+                Ok(Planned { export, levels, note: Some(format!("{too_few}; so it is written whole")) })
+            }
+            levels => Ok(Planned { export, levels: levels?, note: None }),
+        }
     }
 
     /// The levels of detail that are written of each of `trees`.
@@ -136,6 +171,14 @@ impl Export {
         Ok(trees.iter().map(of_tree).collect())
     }
 
+    /// What whole numbers stand for in a file of `sources` that is to be small.
+    pub(super) fn grid(&self, sources: &[Box<dyn Source + '_>]) -> Result<Option<Grid>, ExportError> {
+        Ok(match self.compress {
+            Some(Compression::Quantize) => Some(Grid::new(sources)?),
+            None => None,
+        })
+    }
+
     /// Cards that show each of `trees`, where they are asked for.
     pub(super) fn billboards(&self, trees: &[&Tree], palette: &Palette) -> Option<Billboards> {
         let billboards = self.shows_billboard().then(|| Billboards::paint(trees, palette, self.billboard));
@@ -150,26 +193,46 @@ impl Export {
         palette: &Palette,
         billboards: Option<&Billboards>,
     ) -> Result<Vec<Pictures<Vec<u8>>>, ExportError> {
-        let png = |picture: &Picture| png_file::bytes(picture).map_err(ExportError::Picture);
         let mut pictures = Vec::new();
-        if let Some(side) = self.textures {
-            let bark = bark_picture::bark(palette.pattern, palette.bark, side);
-            pictures.push(bark.try_map(|_, picture| png(&picture))?);
+        if let Some(side) = self.side() {
+            pictures.push(bark_picture::bark(palette.pattern, palette.bark, side));
         }
-        if self.leaves == LeafForm::Cards {
-            for (material, picture) in leaf_picture::leaf_pictures(trees[0], palette) {
-                pictures.push(Pictures::colors(material, png(&picture)?));
-            }
+        // Of a level with cards for twigs no leaf is drawn by itself.
+        let has_leaves = |level: &Level<'_>| level.settings.leaves != LeafStyle::None;
+        if self.shows_leaves() && levels.iter().flatten().any(has_leaves) {
+            let side = self.side().unwrap_or(CARDS_SIDE);
+            let is_cut_out = levels.iter().flatten().any(|level| level.settings.leaves.is_cut_out());
+            let sheets = leaf_atlas::paint(trees[0], palette, side, self.relief());
+            pictures.extend(sheets.into_iter().map(|s| if is_cut_out { s } else { leaf_atlas::opaque(s) }));
         }
         if lod::painted(trees, levels).next().is_some() {
-            let picture = twig_sheet::paint(palette, lod::painted(trees, levels));
-            pictures.push(Pictures::colors(Material::Twig, png(&picture)?));
+            pictures.push(twig_sheet::paint(palette, lod::painted(trees, levels)));
         }
         if let Some(billboards) = billboards {
-            pictures.push(Pictures::colors(Material::Card, png(&billboards.picture)?));
+            pictures.push(billboards.pictures.clone());
         }
-        Ok(pictures)
+        as_png(pictures)
     }
+
+    /// Whether pictures of leaves come with their normals.
+    fn relief(&self) -> Relief {
+        if self.side().is_some() { Relief::Painted } else { Relief::Omitted }
+    }
+}
+
+/// The same as PNG files.
+fn as_png(pictures: Vec<Pictures<Picture>>) -> Result<Vec<Pictures<Vec<u8>>>, ExportError> {
+    let all: Vec<&Picture> = pictures.iter().flat_map(|one| one.all().map(|(_, picture)| picture)).collect();
+    let mut packed = png_file::all_bytes(&all).map_err(ExportError::Picture)?.into_iter();
+    Ok(pictures.into_iter().map(|one| one.map(|_, _| packed.next().unwrap_or_default())).collect())
+}
+
+/// Options with nothing left open, and the levels of detail of each tree.
+pub(super) struct Planned<'a> {
+    pub(super) export: Export,
+    pub(super) levels: Vec<Vec<Level<'a>>>,
+    /// What the user is to be told.
+    pub(super) note: Option<String>,
 }
 
 /// A tree on its way into a file.
@@ -206,6 +269,7 @@ impl One<'_> {
             extras: extras(species, json!(self.seed)),
             placed: vec![Placed::at_origin(&self.mesh_name(), sources.len())],
             lod_extension: export.lod_extension,
+            grid: export.grid(&sources)?,
             rig: rig.as_ref(),
             pictures: export.pictures(&[tree], levels, &palette, billboards.as_ref())?,
         };

@@ -21,6 +21,7 @@ mod hints;
 mod json;
 mod optimizer;
 mod options;
+mod parameters;
 mod posterior;
 mod prepared;
 mod reading;
@@ -49,8 +50,8 @@ pub use reading::{PictureReading, read_picture};
 pub use readings::Readings;
 pub use report::{FitReport, ReportError, TIME_KEYS};
 pub use report_parts::{
-    IdentifiabilityCounts, IndividualReport, LooksLike, ParameterReport, RulesReport, SearchReport,
-    ViewReport, best_of_each_family,
+    IdentifiabilityCounts, IndividualReport, IntervalsReport, LooksLike, ParameterReport, RulesReport,
+    SearchReport, ViewReport, best_of_each_family,
 };
 pub use sides::{SideTree, SidesReport};
 pub use source::{FitSource, PictureSource};

@@ -3,12 +3,13 @@
 use super::drawn::{FitDrawing, FittedTree};
 use super::optimizer::settings_of;
 use super::options::FitOptions;
+use super::parameters::{intervals, parameters};
 use super::posterior::PosteriorReport;
 use super::prepared::{FurtherPicture, Prepared};
 use super::readings::Readings;
 use super::report_parts::{
-    IdentifiabilityCounts, IndividualReport, LooksLike, ParameterReport, RulesReport, SearchReport,
-    ViewReport, best_of_each_family,
+    IdentifiabilityCounts, IndividualReport, IntervalsReport, LooksLike, ParameterReport, RulesReport,
+    SearchReport, ViewReport, best_of_each_family,
 };
 use super::sides::{Sides, SidesReport};
 use crate::place_at_full_size;
@@ -56,8 +57,10 @@ pub struct FitReport {
     pub readings: Readings,
     /// How many of the free parameters the goal determines; `None` if the result was not judged.
     pub determined: Option<IdentifiabilityCounts>,
-    /// How well the goal determines each free parameter.
+    /// How well the goal determines each free parameter, and its interval.
     pub parameters: Vec<ParameterReport>,
+    /// What those intervals are learnt from; `None` where nothing is known of trees like the goal's.
+    pub intervals: Option<IntervalsReport>,
     /// What the goal says about the numbers of its tree, with [`FitOptions::posterior`]; `None` if too few trees of the
     /// prior grew, or the fit was interrupted.
     pub posterior: Option<PosteriorReport>,
@@ -237,6 +240,7 @@ impl Prepared {
                 readings.bound(verdict)
             }
         });
+        let parameters = parameters(&fitted, &kind.species);
         let seconds = outcome.elapsed.as_secs_f64();
         let first_guess_seconds = outcome.before_search.as_secs_f64();
         Ok(FitReport {
@@ -251,8 +255,9 @@ impl Prepared {
             references: fitted.references().cloned(),
             verdict,
             readings,
-            determined: judged.map(IdentifiabilityCounts::new),
-            parameters: parameters(&fitted, &kind.species),
+            determined: judged.map(|_| IdentifiabilityCounts::new(&parameters)),
+            parameters,
+            intervals: intervals(&fitted),
             posterior,
             evaluations: outcome.evaluations,
             generations: outcome.generations,
@@ -379,18 +384,6 @@ fn individual(found: &FoundIndividual, tree: &FittedTree) -> IndividualReport {
         seconds,
         views: tree.views.clone(),
     }
-}
-
-fn parameters(fitted: &Fitted, species: &Species) -> Vec<ParameterReport> {
-    let space = species.generator.space();
-    let profiles = fitted.assessment.iter().flat_map(|assessment| &assessment.profiles);
-    profiles
-        .map(|profile| ParameterReport {
-            slot: space.slot_name(profile.slot),
-            value: fitted.best.genome.values[profile.slot.index()],
-            seen: profile.seen,
-        })
-        .collect()
 }
 
 /// The settings of what searched.

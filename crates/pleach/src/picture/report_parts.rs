@@ -1,6 +1,6 @@
 //! What a report consists of, as data.
 
-use pleach_fit::{Assessment, FirstGuess, Identifiability, Runner};
+use pleach_fit::{FirstGuess, Identifiability, Interval, Runner};
 use pleach_silhouette::Bitmap;
 use pleach_silhouette::score::ScoreCard;
 use pleach_tree::Species;
@@ -75,8 +75,27 @@ pub struct ParameterReport {
     pub slot: String,
     /// Its value.
     pub value: f64,
-    /// Whether the goal determines it.
+    /// Whether the goal determines it: by [`Self::shrunk`] where that is known, and else by moves of this number alone.
     pub seen: Identifiability,
+    /// By how much a picture makes the variance of this number smaller, in 0..=1, over trees around the species of
+    /// [`IntervalsReport`]; `None` for numbers that do not vary there.
+    pub shrunk: Option<f64>,
+    /// Nine times in ten the number of such a tree is in it, since the picture was seen; `None` also where the goal is
+    /// not like a picture of such a tree.
+    pub interval: Option<Interval>,
+    /// The same before the picture was seen.
+    pub before: Option<Interval>,
+}
+
+/// What the intervals of the parameters are learnt from: trees around a species.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct IntervalsReport {
+    /// The species.
+    pub species: String,
+    /// The share of those trees whose pictures are at least as strange as the goal is, in 0..=1.
+    pub familiarity: f64,
+    /// Whether the goal is like a picture of such a tree; where it is not, there are no intervals.
+    pub is_familiar: bool,
 }
 
 /// A grammar that was found.
@@ -129,8 +148,8 @@ impl LooksLike {
 }
 
 impl IdentifiabilityCounts {
-    pub(super) fn new(judged: &Assessment) -> Self {
-        let count = |seen| judged.profiles.iter().filter(|profile| profile.seen == seen).count();
+    pub(super) fn new(parameters: &[ParameterReport]) -> Self {
+        let count = |seen| parameters.iter().filter(|parameter| parameter.seen == seen).count();
         Self {
             determined: count(Identifiability::Determined),
             loosely: count(Identifiability::Loosely),

@@ -40,6 +40,7 @@ impl FitOptions {
     pub fn start(&self, source: &FitSource) -> Result<FitStart, PrepareError> {
         self.check()?;
         let given = self.given_species(source)?;
+        let given_foliage = given.as_ref().map_or(Foliage::All, |species| species.foliage);
         let generator = self.generator_of(given.as_ref())?;
         let species = self.start_species(given, generator)?;
         let individual = self.individual_settings(generator)?;
@@ -57,7 +58,12 @@ impl FitOptions {
         };
         let planned = plan(origin, generator, &species, search)?;
         let settings = GoalSettings { individual, posterior: self.posterior_settings()?, ..planned };
-        let foliage = if self.leaves == Leaves::Off { Foliage::None } else { Foliage::All };
+        let foliage = match self.leaves {
+            Leaves::Off => Foliage::None,
+            Leaves::On => Foliage::All,
+            // What a fit has found of a bare tree says so.
+            Leaves::Auto => given_foliage,
+        };
         Ok(FitStart { generator, species, foliage, detects_leaves, settings, shares })
     }
 
@@ -201,4 +207,25 @@ fn varied_species(given: Option<Species>, generator: GeneratorChoice) -> Result<
         return Err(OptionError::new("evolve_rules", problem).into());
     }
     Ok(start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_species_is_bare_where_its_file_says_so_and_nothing_else_is_said() {
+        let foliage = |species: &Species, leaves| {
+            let options =
+                FitOptions { from: StartFrom::Species("palm".to_owned()), leaves, ..FitOptions::default() };
+            let source = FitSource { start: Some(species.clone()), ..FitSource::from("goal.png") };
+            options.start(&source).unwrap().foliage
+        };
+        let palm = pleach_generators::species("palm").unwrap();
+        let bare_palm = Species { foliage: Foliage::None, ..palm.clone() };
+        assert_eq!(foliage(&palm, Leaves::Auto), Foliage::All);
+        assert_eq!(foliage(&bare_palm, Leaves::Auto), Foliage::None);
+        assert_eq!(foliage(&bare_palm, Leaves::On), Foliage::All);
+        assert_eq!(foliage(&palm, Leaves::Off), Foliage::None);
+    }
 }

@@ -9,7 +9,7 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Leaves {
-    /// As the goal looks, where the fit starts from a first guess; otherwise it has.
+    /// As the goal looks, where the fit starts from a first guess; from a species as its file says; otherwise it has.
     #[default]
     Auto,
     /// It has.

@@ -20,13 +20,17 @@ from ._native import (
     FitError,
     GoalError,
     GrowError,
+    Mesh,
+    MeshPart,
     PleachError,
+    Skeleton,
     Species,
     SpeciesError,
     Tree,
     __version__,
     generators,
 )
+from ._prior import Prior
 from ._problem import Numbers, Problem, Scores
 from ._reading import Reading, read
 from ._score import Card, Mask, mask, score
@@ -42,13 +46,17 @@ __all__ = [
     "Interval",
     "Map",
     "Mask",
+    "Mesh",
+    "MeshPart",
     "Numbers",
     "PleachError",
     "Posterior",
     "PosteriorNumber",
+    "Prior",
     "Problem",
     "Reading",
     "Scores",
+    "Skeleton",
     "Species",
     "SpeciesError",
     "Tree",

@@ -116,6 +116,17 @@ class Fit:
         return {one["slot"]: (one["value"], one["seen"]) for one in self.report["parameters"]}
 
     @property
+    def intervals(self) -> dict[str, PosteriorNumber]:
+        """For each number that a picture of such a tree tells of, or leaves open, its interval before the picture was seen
+        and since: of the posterior where one was asked for, and else by what is built in. Empty where the goal is not like
+        a picture of a tree around the species ``report["intervals"]["species"]``, or nothing is known of such trees."""
+        return {
+            one["slot"]: PosteriorNumber(Interval(**one["before"]), Interval(**one["interval"]), one["shrunk"])
+            for one in self.report["parameters"]
+            if one["interval"] is not None
+        }
+
+    @property
     def cost(self) -> float:
         """What the search minimised, of the kind."""
         return float(self.report["cost"])

@@ -43,7 +43,8 @@ class Species(Mapping[str, Any]):
     def named(
         self, name: Optional[str] = None, *, description: Optional[str] = None, tree_seed: Optional[int] = None
     ) -> Species: ...
-    def declared(self, name: str) -> dict[str, Any]: ...
+    def declared(self, name: Optional[str] = None) -> dict[str, Any]: ...
+    def palette(self, season: Optional[_Season] = None) -> dict[str, Any]: ...
     def grow(self, seed: Optional[int] = None, *, leaves: Optional[bool] = None) -> Tree: ...
     def export_forest(
         self,
@@ -55,14 +56,16 @@ class Species(Mapping[str, Any]):
         variants: int = 4,
         seed: Optional[int] = None,
         separate: bool = False,
-        lod: int = 1,
+        finest: bool = False,
+        lod: Optional[int] = None,
         triangles: Sequence[int] = (),
         level: Optional[int] = None,
         lod_extension: bool = False,
         billboard: int = 0,
-        tolerance: float = 2.0,
-        leaves: _LeafForm = "outline",
+        tolerance: Optional[float] = None,
+        leaves: Optional[_LeafForm] = None,
         textures: Optional[int] = None,
+        compress: Optional[Literal["quantize"]] = None,
         season: Optional[_Season] = None,
         wind: bool = False,
     ) -> int: ...
@@ -77,6 +80,24 @@ class Species(Mapping[str, Any]):
     def _repr_png_(self) -> bytes: ...
 
 @final
+class Skeleton:
+    @property
+    def positions(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def radii(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def parents(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def stems(self) -> npt.NDArray[np.uint32]: ...
+    @property
+    def levels(self) -> npt.NDArray[np.uint16]: ...
+    @property
+    def length(self) -> float: ...
+    @property
+    def volume(self) -> float: ...
+    def to_networkx(self) -> Any: ...
+    def __len__(self) -> int: ...
+
 class Tree:
     @property
     def species(self) -> Species: ...
@@ -105,6 +126,8 @@ class Tree:
     @property
     def kinds(self) -> list[str]: ...
     @property
+    def places(self) -> npt.NDArray[np.float64]: ...
+    @property
     def leaf_positions(self) -> npt.NDArray[np.float32]: ...
     @property
     def leaf_along(self) -> npt.NDArray[np.float32]: ...
@@ -113,7 +136,32 @@ class Tree:
     @property
     def leaf_stems(self) -> npt.NDArray[np.uint32]: ...
     @property
+    def leaf_shapes(self) -> npt.NDArray[np.uint16]: ...
+    @property
+    def leaf_outlines(self) -> list[tuple[str, npt.NDArray[np.float32]]]: ...
+    @property
+    def blossom_positions(self) -> npt.NDArray[np.float32]: ...
+    @property
+    def blossom_along(self) -> npt.NDArray[np.float32]: ...
+    @property
+    def blossom_across(self) -> npt.NDArray[np.float32]: ...
+    @property
+    def blossom_stems(self) -> npt.NDArray[np.uint32]: ...
+    @property
+    def blossom_shapes(self) -> npt.NDArray[np.uint16]: ...
+    @property
+    def blossom_faces(self) -> list[tuple[str, npt.NDArray[np.float32], list[list[int]]]]: ...
+    @property
+    def blob_vertices(self) -> npt.NDArray[np.float32]: ...
+    @property
+    def blob_triangles(self) -> npt.NDArray[np.uint32]: ...
+    @property
+    def blob_stems(self) -> npt.NDArray[np.uint32]: ...
+    @property
+    def blob_first_vertices(self) -> npt.NDArray[np.uint32]: ...
+    @property
     def bounds(self) -> npt.NDArray[np.float64]: ...
+    def skeleton(self) -> Skeleton: ...
     @property
     def stats(self) -> dict[str, Any]: ...
     def silhouette(self, size: int = 512, *, view: _View = None) -> npt.NDArray[np.bool_]: ...
@@ -123,17 +171,19 @@ class Tree:
         path: Union[str, PathLike[str]],
         /,
         *,
-        lod: int = 1,
+        finest: bool = False,
+        lod: Optional[int] = None,
         triangles: Sequence[int] = (),
         level: Optional[int] = None,
         lod_extension: bool = False,
         billboard: int = 0,
-        tolerance: float = 2.0,
+        tolerance: Optional[float] = None,
         weld: Optional[float] = None,
         fillet: float = 0.0,
         roots: bool = False,
-        leaves: _LeafForm = "outline",
+        leaves: Optional[_LeafForm] = None,
         textures: Optional[int] = None,
+        compress: Optional[Literal["quantize"]] = None,
         season: Optional[_Season] = None,
         wind: bool = False,
         sway: bool = False,
@@ -141,22 +191,59 @@ class Tree:
     def to_glb(
         self,
         *,
-        lod: int = 1,
+        finest: bool = False,
+        lod: Optional[int] = None,
         triangles: Sequence[int] = (),
         level: Optional[int] = None,
         lod_extension: bool = False,
         billboard: int = 0,
-        tolerance: float = 2.0,
+        tolerance: Optional[float] = None,
         weld: Optional[float] = None,
         fillet: float = 0.0,
         roots: bool = False,
-        leaves: _LeafForm = "outline",
+        leaves: Optional[_LeafForm] = None,
         textures: Optional[int] = None,
+        compress: Optional[Literal["quantize"]] = None,
         season: Optional[_Season] = None,
         wind: bool = False,
         sway: bool = False,
     ) -> bytes: ...
+    def mesh(
+        self,
+        *,
+        lod: Optional[int] = None,
+        triangles: Sequence[int] = (),
+        level: Optional[int] = None,
+        billboard: int = 0,
+        tolerance: Optional[float] = None,
+        weld: Optional[float] = None,
+        fillet: float = 0.0,
+        roots: bool = False,
+        leaves: Optional[Literal["outline", "simple", "cards", "none"]] = None,
+        textures: Optional[int] = None,
+        season: Optional[_Season] = None,
+    ) -> Mesh: ...
     def _repr_png_(self) -> bytes: ...
+
+@final
+class MeshPart:
+    @property
+    def positions(self) -> npt.NDArray[np.float32]: ...
+    @property
+    def normals(self) -> npt.NDArray[np.float32]: ...
+    @property
+    def uvs(self) -> npt.NDArray[np.float32]: ...
+    @property
+    def tangents(self) -> npt.NDArray[np.float32]: ...
+    @property
+    def triangles(self) -> npt.NDArray[np.uint32]: ...
+
+@final
+class Mesh:
+    @property
+    def levels(self) -> list[dict[str, MeshPart]]: ...
+    @property
+    def pictures(self) -> dict[str, dict[str, bytes]]: ...
 
 @final
 class NativeMap:
@@ -202,6 +289,10 @@ class NativeProblem:
     def species(self, values: npt.NDArray[np.float64], seed: int) -> Species: ...
 
 def numbers_of(species: Species, free: list[str], fix: list[str], wide: bool) -> dict[str, Any]: ...
+def prior_slots(species: Species, spread: float, free: list[str], fix: list[str]) -> list[str]: ...
+def prior_sample(
+    species: Species, spread: float, free: list[str], fix: list[str], count: int, seed: int, threads: Optional[int]
+) -> list[Species]: ...
 def species_names() -> list[str]: ...
 def species_named(name: str) -> Species: ...
 def generators() -> list[str]: ...

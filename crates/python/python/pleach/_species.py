@@ -13,7 +13,9 @@ def species() -> list[str]: ...
 @overload
 def species(name: Union[str, "os.PathLike[str]"]) -> _native.Species: ...
 def species(name: Union[str, "os.PathLike[str]", None] = None) -> Union[list[str], _native.Species]:
-    """The species of this name, or in this file; without one, the names of all built-in species.
+    """The species of this name, or in this file; without one, the names of all built-in species. The file may also be a
+    preset of tree-gen or Sapling, a species of Arbaro or a tree of ez-tree, or a measured tree (SWC, or a table of
+    cylinders), see ``docs/import.md``.
 
     Raises ``SpeciesError`` where there is none, and for a file with mistakes, each by line and column.
 

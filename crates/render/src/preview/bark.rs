@@ -38,14 +38,20 @@ pub(crate) fn smooth(low: f32, high: f32, x: f32) -> f32 {
 }
 
 /// Smooth bumps between 0 and 1, one per unit each way, that repeat after `period` units of x and of y.
-fn noise(x: f32, y: f32, period: [i32; 2]) -> f32 {
-    let (fx, fy) = (x - x.floor(), y - y.floor());
-    let (ix, iy) = (x.floor() as i32, y.floor() as i32);
+pub(crate) fn noise(x: f32, y: f32, period: [i32; 2]) -> f32 {
+    let (ix, iy) = (floor(x), floor(y));
+    let (fx, fy) = (x - ix as f32, y - iy as f32);
     let corner = |dx: i32, dy: i32| lattice((ix + dx).rem_euclid(period[0]), (iy + dy).rem_euclid(period[1]));
     let (sx, sy) = (fx * fx * (3.0 - 2.0 * fx), fy * fy * (3.0 - 2.0 * fy));
     let lower = corner(0, 0) * (1.0 - sx) + corner(1, 0) * sx;
     let upper = corner(0, 1) * (1.0 - sx) + corner(1, 1) * sx;
     lower * (1.0 - sy) + upper * sy
+}
+
+/// The whole number at or below; without the call that [`f32::floor`] makes on processors that have no instruction for it.
+pub(crate) fn floor(x: f32) -> i32 {
+    let cut = x as i32;
+    cut.saturating_sub(i32::from(cut as f32 > x))
 }
 
 /// A fixed height between 0 and 1 for each point of the lattice.

@@ -4,7 +4,7 @@ use super::scene::Scene;
 use glam::{Vec3, vec3};
 
 /// The sun's shadow map: a depth buffer along its rays.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Sun {
     /// Unit vector towards the sun.
     pub(crate) towards: Vec3,

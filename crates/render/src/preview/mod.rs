@@ -8,6 +8,7 @@ pub(crate) mod bark;
 mod camera;
 mod crown;
 mod flat;
+mod foliage;
 mod light;
 mod raster;
 mod scene;
@@ -16,12 +17,15 @@ mod settings;
 mod shade;
 
 use crate::picture::Picture;
-pub(crate) use flat::Frame;
+pub(crate) use flat::{Flat, Frame};
+pub(crate) use foliage::Foliage;
 use glam::Vec3;
+use light::Sun;
 use pleach_mesh::Palette;
 use pleach_plant::{Parts, Tree};
-use scene::Scene;
+use scene::{Scene, Wanted};
 pub use settings::{Background, Ground, PreviewSettings};
+use std::sync::Arc;
 
 /// The shaded picture of `tree`, a square of `size` pixels with the default settings. For many pictures of
 /// one tree make a [`Preview`] once.
@@ -50,6 +54,8 @@ pub fn render(tree: &Tree, palette: &Palette, size: u32) -> Picture {
 #[derive(Debug)]
 pub struct Preview<'a> {
     scene: Scene<'a>,
+    /// Whose shadows cards show.
+    suns: Vec<Sun>,
 }
 
 impl<'a> Preview<'a> {
@@ -62,12 +68,24 @@ impl<'a> Preview<'a> {
     /// Prepares `parts` of `tree` for pictures of about `size` pixels in height.
     #[must_use]
     pub fn with_parts(tree: &'a Tree, palette: &Palette, size: u32, parts: Parts) -> Self {
-        Self { scene: Scene::new(tree, palette, size, parts, crown::CELLS) }
+        Self::prepared(tree, palette, Wanted { size, parts, cells: crown::CELLS, ..Wanted::default() })
     }
 
-    /// Prepares a twig, whose light is reckoned more coarsely than that of a crown.
-    pub(crate) fn of_twig(tree: &'a Tree, palette: &Palette, size: u32) -> Self {
-        Self { scene: Scene::new(tree, palette, size, Parts::LEAFY, 10) }
+    /// Prepares `tree` for cards, which show it with its own shadows.
+    pub(crate) fn for_cards(tree: &'a Tree, palette: &Palette, size: u32) -> Self {
+        let wanted = Wanted { size, cells: crown::CELLS, ..Wanted::default() };
+        let scene = Scene::new(tree, palette, wanted);
+        let suns = flat::suns(&scene);
+        Self { scene, suns }
+    }
+
+    /// Prepares a twig with leaves of `foliage`; its light is reckoned more coarsely than that of a crown.
+    pub(crate) fn of_twig(tree: &'a Tree, palette: &Palette, size: u32, foliage: Arc<Foliage>) -> Self {
+        Self::prepared(tree, palette, Wanted { size, cells: 10, foliage: Some(foliage), ..Wanted::default() })
+    }
+
+    fn prepared(tree: &'a Tree, palette: &Palette, wanted: Wanted) -> Self {
+        Self { scene: Scene::new(tree, palette, wanted), suns: Vec::new() }
     }
 
     /// The smallest and largest coordinates of what is drawn, in metres.
@@ -85,8 +103,13 @@ impl<'a> Preview<'a> {
     }
 
     /// Takes a picture from afar, in even light.
-    pub(crate) fn flat(&self, frame: &Frame) -> Picture {
-        flat::picture(&self.scene, frame)
+    pub(crate) fn colors(&self, frame: &Frame) -> Picture {
+        flat::colors(&self.scene, &self.suns, frame)
+    }
+
+    /// The same, and one of normals, which `turn` brings into a card's space.
+    pub(crate) fn flat(&self, frame: &Frame, turn: impl Fn(Vec3) -> Vec3 + Sync) -> Flat {
+        flat::both(&self.scene, &self.suns, frame, turn)
     }
 
     /// Takes a picture.

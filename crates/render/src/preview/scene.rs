@@ -1,6 +1,7 @@
 //! A meshed tree, prepared for shading.
 
 use super::crown::Crown;
+use super::foliage::Foliage;
 use super::raster::DepthBuffer;
 use glam::Vec3;
 use pleach_mesh::palette::linear;
@@ -11,19 +12,19 @@ use pleach_mesh::{
 use pleach_plant::Bounds;
 use pleach_plant::{Parts, Tree};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The palette as intensities of light.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Colors {
     pub(super) bark: Vec3,
     pub(super) leaf: Vec3,
-    pub(super) blossom: Vec3,
 }
 
 impl Colors {
     fn new(palette: &Palette) -> Self {
-        let [bark, leaf, blossom] = [palette.bark, palette.leaf, palette.blossom].map(linear).map(Vec3::from);
-        Self { bark, leaf, blossom }
+        let [bark, leaf] = [palette.bark, palette.leaf].map(linear).map(Vec3::from);
+        Self { bark, leaf }
     }
 }
 
@@ -34,8 +35,10 @@ pub(super) struct Scene<'a> {
     pub(super) palette: Palette,
     pub(super) colors: Colors,
     mesher: Mesher<'a>,
-    /// First triangle of each part, what it is, and how many triangles each of its leaves has.
-    parts: Vec<(u32, Material, u32)>,
+    /// What leaves and blossoms show.
+    pub(super) foliage: Arc<Foliage>,
+    /// First triangle of each part, and what it is.
+    parts: Vec<(u32, Material)>,
     /// The triangles of closed surfaces of foliage.
     pub(super) blobs: Range<u32>,
     /// First corner of each stem, its radius at the base in metres, its level.
@@ -50,9 +53,29 @@ pub(super) struct Scene<'a> {
     pub(super) reach: f32,
 }
 
+/// How a scene is prepared.
+#[derive(Debug)]
+pub(super) struct Wanted {
+    /// Height of its pictures in pixels, about.
+    pub(super) size: u32,
+    /// What of the tree is drawn.
+    pub(super) parts: Parts,
+    /// Cells in which its light is reckoned, along the longest side.
+    pub(super) cells: u32,
+    /// Its leaves; they are painted here if they are not given.
+    pub(super) foliage: Option<Arc<Foliage>>,
+}
+
+impl Default for Wanted {
+    fn default() -> Self {
+        Self { size: 256, parts: Parts::LEAFY, cells: 10, foliage: None }
+    }
+}
+
 impl<'a> Scene<'a> {
-    /// Prepares `parts` of `tree` for pictures of about `size` pixels; its light is reckoned in so many cells.
-    pub(super) fn new(tree: &'a Tree, palette: &Palette, size: u32, parts: Parts, cells: u32) -> Self {
+    /// Prepares `tree` for pictures.
+    pub(super) fn new(tree: &'a Tree, palette: &Palette, wanted: Wanted) -> Self {
+        let Wanted { size, parts, cells, foliage } = wanted;
         let bounds = Bounds::new(tree, parts);
         let (low, high) = bounds.map_or((Vec3::ZERO, Vec3::ONE), |b| (b.min.as_vec3(), b.max.as_vec3()));
         let pixel = f64::from((high - low).max_element().max(1e-3)) / f64::from(size.max(1));
@@ -62,13 +85,18 @@ impl<'a> Scene<'a> {
             leaves: leaf_style(tree, pixel),
             // Far fewer than leaves, and the brightest part: a square would be recognised.
             blossoms: Some(LeafStyle::Outline),
+            pictured: true,
+            // Shading rounds a crown by itself.
+            rounded: false,
             parts,
             ..MeshSettings::default()
         };
         let mesher = Mesher::new(tree, settings);
+        let paint = || Arc::new(Foliage::new(tree, palette, (mean_length(tree) / pixel) as f32));
         let mut scene = Self {
             palette: *palette,
             colors: Colors::new(palette),
+            foliage: foliage.unwrap_or_else(paint),
             parts: Vec::new(),
             blobs: 0..0,
             stems: stems(tree, &mesher),
@@ -82,17 +110,14 @@ impl<'a> Scene<'a> {
         };
         let mut first = 0;
         for part in scene.mesher.parts(0) {
-            let placed = if part.material == Material::Blossom { &tree.blossoms } else { &tree.leaves };
             // Blobs follow the leaves.
-            let of_blobs = if part.material == Material::Leaf { tree.blob_triangles.len() } else { 0 };
-            let of_leaves = part.count.triangles as usize - of_blobs;
-            let each = of_leaves / placed.len().max(1);
+            let of_blobs = if part.material == Material::Leaf { tree.blob_triangles.len() as u32 } else { 0 };
+            let end = first + part.count.triangles as u32;
             if of_blobs > 0 {
-                let first = first + of_leaves as u32;
-                scene.blobs = first..first + of_blobs as u32;
+                scene.blobs = end - of_blobs..end;
             }
-            scene.parts.push((first, part.material, each.max(1) as u32));
-            first += part.count.triangles as u32;
+            scene.parts.push((first, part.material));
+            first = end;
         }
         if !tree.leaves.is_empty() {
             let n = tree.leaves.len() as f32;
@@ -132,11 +157,10 @@ impl<'a> Scene<'a> {
         self.mesher.count()
     }
 
-    /// Part of a triangle: what it is, and the number of its leaf.
-    pub(super) fn part_of(&self, triangle: u32) -> (Material, u32) {
+    /// What a triangle is a part of.
+    pub(super) fn material_of(&self, triangle: u32) -> Material {
         let part = self.parts.partition_point(|p| p.0 <= triangle).max(1) - 1;
-        let (first, material, each) = self.parts[part];
-        (material, (triangle - first) / each)
+        self.parts[part].1
     }
 
     /// Radius in metres and level of the stem with this corner.
@@ -150,10 +174,15 @@ impl<'a> Scene<'a> {
 /// crown of them takes a third of the memory.
 const SMALL: f64 = 6.0;
 
+/// Mean length of leaves, or of blossoms where there are none, in metres.
+fn mean_length(tree: &Tree) -> f64 {
+    let leaves = if tree.leaves.is_empty() { &tree.blossoms } else { &tree.leaves };
+    let lengths = leaves.iter().map(|leaf| f64::from(leaf.along.length()));
+    lengths.sum::<f64>() / leaves.len().max(1) as f64
+}
+
 fn leaf_style(tree: &Tree, pixel: f64) -> LeafStyle {
-    let lengths = tree.leaves.iter().map(|leaf| f64::from(leaf.along.length()));
-    let mean = lengths.sum::<f64>() / tree.leaves.len().max(1) as f64;
-    if mean < SMALL * pixel { LeafStyle::Simple } else { LeafStyle::Outline }
+    if mean_length(tree) < SMALL * pixel { LeafStyle::Simple } else { LeafStyle::Outline }
 }
 
 /// Part of a scene's triangles.
@@ -241,7 +270,8 @@ mod tests {
         };
         let mesh = Mesher::new(&tree, MeshSettings::default());
         for size in [64, 512] {
-            let scene = Scene::new(&tree, &Palette::new(&species.appearance, None), size, Parts::LEAFY, 8);
+            let wanted = Wanted { size, ..Wanted::default() };
+            let scene = Scene::new(&tree, &Palette::new(&species.appearance, None), wanted);
             assert_eq!(
                 triangles(&scene.mesher, Material::Blossom),
                 triangles(&mesh, Material::Blossom),

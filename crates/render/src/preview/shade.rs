@@ -7,9 +7,9 @@ use super::scene::Scene;
 use super::seen::{Seen, Triangle};
 use super::settings::{Background, Ground, PreviewSettings};
 use crate::picture::Picture;
-use glam::{Vec3, Vec4, vec3};
+use glam::{Vec2, Vec3, Vec4, vec3};
+use pleach_mesh::Material;
 use pleach_mesh::palette::{BarkPattern, linear};
-use pleach_mesh::{Material, Vertex};
 use rayon::prelude::*;
 
 /// Samples per pixel, across and down.
@@ -18,6 +18,9 @@ pub(super) const SAMPLES: u32 = 3;
 const SUN: Vec3 = vec3(3.5, 3.2, 2.65);
 const SKY: Vec3 = vec3(0.66, 0.80, 1.02);
 const BOUNCE: Vec3 = vec3(0.30, 0.29, 0.22);
+/// How much more light a crown shows than reaches it at once, since leaves light each other: cards against meshes of three
+/// species, rendered by Cycles.
+const BOUNCED: f32 = 1.2;
 /// Everything is divided by this before it is shown.
 const WHITE: f32 = 2.6;
 
@@ -33,7 +36,7 @@ pub(super) fn picture(scene: &Scene<'_>, settings: &PreviewSettings) -> Picture 
     let camera = Camera::around(&outline, azimuth, elevation, width, height);
     sun.shine(scene, texels);
     let seen = Seen::new(scene, width, height, |point| camera.project(point));
-    View { scene, settings, camera, sun: Some(sun), seen }.picture()
+    View { scene, settings, camera, sun: Some(sun), suns: &[], seen }.picture()
 }
 
 /// Points that a picture must show: some of the tree's own, or the rim of all its turns. All points of the
@@ -64,12 +67,25 @@ fn outline(scene: &Scene<'_>, all_around: bool, mut also: impl FnMut(Vec3)) -> V
     some.iter().step_by(8).flat_map(|p| rim(p).map(|(x, y)| vec3(x, y, p.z))).collect()
 }
 
+/// What is seen at a sample.
+struct Hit<'a> {
+    at: Vec3,
+    normal: Vec3,
+    material: Material,
+    uv: Vec2,
+    /// Whether it is the back of its triangle.
+    is_behind: bool,
+    triangle: &'a Triangle,
+}
+
 /// A scene from a camera; without a sun, colours are shown as they are, in the crown's shade.
 pub(super) struct View<'a> {
     pub(super) scene: &'a Scene<'a>,
     pub(super) settings: &'a PreviewSettings,
     pub(super) camera: Camera,
     pub(super) sun: Option<Sun>,
+    /// Suns of several directions, whose shadows are shown without their light.
+    pub(super) suns: &'a [Sun],
     pub(super) seen: Seen,
 }
 
@@ -118,9 +134,23 @@ impl View<'_> {
     /// Shown light and coverage of one sample, multiplied.
     fn sample(&self, x: u32, y: u32) -> Vec4 {
         let ray = self.camera.ray(x as f32 + 0.5, y as f32 + 0.5);
-        let Some(triangle) = self.seen.at(x, y) else {
+        let Some(Hit { at, normal, material, triangle, uv, .. }) = self.hit(x, y, ray) else {
             return self.ground(ray) * self.margin(x, y);
         };
+        if self.scene.has_roots && at.z < 0.0 && self.settings.ground != Ground::None {
+            return self.ground(ray) * self.margin(x, y);
+        }
+        let light = match material {
+            Material::Bark => self.bark(at, normal, ray, self.scene.stem_of(triangle.first_corner), uv),
+            Material::Leaf if self.scene.blobs.contains(&triangle.number) => self.blob(at, normal),
+            _ => self.leaf(at, normal, ray, material, uv),
+        };
+        if self.sun.is_some() { shown(light).extend(1.0) } else { light.extend(1.0) }
+    }
+
+    /// What is seen at a sample along `ray`.
+    fn hit(&self, x: u32, y: u32, ray: Vec3) -> Option<Hit<'_>> {
+        let triangle = self.seen.at(x, y)?;
         let corners = self.seen.corners(triangle);
         let [a, b, c] = corners.map(|vertex| vertex.position);
         let plane = (b - a).cross(c - a);
@@ -133,32 +163,57 @@ impl View<'_> {
             // Seen edge on: rounding has thrown the point off the triangle.
             at = center;
         }
-        if self.scene.has_roots && at.z < 0.0 && self.settings.ground != Ground::None {
-            return self.ground(ray) * self.margin(x, y);
-        }
         let whole = plane.length_squared().max(1e-20);
         let wb = (at - a).cross(c - a).dot(plane) / whole;
         let wc = (b - a).cross(at - a).dot(plane) / whole;
         let weights = [1.0 - wb - wc, wb, wc].map(|w| w.clamp(0.0, 1.0));
-        let mix = |pick: &dyn Fn(&Vertex) -> f32| (0..3).map(|k| weights[k] * pick(corners[k])).sum::<f32>();
         let normal = (0..3).map(|k| corners[k].normal * weights[k]).sum::<Vec3>();
-        let normal = normal.try_normalize().unwrap_or(Vec3::Z);
-        let &Triangle { number, first_corner, .. } = triangle;
-        let (material, leaf) = self.scene.part_of(number);
-        let light = match material {
-            Material::Bark => {
-                let (u, v) = (mix(&|vertex| vertex.uv.x), mix(&|vertex| vertex.uv.y));
-                self.bark(at, normal, ray, self.scene.stem_of(first_corner), u, v)
-            }
-            Material::Leaf if self.scene.blobs.contains(&number) => self.blob(at, normal),
-            _ => self.leaf(at, normal, ray, material, leaf),
-        };
-        if self.sun.is_some() { shown(light).extend(1.0) } else { light.extend(1.0) }
+        Some(Hit {
+            at,
+            normal: normal.try_normalize().unwrap_or(Vec3::Z),
+            material: self.scene.material_of(triangle.number),
+            uv: (0..3).map(|k| corners[k].uv * weights[k]).sum(),
+            is_behind: slope > 0.0,
+            triangle,
+        })
     }
 
-    fn bark(&self, at: Vec3, normal: Vec3, ray: Vec3, (radius, level): (f32, u16), u: f32, v: f32) -> Vec3 {
+    /// The normals that are seen, as programs turn those of faces that are seen from behind, as a picture of directions
+    /// that `turn` brings into the space of a card: x to the right, y up, z towards the viewer.
+    pub(super) fn normals(&self, turn: impl Fn(Vec3) -> Vec3 + Sync) -> Picture {
+        let (width, height) = (self.settings.width, self.settings.height);
+        let mut rgba = vec![0; width as usize * height as usize * 4];
+        let sample = |x: u32, y: u32| {
+            let ray = self.camera.ray(x as f32 + 0.5, y as f32 + 0.5);
+            let Hit { at, normal, material, is_behind, .. } = self.hit(x, y, ray)?;
+            if material == Material::Bark {
+                return Some(turn(normal));
+            }
+            Some(turn(self.of_body(at, if is_behind { -normal } else { normal })))
+        };
+        rgba.par_chunks_mut(width as usize * 4).enumerate().for_each(|(y, row)| {
+            for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
+                let first = (x as u32 * SAMPLES, y as u32 * SAMPLES);
+                let places = (0..SAMPLES * SAMPLES).map(|i| (first.0 + i % SAMPLES, first.1 + i / SAMPLES));
+                let sum: Vec3 = places.filter_map(|(x, y)| sample(x, y)).sum();
+                // Nothing looks away from the viewer.
+                let [x, y, z] = sum.with_z(sum.z.max(0.0)).try_normalize().unwrap_or(Vec3::Z).to_array();
+                let byte = |part: f32| (127.5 + 127.5 * part + 0.5) as u8;
+                pixel.copy_from_slice(&[byte(x), byte(y), byte(z), 255]);
+            }
+        });
+        Picture { width, height, rgba }
+    }
+
+    fn bark(&self, at: Vec3, normal: Vec3, ray: Vec3, (radius, level): (f32, u16), uv: Vec2) -> Vec3 {
         let (palette, colors) = (&self.scene.palette, &self.scene.colors);
         let bark = colors.bark;
+        let Some(sun) = &self.sun else {
+            // As meshes show bark on stems of any age.
+            let facing = if normal.dot(ray) > 0.0 { -normal } else { normal };
+            let open = self.scene.crown.sky_at(at + facing * 0.05);
+            return bark * bark::shade(palette.pattern, uv.x, uv.y) * self.even(at, facing, open);
+        };
         // Young wood is darker and browner; palms and bamboo carry green stalks.
         let young = match palette.pattern {
             BarkPattern::Ringed if level > 0 => colors.leaf * 0.9,
@@ -173,30 +228,27 @@ impl View<'_> {
         };
         // Below a pixel or two markings only flicker.
         let seen = smooth(2.0, 8.0, radius * self.camera.scale_at(at) / SAMPLES as f32);
-        let marks = 1.0 + (bark::shade(palette.pattern, u, v) - 1.0) * seen * old;
+        let marks = 1.0 + (bark::shade(palette.pattern, uv.x, uv.y) - 1.0) * seen * old;
         let albedo = young.lerp(bark, old) * marks;
         let facing = if normal.dot(ray) > 0.0 { -normal } else { normal };
         let sky = self.scene.crown.sky_at(at + facing * 0.05);
-        let Some(sun) = &self.sun else { return albedo * even(sky) };
         let shadow = sun.at(at + facing * 0.01, 1, 1.0);
         let sunlit = SUN * (facing.dot(sun.towards).max(0.0) * shadow);
         albedo * (sunlit + self.sky_light(facing, sky))
     }
 
-    fn leaf(&self, at: Vec3, normal: Vec3, ray: Vec3, material: Material, number: u32) -> Vec3 {
+    fn leaf(&self, at: Vec3, normal: Vec3, ray: Vec3, material: Material, uv: Vec2) -> Vec3 {
         let scene = self.scene;
-        let base = if material == Material::Blossom { scene.colors.blossom } else { scene.colors.leaf };
-        // Leaves of one tree differ: evenly spread steps in brightness and warmth.
-        let spread = |step: f32| (number as f32 * step).fract() - 0.5;
-        let varied =
-            base * (1.0 + 0.34 * spread(0.618_034)) * (Vec3::ONE + vec3(0.3, 0.02, -0.2) * spread(0.754_878));
+        let varied = scene.foliage.color(material, uv).unwrap_or(scene.colors.leaf);
         let facing = if normal.dot(ray) > 0.0 { -normal } else { normal };
         // A crown is lit as a body too: its outer leaves stand for what lies behind them.
         let outward = (at - scene.heart) / scene.reach;
         let rounded = (facing + outward * 0.55).try_normalize().unwrap_or(facing);
         let sky = scene.crown.sky_at(at);
-        let Some(sun) = &self.sun else { return varied * even(sky) };
+        let Some(sun) = &self.sun else { return varied * self.even(at, self.of_body(at, facing), sky) };
         let shadow = sun.at(at, 1, 1.0);
+        // Petals let light through, to those behind them too.
+        let shadow = if material == Material::Blossom { 0.3 + 0.7 * shadow } else { shadow };
         let flat = facing.dot(sun.towards);
         let reflected = 0.55 * flat.max(0.0) + 0.45 * (rounded.dot(sun.towards) * 0.75 + 0.25).max(0.0);
         let through = (-flat).max(0.0) * 0.55;
@@ -213,11 +265,36 @@ impl View<'_> {
         let color = self.scene.colors.leaf;
         // Seen from outside only. A smooth normal at the rim may look away, and is still the right one.
         let sky = self.scene.crown.sky_at(at + normal * 0.05);
-        let Some(sun) = &self.sun else { return color * even(sky) };
+        let Some(sun) = &self.sun else { return color * self.even(at, normal, sky) };
         // Wrapped around the edge of the shadow: a ball of leaves is softer than a solid ball.
         let wrapped = (normal.dot(sun.towards) * 0.7 + 0.3).max(0.0);
         let shadow = sun.at(at + normal * 0.02, 2, 1.6);
         color * (SUN * (wrapped * shadow) + self.sky_light(normal, sky))
+    }
+
+    /// The normal of a leaf that looks towards the viewer, leant away from the crown's heart where a whole tree is shown on
+    /// a card: its side that is turned to the light has to be the lighter one, as shadows make it on the tree.
+    fn of_body(&self, at: Vec3, facing: Vec3) -> Vec3 {
+        if self.suns.is_empty() {
+            return facing;
+        }
+        (facing + (at - self.scene.heart).normalize_or_zero()).try_normalize().unwrap_or(facing)
+    }
+
+    /// The part of its colour that a place shows in even light, with this much of the sky open. With suns it is what is left
+    /// of their light and the sky's by the crown's own shadows: who lights a card does not cast them again.
+    fn even(&self, at: Vec3, normal: Vec3, open: f32) -> f32 {
+        if self.suns.is_empty() {
+            return 0.45 + 0.55 * open;
+        }
+        let [from_sky, whole_sky] = [open, 1.0].map(|open| self.sky_light(normal, open).y);
+        let (mut lit, mut all) = (0.0, 0.0);
+        for sun in self.suns {
+            let direct = SUN.y * normal.dot(sun.towards).max(0.0);
+            lit += direct * sun.at(at, 1, 1.0) + from_sky;
+            all += direct + whole_sky;
+        }
+        BOUNCED * lit / all
     }
 
     /// Light from above and from the ground on a face, where this part of the sky is open.
@@ -266,11 +343,6 @@ impl View<'_> {
             }
         }
     }
-}
-
-/// The part of its colour that a place shows in even light, with this much of the sky open.
-fn even(open: f32) -> f32 {
-    0.45 + 0.55 * open
 }
 
 /// Light as it is shown, 0 to 1: straight in the dark, rolling off towards white.

@@ -1,5 +1,6 @@
 //! What can be wrong with a goal image.
 
+use super::formats::known;
 use super::limits::{MAX_SIDE, MIN_SIDE};
 use std::io;
 use std::path::PathBuf;
@@ -18,15 +19,15 @@ pub enum GoalError {
         cause: io::Error,
     },
     /// The file begins like none of the formats that are read.
-    #[error("{path} is not a picture that can be read here: PNG, JPEG, WebP and TIFF are", path = path.display())]
+    #[error("{path} is not a picture that can be read here: {known} are", path = path.display(), known = known())]
     NotAnImage {
         /// The file.
         path: PathBuf,
     },
     /// The file is a picture of a format that is not read, but that other programs convert.
     #[error(
-        "{path} is a {format} picture, and PNG, JPEG, WebP and TIFF are read: convert it; {converter}",
-        path = path.display()
+        "{path} is a {format} picture, and {known} are read: convert it; {converter}",
+        path = path.display(), known = known()
     )]
     OtherFormat {
         /// The file.

@@ -1,7 +1,27 @@
-//! Formats that are not read, recognised by their first bytes, and what converts them.
+//! Formats that are read, and those that are not, recognised by their first bytes, with what converts them.
+
+use image::ImageFormat;
 
 /// Bytes at a file's start that [`foreign`] looks at.
 pub(super) const HEAD: usize = 16;
+
+/// The formats that are read, some of them by a feature.
+pub(super) const READ: [(ImageFormat, &str); 6] = [
+    (ImageFormat::Png, "PNG"),
+    (ImageFormat::Jpeg, "JPEG"),
+    (ImageFormat::WebP, "WebP"),
+    (ImageFormat::Tiff, "TIFF"),
+    (ImageFormat::Gif, "GIF"),
+    (ImageFormat::Bmp, "BMP"),
+];
+
+/// The names of the formats that are read.
+pub(super) fn known() -> String {
+    let names: Vec<&str> =
+        READ.iter().filter(|(read, _)| read.reading_enabled()).map(|(_, name)| *name).collect();
+    let (last, others) = names.split_last().map_or(("", &names[..]), |(last, others)| (*last, others));
+    format!("{} and {last}", others.join(", "))
+}
 
 /// The name of a format that is not read, and a command that converts it to PNG.
 pub(super) fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
@@ -20,7 +40,7 @@ pub(super) fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
     let begins = |with: &[u8]| head.starts_with(with);
     if begins(b"GIF8") {
         Some(("GIF", "ImageMagick does: magick IN[0] out.png"))
-    } else if begins(b"BM") && head.get(6..10) == Some(&[0; 4]) {
+    } else if is_bmp(head) {
         Some(("BMP", MAGICK))
     } else if begins(b"\x00\x00\x00\x0cjP  ") || begins(b"\xff\x4f\xff\x51") {
         Some(("JPEG 2000", MAGICK))
@@ -35,6 +55,11 @@ pub(super) fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
     } else {
         None
     }
+}
+
+/// Whether a file begins as a BMP does: two letters, its length, and nothing.
+pub(super) fn is_bmp(head: &[u8]) -> bool {
+    head.starts_with(b"BM") && head.get(6..10) == Some(&[0; 4])
 }
 
 #[cfg(test)]

@@ -31,6 +31,7 @@ mod specks;
 mod structure;
 #[cfg(test)]
 mod tests;
+mod tiff;
 mod uneven;
 mod warning;
 
@@ -110,7 +111,7 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// Reads a goal image: PNG, JPEG, WebP or TIFF, recognised by content, not by name.
+    /// Reads a goal image: PNG, JPEG, WebP or TIFF, with the feature `pictures` GIF or BMP, recognised by content, not by name.
     ///
     /// ```
     /// use pleach_silhouette::{Goal, GoalOptions};

@@ -4,6 +4,7 @@ use super::error::GoalError;
 use super::limits::{MAX_BESIDE, MAX_BYTES, MAX_SIDE, MIN_SIDE};
 use super::source::{self, Encoded};
 use super::structure::{Structure, structure};
+use super::tiff::{self, Uncommon};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
@@ -59,11 +60,20 @@ fn colors(picture: &DynamicImage, stride: usize) -> Vec<[u8; 3]> {
 /// Decodes a picture and turns it upright; of several in a file, the first. The sizes of
 /// the file and of its header are checked before any pixel is decoded. Also whether there are several.
 pub(crate) fn picture(source: &Encoded) -> Result<(DynamicImage, bool), GoalError> {
-    let (mut decoder, several) = open(source)?;
-    let bytes = decoder.total_bytes();
-    if bytes > MAX_BYTES {
-        return Err(GoalError::TooManyBytes { path: source.name().into(), bytes, limit: MAX_BYTES });
+    let check_bytes = |bytes| match bytes > MAX_BYTES {
+        true => Err(GoalError::TooManyBytes { path: source.name().into(), bytes, limit: MAX_BYTES }),
+        false => Ok(()),
+    };
+    if let Some((found, several)) = uncommon(source)? {
+        check_bytes(found.total_bytes())?;
+        let mut picture = found
+            .decode(source.bytes())
+            .map_err(|error| GoalError::Damaged { path: source.name().into(), detail: error.to_string() })?;
+        picture.apply_orientation(found.orientation);
+        return Ok((picture, several));
     }
+    let (mut decoder, several) = open(source)?;
+    check_bytes(decoder.total_bytes())?;
     let damaged = |e| undecoded(source, e);
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
@@ -80,12 +90,28 @@ pub(crate) fn picture(source: &Encoded) -> Result<(DynamicImage, bool), GoalErro
 /// Width and height that the header of a picture claims, the note on orientation followed.
 pub(super) fn dimensions(source: &Encoded) -> Result<(u32, u32), GoalError> {
     use Orientation::{Rotate90, Rotate90FlipH, Rotate270, Rotate270FlipH};
-    let (mut decoder, _) = open(source)?;
-    let (width, height) = decoder.dimensions();
-    Ok(match decoder.orientation() {
+    let ((width, height), orientation) = match uncommon(source)? {
+        Some((found, _)) => (found.size, Ok(found.orientation)),
+        None => {
+            let (mut decoder, _) = open(source)?;
+            (decoder.dimensions(), decoder.orientation())
+        }
+    };
+    Ok(match orientation {
         Ok(Rotate90 | Rotate90FlipH | Rotate270 | Rotate270FlipH) => (height, width),
         _ => (width, height),
     })
+}
+
+/// A TIFF that the usual decoder does not read, if it is one, and whether there are further pictures.
+fn uncommon(source: &Encoded) -> Result<Option<(Uncommon, bool)>, GoalError> {
+    if source.format() != Some(ImageFormat::Tiff) {
+        return Ok(None);
+    }
+    let Some(found) = tiff::uncommon(source.bytes()) else { return Ok(None) };
+    check(source, found.size)?;
+    let several = structure(ImageFormat::Tiff, source.bytes()).is_ok_and(|structure| structure.several);
+    Ok(Some((found, several)))
 }
 
 /// A decoder of a picture whose structure and size are right, and whether there are further pictures.

@@ -16,6 +16,8 @@ use std::path::{Path, PathBuf};
 pub struct Encoded {
     name: PathBuf,
     bytes: Vec<u8>,
+    /// The file that these were converted from, where they were.
+    file: Option<Vec<u8>>,
 }
 
 impl Encoded {
@@ -23,7 +25,7 @@ impl Encoded {
     /// decoded.
     #[must_use]
     pub fn new(name: impl Into<PathBuf>, bytes: Vec<u8>) -> Self {
-        Self { name: name.into(), bytes }
+        Self { name: name.into(), bytes, file: None }
     }
 
     /// Reads a file.
@@ -65,8 +67,20 @@ impl Encoded {
             Ok(true) if bytes.len() as u64 > MAX_BYTES => {
                 Err(GoalError::TooManyBytes { path, bytes: bytes.len() as u64, limit: MAX_BYTES })
             }
-            Ok(true) => Ok(Self { name: path, bytes }),
+            Ok(true) => Ok(Self { name: path, bytes, file: None }),
         }
+    }
+
+    /// The same, as the conversion of a file of another format with these bytes.
+    #[must_use]
+    pub fn converted_from(self, file: Vec<u8>) -> Self {
+        Self { file: Some(file), ..self }
+    }
+
+    /// The bytes of its file: its own, unless it was converted.
+    #[must_use]
+    pub fn file_bytes(&self) -> &[u8] {
+        self.file.as_deref().unwrap_or(&self.bytes)
     }
 
     /// What errors call it: the path of a file.
@@ -96,6 +110,10 @@ pub(super) fn refused(path: PathBuf, bytes: &[u8]) -> GoalError {
 }
 
 fn format(bytes: &[u8]) -> Option<ImageFormat> {
-    let read = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::WebP, ImageFormat::Tiff];
-    image::guess_format(bytes).ok().filter(|format| read.contains(format))
+    let format = image::guess_format(bytes)
+        .ok()
+        .filter(|format| formats::READ.iter().any(|(read, _)| read == format))?;
+    // Two letters may begin anything.
+    let is_sure = format != ImageFormat::Bmp || formats::is_bmp(bytes);
+    (is_sure && format.reading_enabled()).then_some(format)
 }

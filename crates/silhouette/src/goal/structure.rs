@@ -28,6 +28,8 @@ pub(super) fn structure(format: ImageFormat, bytes: &[u8]) -> Result<Structure, 
             let (size, several) = tiff(bytes).unwrap_or_default();
             Ok(Structure { size, several, ..whole })
         }
+        ImageFormat::Gif => gif(bytes),
+        ImageFormat::Bmp => Ok(Structure { size: bmp_size(bytes), ..whole }),
         _ => Ok(whole),
     }
 }
@@ -128,6 +130,81 @@ fn tiff(bytes: &[u8]) -> Option<(Option<(u32, u32)>, bool)> {
     Some((width.zip(height), number(next, offset).is_some_and(|next| next != 0)))
 }
 
+/// Where the value of a field of a TIFF's first page stands, if it is a short; in `BigTIFF` too.
+pub(super) fn tiff_value(bytes: &[u8], tag: u16) -> Option<usize> {
+    let big_endian = bytes.starts_with(b"MM");
+    let number = |at: usize, length: usize| -> Option<usize> {
+        let bytes = bytes.get(at..at.checked_add(length)?)?;
+        let join = |sum: u64, b: &u8| sum << 8 | u64::from(*b);
+        let number = if big_endian { bytes.iter().fold(0, join) } else { bytes.iter().rev().fold(0, join) };
+        usize::try_from(number).ok()
+    };
+    let (offset, count, entry, start) = if number(2, 2)? == 43 { (8, 8, 20, 8) } else { (4, 2, 12, 4) };
+    let first = number(start, offset)?;
+    let entries = number(first, count)?;
+    let first = first.checked_add(count)?;
+    let mut places = (0..entries).map_while(|i| first.checked_add(i * entry).filter(|at| *at < bytes.len()));
+    let place = places.find(|at| number(*at, 2) == Some(usize::from(tag)))?;
+    const SHORT: usize = 3;
+    (number(place + 2, 2)? == SHORT).then_some(place + entry - offset)
+}
+
+/// Size that the header of a BMP claims; a negative height stands for rows from the top.
+fn bmp_size(bytes: &[u8]) -> Option<(u32, u32)> {
+    /// Bytes of the oldest header, whose sizes are short.
+    const OLDEST: u32 = 12;
+    if le32(bytes, 14)? == OLDEST {
+        return Some((le16(bytes, 18)?, le16(bytes, 20)?));
+    }
+    let side = |at| le32(bytes, at).map(|side| side.cast_signed().unsigned_abs());
+    Some((side(18)?, side(22)?))
+}
+
+/// Walks the blocks of a GIF (GIF89a specification, CompuServe 1990) to the end of its first picture, and looks whether
+/// another follows. The first picture must lie on the screen.
+fn gif(bytes: &[u8]) -> Result<Structure, &'static str> {
+    const CUT: &str = "it breaks off";
+    const EXTENSION: u8 = 0x21;
+    const PICTURE: u8 = 0x2c;
+    // Bytes of a table of colours, if the flags say that there is one.
+    let table = |flags: u8| if flags & 0x80 == 0 { 0 } else { 3 << ((flags & 7) + 1) };
+    // Behind blocks of data that each say their length, up to one without any.
+    let behind_data = |mut at: usize| loop {
+        match *bytes.get(at).ok_or(CUT)? {
+            0 => return Ok::<usize, &'static str>(at + 1),
+            length => at += 1 + usize::from(length),
+        }
+    };
+    let screen = le16(bytes, 6).zip(le16(bytes, 8)).ok_or(CUT)?;
+    let mut at = 13 + table(*bytes.get(10).ok_or(CUT)?);
+    let mut pictures = 0;
+    while pictures < 2 {
+        match bytes.get(at) {
+            Some(&EXTENSION) => at = behind_data(at + 2)?,
+            Some(&PICTURE) => {
+                let field = |offset| le16(bytes, at + offset).ok_or(CUT);
+                let [left, top, width, height] = [field(1)?, field(3)?, field(5)?, field(7)?];
+                if pictures == 0 && (left + width > screen.0 || top + height > screen.1) {
+                    return Err("its first picture does not lie on its screen");
+                }
+                let flags = *bytes.get(at + 9).ok_or(CUT)?;
+                at = match (behind_data(at + 11 + table(flags)), pictures) {
+                    (Ok(at), _) => at,
+                    (Err(cut), 0) => return Err(cut),
+                    // The first picture is whole.
+                    _ => break,
+                };
+                pictures += 1;
+            }
+            _ => break,
+        }
+    }
+    if pictures == 0 {
+        return Err("it has no picture");
+    }
+    Ok(Structure { size: Some(screen), several: pictures > 1, end: bytes.len() })
+}
+
 /// Walks the chunks of a WebP (RFC 9649, section 2): all must end within the file, and pictures within
 /// must not be larger than the canvas.
 fn webp(bytes: &[u8]) -> Result<Structure, &'static str> {
@@ -206,6 +283,23 @@ mod tests {
         let whole = [&head[..], &[0xff, 0xd9]].concat();
         assert_eq!(jpeg_end(&whole), Some(whole.len()));
         assert_eq!(jpeg_end(&[&whole[..], b"and more \xff\xd8\xff"].concat()), Some(whole.len()));
+    }
+
+    #[test]
+    fn the_first_picture_of_a_gif_is_whole_and_on_its_screen() {
+        let head = [b"GIF89a", &[4, 0, 3, 0, 0x80, 0, 0][..], &[0, 0, 0, 9, 9, 9]].concat();
+        let note = [0x21, 0xfe, 2, b'h', b'i', 0];
+        let picture = |width: u8| [0x2c, 1, 0, 0, 0, width, 0, 3, 0, 0, 2, 3, 7, 7, 7, 0];
+        let file = [&head[..], &note, &picture(3), &[0x3b]].concat();
+        let size = Some((4, 3));
+        assert_eq!(gif(&file), Ok(Structure { size, several: false, end: file.len() }));
+        let two = [&file[..file.len() - 1], &picture(2), &[0x3b]].concat();
+        assert_eq!(gif(&two), Ok(Structure { size, several: true, end: two.len() }));
+        for length in 0..file.len() - 1 {
+            assert!(gif(&file[..length]).is_err(), "{length}");
+        }
+        let wide = [&head[..], &picture(4), &[0x3b]].concat();
+        assert_eq!(gif(&wide), Err("its first picture does not lie on its screen"));
     }
 
     #[test]

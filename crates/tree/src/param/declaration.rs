@@ -1,5 +1,6 @@
 //! What is said once about a parameter.
 
+use super::handle::Handle;
 use super::kind::Kind;
 use std::borrow::Cow;
 use std::fmt;
@@ -145,6 +146,8 @@ pub struct Param {
     /// cone up to 1, rounded up to 2, beads above. A sign that is a switch is told by [`Kind::Flagged`]
     /// instead.
     pub breakpoints: Cow<'static, [f64]>,
+    /// The number among its numbers that is a [`Handle`] of trees, and which, if one is.
+    pub handle: Option<(usize, Handle)>,
     /// Unit of the numbers in files.
     pub unit: Unit,
     /// A word by which several parameters can be chosen together, such as `crown` or `leaves`.
@@ -201,6 +204,7 @@ impl Param {
             effect: Cow::Borrowed(&[Effect::Plain]),
             neutral: None,
             breakpoints: Cow::Borrowed(&[]),
+            handle: None,
             unit: Unit::Ratio,
             group: Cow::Borrowed("other"),
             doc: Cow::Borrowed(""),
@@ -250,6 +254,12 @@ impl Param {
         Self { breakpoints: Cow::Owned(values.into()), ..self }
     }
 
+    /// Sets [`Param::handle`]: the number at `index` is one.
+    #[must_use]
+    pub fn handle(self, index: usize, handle: Handle) -> Self {
+        Self { handle: Some((index, handle)), ..self }
+    }
+
     /// Sets [`Param::unit`].
     #[must_use]
     pub fn unit(self, unit: Unit) -> Self {
@@ -296,6 +306,12 @@ impl Param {
     #[must_use]
     pub fn effect_of(&self, index: usize) -> Effect {
         each(&self.effect, index)
+    }
+
+    /// The handle that the number at `index` is, if it is one.
+    #[must_use]
+    pub fn handle_of(&self, index: usize) -> Option<Handle> {
+        self.handle.filter(|(number, _)| *number == index).map(|(_, handle)| handle)
     }
 
     /// Whether the number at `index` is multiplied where a tree is made larger.

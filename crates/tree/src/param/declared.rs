@@ -1,6 +1,7 @@
 //! A declaration for other programs: one set of keys for JSON wherever it is printed.
 
 use super::declaration::{Effect, Scale, Unit};
+use super::handle::Handle;
 use super::kind::Kind;
 use super::space::{ParamSpace, Slot};
 use serde::{Serialize, Serializer};
@@ -65,6 +66,8 @@ pub struct DeclaredSlot {
     pub scale: Scale,
     /// What a small change does.
     pub effect: Effect,
+    /// Its [`Handle`], for those few numbers that are shown first.
+    pub handle: Option<Handle>,
 }
 
 impl ParamSpace {
@@ -124,6 +127,7 @@ impl ParamSpace {
             plausible: self.plausible_range(slot),
             scale: self.scale_of(slot),
             effect: self.effect_of(slot),
+            handle: self.handle_of(slot),
         }
     }
 }

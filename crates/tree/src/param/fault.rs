@@ -76,8 +76,9 @@ pub(super) fn find(param: &Param) -> Result<(), Fault> {
         ("effect", param.effect.len()),
     ];
     let wrong = lengths.into_iter().find(|&(_, found)| found != 1 && found != slots);
+    let handle = param.handle.map(|(index, _)| ("handle", index + 1)).filter(|&(_, number)| number > slots);
     let default = Some(("default", param.default.len())).filter(|&(_, found)| found != slots);
-    if let Some((what, found)) = default.or(wrong) {
+    if let Some((what, found)) = default.or(wrong).or(handle) {
         return Err(Fault::WrongLength { what, expected: slots, found });
     }
     let allowed = |what, value: f64| {

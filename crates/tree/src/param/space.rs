@@ -4,6 +4,7 @@ use super::checked::CheckedParams;
 use super::declaration::{Effect, Param, Scale, Shape};
 use super::error::{Problem, SlotError};
 use super::fault::{self, DeclarationError, Fault};
+use super::handle::Handle;
 use super::kind::Kind;
 use std::ops::Range;
 use std::sync::Arc;
@@ -129,6 +130,12 @@ impl ParamSpace {
     #[must_use]
     pub fn effect_of(&self, slot: Slot) -> Effect {
         self.param_of(slot).effect_of(self.info(slot).index)
+    }
+
+    /// The handle of trees that the number in `slot` is, if it is one.
+    #[must_use]
+    pub fn handle_of(&self, slot: Slot) -> Option<Handle> {
+        self.param_of(slot).handle_of(self.info(slot).index)
     }
 
     /// The value of `slot` where a species file is silent.

@@ -114,6 +114,7 @@ fn contradictions_are_told() {
     assert_eq!(fault(list().search([(0.0, 1.0); 2])), wrong("search", 2));
     assert_eq!(fault(list().scale([Scale::Linear; 4])), wrong("scale", 4));
     assert_eq!(fault(list().effect([])), wrong("effect", 0));
+    assert_eq!(fault(list().handle(3, Handle::Height)), wrong("handle", 4));
     let twice = ParamSpace::new(vec![real(), list()]).unwrap_err();
     assert_eq!(twice.to_string(), "the parameter `a` is declared twice");
 }

@@ -11,10 +11,10 @@ use super::{HEIGHTS, LEVELS};
 use glam::DVec3;
 use pleach_tree::leaf_shape::{BlossomShape, LeafShape};
 use pleach_tree::param::Effect::{Layout, Plain, Size, SizeJitter};
-use pleach_tree::param::Kind;
 use pleach_tree::param::Scale::{Count, FineNearZero, Linear, Log};
 use pleach_tree::param::Unit;
 use pleach_tree::param::table::always;
+use pleach_tree::param::{Handle, Kind};
 
 const SHAPES: [&str; 9] = [
     "conical",
@@ -40,11 +40,11 @@ pleach_tree::parameters! {
                 7.0,
             )
                 .search([(0.0, 7.0)])
-                .unit(Unit::Count);
+                .unit(Unit::Count).handle(0, Handle::CrownShape);
         g_scale: f64, when always =>
             scalar("crown", "height that the tree is scaled to", Kind::real(0.01, 200.0), 13.0)
                 .search([(4.0, 45.0)])
-                .unit(Unit::Meters).scale([Log]).effect([Size]);
+                .unit(Unit::Meters).scale([Log]).effect([Size]).handle(0, Handle::Height);
         g_scale_v: f64, when always =>
             scalar("crown", "largest variation of `g_scale`, drawn once a trunk", Kind::real(0.0, 100.0), 3.0)
                 .search([(0.0, 8.0)])
@@ -61,7 +61,7 @@ pleach_tree::parameters! {
         ratio: f64, when always =>
             scalar("trunk", "radius of the trunk's base over its length", Kind::real(0.0001, 1.0), 0.015)
                 .search([(0.004, 0.05)])
-                .unit(Unit::Ratio).scale([Log]);
+                .unit(Unit::Ratio).scale([Log]).handle(0, Handle::Trunk);
         ratio_power: f64, when Facts::has_branches =>
             scalar(
                 "branches",
@@ -109,7 +109,7 @@ pleach_tree::parameters! {
                     [0.3, 0.02, 0.02, 0.02],
                 )
                     .search([(0.01, 0.96), (0.0, 0.45), (0.0, 0.1), (0.0, 0.1)])
-                    .unit(Unit::Ratio).scale([FineNearZero, Linear, Linear, Linear]).effect([Layout]).neutral(0.0);
+                    .unit(Unit::Ratio).scale([FineNearZero, Linear, Linear, Linear]).effect([Layout]).neutral(0.0).handle(0, Handle::BareTrunk);
             down_angle: f64 [f64::to_radians], when Facts::places_children =>
                 levels(
                     "branches",
@@ -118,7 +118,7 @@ pleach_tree::parameters! {
                     [0.0, 60.0, 45.0, 45.0],
                 )
                     .search([(0.0, 0.0), (10.0, 110.0), (-15.0, 80.0), (0.0, 60.0)])
-                    .unit(Unit::Degrees).neutral(0.0);
+                    .unit(Unit::Degrees).neutral(0.0).handle(1, Handle::Spread);
             down_angle_v: f64 [f64::to_radians], when Facts::places_children =>
                 levels(
                     "branches",
@@ -149,7 +149,7 @@ pleach_tree::parameters! {
                     [1.0, 50.0, 30.0, 10.0],
                 )
                     .search([(1.0, 1.0), (5.0, 250.0), (0.0, 130.0), (0.0, 120.0)])
-                    .unit(Unit::Count).scale([Count]).effect([Layout]);
+                    .unit(Unit::Count).scale([Count]).effect([Layout]).handle(1, Handle::Density);
             branch_dist: f64, when |f| f.places_children() && !f.is_leaf_fan() =>
                 levels(
                     "branches",
@@ -167,7 +167,7 @@ pleach_tree::parameters! {
                     [1.0, 0.3, 0.6, 0.0],
                 )
                     .search([(0.7, 1.1), (0.1, 1.0), (0.05, 2.0), (0.02, 0.5)])
-                    .unit(Unit::Ratio).scale([Linear, Log, Log, Log]).neutral(0.0);
+                    .unit(Unit::Ratio).scale([Linear, Log, Log, Log]).neutral(0.0).handle(1, Handle::CrownWidth);
             length_v: f64, when Facts::has_stems =>
                 levels("stems", "variation of `length`, drawn once a parent", Kind::real(0.0, 20.0), [0.0; 4])
                     .search([(0.0, 0.2), (0.0, 0.15), (0.0, 0.2), (0.0, 0.1)])
@@ -268,7 +268,7 @@ pleach_tree::parameters! {
                 [0.0, 0.0, 0.5],
             )
                 .search([(-0.3, 0.3), (-0.3, 0.3), (-3.5, 2.5)])
-                .unit(Unit::Ratio).neutral(0.0);
+                .unit(Unit::Ratio).neutral(0.0).handle(2, Handle::Rise);
         leaf_blos_num: f64, when Facts::has_branches =>
             scalar(
                 "leaves",
@@ -277,7 +277,7 @@ pleach_tree::parameters! {
                 40.0,
             )
                 .search([(-90.0, 400.0)])
-                .unit(Unit::Count).scale([Count]).effect([Layout]);
+                .unit(Unit::Count).scale([Count]).effect([Layout]).handle(0, Handle::Leaves);
         leaf_shape: LeafShape [leaf_shape], when |f| f.has_leaves() && f.model.blossom_rate < 1.0 =>
             scalar("leaves", "shape of a leaf", Kind::choice(1, LeafShape::ALL.map(LeafShape::name)), 8.0)
                 .search([(1.0, LeafShape::ALL.len() as f64)])
@@ -287,7 +287,7 @@ pleach_tree::parameters! {
                 .search([(0.03, 0.9)])
                 .unit(Unit::Meters).scale([Log]).effect([Size]).neutral(0.0)
                 // Half a metre is a large leaf; fronds of palms and fans are longer, where a fit starts there.
-                .plausible([(0.03, 0.5)]);
+                .plausible([(0.03, 0.5)]).handle(0, Handle::LeafSize);
         leaf_scale_x: f64, when |f| f.has_leaves() && f.model.blossom_rate < 1.0 =>
             scalar("leaves", "factor on the width of a leaf", Kind::real(0.0, 100.0), 1.0)
                 .search([(0.05, 1.2)])
@@ -365,7 +365,7 @@ pleach_tree::parameters! {
                 0.0,
             )
                 .search([(-30.0, 30.0)])
-                .unit(Unit::Degrees);
+                .unit(Unit::Degrees).handle(0, Handle::Lean);
         bow: f64 [f64::to_radians], when always =>
             stature(
                 "by how much more the trunk leans at its top than at its foot",

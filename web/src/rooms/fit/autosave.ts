@@ -1,112 +1,95 @@
-// The goal and the last result survive a reload. Photographs do not: they would fill the browser's store.
+// The goal and its fit survive a reload, as one. Photographs do not: they would fill the browser's store.
 import { effect } from "@preact/signals";
-import type { FitResult } from "../../engine/protocol";
-import { pack, packBits, unpack, unpackBits } from "../../state/codec";
+import { say } from "../../state/notes";
 import type { Linked } from "../../state/route";
+import { fields, number, orNull, type Shape, versionOf } from "../../state/shape";
 import { debounce, load, save } from "../../state/store";
-import { best, type CurvePoint, curve, phase, result, running, seconds } from "./fit-state";
-import { masks, picture, restoreGoal, takeTarget, treeHeight } from "./goal-state";
+import { running, seconds } from "./fit-state";
+import { masks, picture, takeTarget, treeHeight, wholeGoal } from "./goal-state";
+import { finished, record } from "./record";
+import {
+  isStoredFit,
+  isStoredGoal,
+  openStored,
+  packFit,
+  packGoal,
+  type StoredFit,
+  type StoredGoal,
+} from "./stored-fit";
 
-interface SavedGoal {
-  name: string;
-  width: number;
-  height: number;
-  target: string | null;
-  ink: string;
-  ground: number | null;
-  axis: number | null;
+/** Changes with the shape of what is stored: another one is not read. */
+const VERSION = 1;
+
+interface Saved {
+  version: number;
+  goal: StoredGoal;
+  /** Of this goal, or null. */
+  fit: StoredFit | null;
   treeHeight: number;
   seconds: number;
 }
-interface SavedResult {
-  result: FitResult;
-  curve: readonly CurvePoint[];
-  width: number;
-  height: number;
-  ink: string;
-  ownInk: string | null;
-  goal: string;
+
+const isSaved: Shape<Saved> = fields({
+  version: number,
+  goal: isStoredGoal,
+  fit: orNull(isStoredFit),
+  treeHeight: number,
+  seconds: number,
+});
+
+let saves = 0;
+/** Whether the user knows that the browser has no room. */
+let toldFull = false;
+
+/** What does not fit must not leave the fit of another goal in its place. */
+function store(saved: Saved): void {
+  if (save("fit", saved)) return;
+  save("fit", null);
+  if (toldFull) return;
+  toldFull = true;
+  say("The browser has no room left for this goal and its fit: a reload would lose them.", "error");
 }
 
-/** Its number changes with the shape of what is saved. */
-const RESULT = "result.2";
-const OLD_RESULT = "result";
-
-const packInk = (ink: Uint8Array) => pack(packBits(ink));
-const unpackInk = async (text: string, length: number) => unpackBits(await unpack(text), length);
-
-async function saveGoal(): Promise<void> {
-  const shown = picture.peek();
+async function saveAll(): Promise<void> {
+  const mine = ++saves;
+  const shown = wholeGoal();
   if (!shown) return;
-  const { ink, ground, axis } = masks.peek();
-  const { name, width, height, target } = shown;
-  const saved: SavedGoal = {
-    name,
-    width,
-    height,
-    target,
-    ink: await packInk(ink),
-    ground,
-    axis,
-    treeHeight: treeHeight.peek(),
-    seconds: seconds.peek(),
-  };
-  save("goal", saved);
+  const time = seconds.peek();
+  // While the same goal is fitted again, the fit that it has is kept.
+  const fit = await packFit(finished(record.peek()));
+  const goal = await packGoal(shown);
+  const saved: Saved = { version: VERSION, goal, fit, treeHeight: shown.treeHeight, seconds: time };
+  // Packing takes a moment, in which a newer state may have come.
+  if (mine === saves) store(saved);
 }
 
-async function saveResult(): Promise<void> {
-  const fit = result.peek();
-  const now = best.peek();
-  if (!fit || !now) return;
-  const { width, height } = now;
-  const saved: SavedResult = {
-    result: fit,
-    curve: curve.peek(),
-    width,
-    height,
-    ink: await packInk(now.ink),
-    ownInk: now.ownInk && (await packInk(now.ownInk)),
-    goal: await packInk(now.goal),
-  };
-  save(RESULT, saved);
-}
+/** What earlier pages stored apart: a goal, and a result that may have been another's. */
+const OLD = ["goal", "result", "result.2"];
 
 export async function restoreFit(): Promise<void> {
-  const goal = load<SavedGoal | null>("goal", null);
-  if (goal) {
-    const { name, width, height, target, ground, axis } = goal;
-    treeHeight.value = goal.treeHeight;
-    seconds.value = goal.seconds;
-    const ink = await unpackInk(goal.ink, width * height);
-    restoreGoal({ name, width, height, photo: null, target }, { ink, ground, axis });
+  for (const key of OLD) save(key, null);
+  const saved = load("fit");
+  try {
+    if (versionOf(saved) === VERSION) {
+      if (!isSaved(saved)) throw new Error("A field is missing.");
+      await openStored(saved);
+      seconds.value = saved.seconds;
+    }
+  } catch {
+    // It would fail at each reload; and what comes now is to be stored all the same.
+    save("fit", null);
+    say("What the browser has stored of the last fit is damaged, and was cleared.", "error");
   }
-  save(OLD_RESULT, null);
-  const last = load<SavedResult | null>(RESULT, null);
-  if (goal && last) {
-    const { width, height } = last;
-    const pixels = width * height;
-    best.value = {
-      width,
-      height,
-      ink: await unpackInk(last.ink, pixels),
-      ownInk: last.ownInk === null ? null : await unpackInk(last.ownInk, pixels),
-      goal: await unpackInk(last.goal, pixels),
-    };
-    curve.value = last.curve;
-    result.value = last.result;
-    phase.value = "done";
-  }
-  const queueGoal = debounce(800, () => void saveGoal());
-  const queueResult = debounce(200, () => void saveResult());
+  const queue = debounce(500, () => void saveAll());
   effect(() => {
     picture.value;
     masks.value;
     treeHeight.value;
     seconds.value;
-    queueGoal();
-  });
-  effect(() => {
-    if (result.value && !running.value) queueResult();
+    // A search that runs is not stored: what it has found so far changes several times a second.
+    if (running.value) return;
+    record.value;
+    queue();
   });
 }
 
@@ -122,8 +105,7 @@ export const fitLink: Linked = {
   async read(fields) {
     const name = fields.get("goal");
     if (!name || !/^[a-z0-9_]+$/.test(name) || picture.peek()?.target === `${name}.png`) return;
-    await takeTarget(`${name}.png`);
     const height = Number(fields.get("height"));
-    if (height > 0 && height <= 200) treeHeight.value = height;
+    await takeTarget(`${name}.png`, height > 0 && height <= 200 ? height : null);
   },
 };

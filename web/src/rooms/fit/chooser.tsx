@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
+import { worksOffline } from "../../offline/offline";
 import { sayError } from "../../state/notes";
 import { Button } from "../../ui/controls";
 import { baseName, pickFile } from "../../ui/files";
@@ -44,6 +45,7 @@ export function Welcome(): JSX.Element {
       <p class="lead">
         Drop a silhouette or a photograph of a tree. The page finds a species that grows such trees, from any
         seed. Nothing leaves your computer.
+        {worksOffline.value && <span data-testid="works-offline"> The page works offline now.</span>}
       </p>
       <div class="row">
         <ChooseButton primary />

@@ -1,13 +1,13 @@
 // The panel of the fit room: goal, brush, and what the search does.
 import type { JSX } from "preact";
+import { useRef } from "preact/hooks";
 import { keepSpecies } from "../../state/library";
 import { Alert, Bar, Button, Field, Segmented } from "../../ui/controls";
+import { useFocusAfter, useUndoKeys } from "../../ui/keys";
 import { ChooseButton, TargetSelect } from "./chooser";
 import {
-  bestToml,
   elapsed,
   failure,
-  guess,
   pauseFit,
   phase,
   progress,
@@ -19,9 +19,10 @@ import {
   startFit,
   stopFit,
 } from "./fit-state";
-import { brush, brushSize } from "./goal-editor";
+import { brush, brushSize, pickBrush } from "./goal-editor";
 import {
   canReadAgain,
+  type GoalPicture,
   goalError,
   info,
   masks,
@@ -33,10 +34,27 @@ import {
   undoMask,
 } from "./goal-state";
 import { MeasuresPart } from "./measures";
+import { before, bestToml, goBack, guess, outdated, result } from "./record";
 import { SearchPart } from "./search-part";
+
+/** Where the mask is from, which painting does not change. */
+function origin({ masked, confidence }: GoalPicture): string {
+  if (!masked) return "a silhouette";
+  const sure = confidence === null ? "" : `, ${Math.round(confidence * 100)} % sure`;
+  return `a tree found in a photograph${sure}`;
+}
+
+/** The library's warnings end with what to do in the program; here there are other means. */
+function inPage(warning: string): string {
+  const program = warning.search(/[;,:] [^;]*(`pleach | --)/);
+  if (program < 0) return warning;
+  return `${warning.slice(0, program)}. Paint over the mask, or draw a box around the tree.`;
+}
 
 function GoalPart(): JSX.Element {
   const found = info.value;
+  const shown = picture.value;
+  const back = before.value;
   const busy = running.value || reading.value !== null;
   return (
     <section class="part" aria-label="Goal">
@@ -45,25 +63,33 @@ function GoalPart(): JSX.Element {
         <ChooseButton primary={false} />
         <TargetSelect disabled={busy} />
       </div>
-      {found && (
+      {shown && (
         <p class="facts">
-          <strong>{picture.value?.name.replaceAll("_", " ")}</strong> · {found.width} × {found.height} ·{" "}
-          {found.masked
-            ? `a tree found in a photograph${found.confidence === null ? "" : `, ${Math.round(found.confidence * 100)} % sure`}`
-            : "a silhouette"}
+          <strong>{shown.name.replaceAll("_", " ")}</strong> · {shown.full.width} × {shown.full.height} ·{" "}
+          {origin(shown)}
+          {masks.value.painted && ", painted over"}
         </p>
+      )}
+      {back && (
+        <Button
+          kind="quiet"
+          icon="undo"
+          label={`Back to ${back.goal.picture.name.replaceAll("_", " ")} and its tree`}
+          disabled={reading.value !== null}
+          onPress={goBack}
+        />
       )}
       {found?.warnings.map((warning) => (
         <p key={warning} class="warning">
-          {warning}
+          {inPage(warning)}
         </p>
       ))}
-      {found && canReadAgain() && (
+      {shown && canReadAgain() && (
         <Button
           kind="quiet"
-          label={found.masked ? "Take the dark pixels instead" : "Look for a tree in a photograph"}
+          label={shown.masked ? "Take the dark pixels instead" : "Look for a tree in a photograph"}
           disabled={busy}
-          onPress={() => void readAgain(found.masked ? "off" : "photo")}
+          onPress={() => void readAgain(shown.masked ? "off" : "photo")}
         />
       )}
       <div class="row wrap">
@@ -72,19 +98,18 @@ function GoalPart(): JSX.Element {
           value={brush.value}
           disabled={running.value}
           options={[
+            { value: "off", label: "Off" },
             { value: "add", label: "Add" },
             { value: "take", label: "Take away" },
             { value: "box", label: "Box" },
             { value: "measures", label: "Measures" },
           ]}
-          onPick={(picked) => {
-            brush.value = picked;
-          }}
+          onPick={pickBrush}
         />
         <Button
           icon="undo"
           iconOnly
-          label="Undo the brush"
+          label="Undo the brush (Ctrl+Z)"
           disabled={busy || !masks.canUndo.value}
           onPress={undoMask}
           testid="undo-mask"
@@ -92,7 +117,7 @@ function GoalPart(): JSX.Element {
         <Button
           icon="redo"
           iconOnly
-          label="Redo the brush"
+          label="Redo the brush (Ctrl+Shift+Z)"
           disabled={busy || !masks.canRedo.value}
           onPress={redoMask}
         />
@@ -131,17 +156,22 @@ function GoalPart(): JSX.Element {
 function Running(): JSX.Element | null {
   const now = progress.value;
   if (!running.value) return null;
-  const searching = phase.value === "searching" || phase.value === "paused";
+  const isTrying = phase.value === "trying";
+  const grows = isTrying || phase.value === "searching" || phase.value === "paused";
   return (
     <div class="running">
       <p class="stagename">
-        {phase.value === "paused" ? "Paused" : searching ? "Searching" : stage.value.text || "Starting"}
+        {phase.value === "paused"
+          ? "Paused"
+          : phase.value === "searching"
+            ? "Searching"
+            : stage.value.text || "Starting"}
       </p>
       <Bar
         label="Progress of the fit"
-        share={searching ? Math.min(1, now?.used ?? elapsed.value / seconds.value) : stage.value.share}
+        share={grows ? Math.min(1, now?.used ?? elapsed.value / seconds.value) : stage.value.share}
       />
-      {searching && now && (
+      {grows && now && (
         <dl class="livenumbers">
           <div>
             <dt>Likeness</dt>
@@ -153,7 +183,7 @@ function Running(): JSX.Element | null {
           </div>
           <div>
             <dt>Trees a second</dt>
-            <dd>{rate.value === null ? "…" : Math.round(rate.value)}</dd>
+            <dd>{rate.value === null || isTrying ? "…" : Math.round(rate.value)}</dd>
           </div>
           <div>
             <dt>Seconds</dt>
@@ -187,8 +217,16 @@ function keepBest(): void {
   if (toml !== null) keepSpecies(`${picture.peek()?.name ?? "fit"} so far`, toml);
 }
 
+const UNDO = {
+  undo: () => running.peek() || undoMask(),
+  redo: () => running.peek() || redoMask(),
+};
+
 export function Controls(): JSX.Element {
   const state = phase.value;
+  const foot = useRef<HTMLElement>(null);
+  useUndoKeys(UNDO);
+  useFocusAfter(foot, `${state} ${reading.value}`);
   return (
     <>
       <div class="panelbody">
@@ -201,29 +239,34 @@ export function Controls(): JSX.Element {
         <GoalPart />
         <SearchPart />
       </div>
-      <footer class="panelfoot">
+      <footer class="panelfoot" ref={foot}>
         {failure.value && <Alert text={failure.value} />}
         <Kin />
+        {result.value && outdated.value && !running.value && (
+          <p class="hint">The goal was painted over after this fit.</p>
+        )}
         <Running />
         <div class="row">
           {!running.value && (
             <Button
               icon="play"
               kind="primary"
-              label={state === "done" ? "Fit again" : "Fit"}
+              label={result.value ? "Fit again" : "Fit"}
               disabled={picture.value === null || reading.value !== null}
               onPress={() => void startFit()}
               testid="start"
             />
           )}
-          {state === "searching" && <Button icon="pause" label="Pause" onPress={pauseFit} testid="pause" />}
+          {(state === "searching" || state === "trying") && (
+            <Button icon="pause" label="Pause" onPress={pauseFit} testid="pause" />
+          )}
           {state === "paused" && (
             <Button icon="play" label="Go on" kind="primary" onPress={resumeFit} testid="resume" />
           )}
           {running.value && (
             <Button
               icon="stop"
-              label={state === "searching" || state === "paused" ? "Stop" : "Cancel"}
+              label={state === "guessing" || state === "judging" ? "Cancel" : "Stop"}
               onPress={stopFit}
               testid="stop"
             />

@@ -1,6 +1,7 @@
 // The curve of the score over the seconds of search.
 import type { JSX } from "preact";
-import { type CurvePoint, curve, seconds } from "./fit-state";
+import { seconds } from "./fit-state";
+import { type CurvePoint, curve } from "./record";
 
 const WIDTH = 640;
 const HEIGHT = 160;

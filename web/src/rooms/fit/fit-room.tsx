@@ -4,9 +4,10 @@ import { Alert } from "../../ui/controls";
 import { Welcome } from "./chooser";
 import { Controls } from "./controls";
 import { Curve } from "./curve";
-import { curve } from "./fit-state";
 import { goalError, picture, reading } from "./goal-state";
+import { KeptFits } from "./kept-list";
 import { Determined, Outcome } from "./outcome";
+import { curve, result } from "./record";
 import { ScoreCard } from "./score-card";
 import { Tiles } from "./tiles";
 
@@ -21,6 +22,7 @@ export function FitRoom(): JSX.Element {
           </p>
         )}
         <Welcome />
+        <KeptFits />
       </div>
     );
   }
@@ -28,12 +30,13 @@ export function FitRoom(): JSX.Element {
     <>
       <div class="canvas scroll">
         <Tiles />
-        {curve.value.length > 1 && <Curve />}
+        {!result.value && curve.value.length > 1 && <Curve />}
         <Outcome />
         <div class="cardsrow">
           <ScoreCard />
           <Determined />
         </div>
+        <KeptFits />
       </div>
       <aside class="panel" aria-label="Fit">
         <Controls />

@@ -1,161 +1,164 @@
-// The running fit and its result.
-import { computed, signal } from "@preact/signals";
-import type { Card, FitOptions, FitProgress, FitResult, Guess } from "../../engine/protocol";
-import { FitSession } from "../../engine/session";
-import { announce, sentence } from "../../state/notes";
-import { corrections, goalPixels, treeHeight } from "./goal-state";
+// The running search.
+import { computed, effect, signal } from "@preact/signals";
+import type { FitOptions, FitProgress, GoalPixels } from "../../engine/protocol";
+import { type FitEvents, FitSession } from "../../engine/session";
+import { familyTitle } from "../../state/families";
+import { announce, say, sentence } from "../../state/notes";
+import { corrections, type GoalPicture, goalError, goalPixels, picture, treeHeight } from "./goal-state";
 import { seenColors } from "./look-state";
+import { type CurvePoint, change, type Fitted, finished, guess, record, shownTree } from "./record";
 
-export type Phase = "idle" | "guessing" | "searching" | "paused" | "judging" | "done";
+/** "trying": generators that the goal may be of, one after the other. */
+export type Phase = "idle" | "guessing" | "trying" | "searching" | "paused" | "judging";
 
 export const phase = signal<Phase>("idle");
 export const stage = signal<{ text: string; share: number | null }>({ text: "", share: null });
-export const guess = signal<Guess | null>(null);
 export const progress = signal<FitProgress | null>(null);
 export const elapsed = signal(0);
 export const failure = signal<string | null>(null);
-export const result = signal<FitResult | null>(null);
-
-/** The best tree so far, in the goal's frame. */
-export interface Best {
-  ink: Uint8Array<ArrayBuffer>;
-  /** This very tree, once it was found. */
-  ownInk: Uint8Array<ArrayBuffer> | null;
-  width: number;
-  height: number;
-  /** The goal that it was fitted to, which may be painted over since. */
-  goal: Uint8Array<ArrayBuffer>;
-}
-export const best = signal<Best | null>(null);
-
-/** Which of the trees that were found is shown and saved: the goal's own, or one of its kind. */
-export type Which = "own" | "kind";
-export const which = signal<Which>("own");
-
-/** The same, where there is one of its own. */
-export const shownWhich = computed<Which>(() => (best.value?.ownInk ? which.value : "kind"));
-
-export const shownInk = computed(() => {
-  const now = best.value;
-  return now && ((shownWhich.value === "own" && now.ownInk) || now.ink);
-});
-
-/** The species file and the scores of the tree that is shown. */
-export const shownTree = computed<{ name: string; toml: string; card: Card } | null>(() => {
-  const fit = result.value;
-  if (!fit) return null;
-  const { report, toml, own_toml: own } = fit;
-  const name = report.species;
-  if (shownWhich.value === "own" && own !== null && report.individual) {
-    return { name, toml: own, card: report.individual };
-  }
-  return { name, toml, card: report };
-});
-/** Its species, while the search runs and if it fails. */
-export const bestToml = signal<string | null>(null);
-
-export interface CurvePoint {
-  seconds: number;
-  likeness: number;
-  iou: number;
-}
-export const curve = signal<readonly CurvePoint[]>([]);
-
 export const seconds = signal(30);
-export const generator = signal("weber-penn");
+/** A family or a choice of the library's, or "" for what the library chooses by the picture. */
+export const generator = signal("");
 export const leafiness = signal<NonNullable<FitOptions["leaves"]>>("auto");
 /** Whether this very tree is looked for after its kind. */
 export const individual = signal(true);
 
-export const running = computed(() => !["idle", "done"].includes(phase.value));
+export const running = computed(() => phase.value !== "idle");
 export const rate = computed(() => {
   const count = progress.value?.evaluations ?? 0;
   return elapsed.value > 0.5 ? count / elapsed.value : null;
 });
 
 let session: FitSession | null = null;
+/** The picture that it looks at. */
+let searched: GoalPicture | null = null;
 
 /** Points on the curve: more than a screen shows would cost time and say nothing. */
 const MAX_POINTS = 400;
 
-function addPoint(point: CurvePoint): void {
-  const points = curve.peek();
+function withPoint(points: readonly CurvePoint[], point: CurvePoint): readonly CurvePoint[] {
   const last = points.at(-1);
-  if (last && point.seconds - last.seconds < Math.max(0.1, point.seconds / MAX_POINTS)) return;
-  curve.value = [...points, point];
+  if (last && point.seconds - last.seconds < Math.max(0.1, point.seconds / MAX_POINTS)) return points;
+  return [...points, point];
 }
 
-export async function startFit(): Promise<void> {
-  const pixels = goalPixels();
-  if (!pixels || running.peek()) return;
-  const { width, height } = pixels;
-  const options: FitOptions = {
+function optionsNow(): FitOptions {
+  return {
     height: treeHeight.peek(),
-    generator: generator.peek(),
+    ...(generator.peek() === "" ? {} : { generator: generator.peek() }),
     timeout: seconds.peek(),
     leaves: leafiness.peek(),
     individual: individual.peek() ? "share" : "off",
     reading: corrections.peek(),
   };
-  // On a telephone the pictures are above the button.
-  document.getElementById("room")?.scrollTo({ top: 0, behavior: "smooth" });
-  phase.value = "guessing";
-  failure.value = null;
-  guess.value = null;
-  bestToml.value = null;
-  progress.value = null;
-  elapsed.value = 0;
-  curve.value = [];
-  const keptBest = best.peek();
-  const keptResult = result.peek();
+}
+
+/** What a search says, put into the record of its fit, for as long as it `isCurrent`. */
+function events(id: number, goal: GoalPixels, isCurrent: () => boolean): FitEvents {
+  const { ink, width, height } = goal;
   let said = 0;
-  const goal = { ...pixels, colors: await seenColors() };
-  session = new FitSession(goal, options, {
+  return {
     stage(now) {
+      if (!isCurrent()) return;
       const share = now.done !== undefined && now.all ? now.done / now.all : null;
       stage.value = { text: now.stage, share };
       if (phase.peek() === "searching") phase.value = "judging";
     },
-    guessed(said) {
-      guess.value = said;
-      result.value = null;
-      best.value = null;
-      phase.value = "searching";
+    began() {
+      if (!isCurrent()) return;
+      record.value = {
+        id,
+        width,
+        height,
+        goal: ink,
+        guess: null,
+        curve: [],
+        best: null,
+        soFar: null,
+        result: null,
+        earlier: finished(record.peek()),
+      };
+    },
+    tries({ family, number, count }) {
+      if (!isCurrent()) return;
+      stage.value = { text: `Trying ${familyTitle(family)}, search ${number} of ${count}`, share: null };
+      if (phase.peek() !== "paused") phase.value = "trying";
+    },
+    guessed(guess) {
+      if (!isCurrent() || record.peek()?.id !== id) return;
+      change({ guess });
+      if (phase.peek() !== "paused") phase.value = "searching";
       announce("The search begins");
     },
     step(now, time, found) {
+      if (!isCurrent() || record.peek()?.id !== id) return;
       progress.value = now;
       elapsed.value = time;
       const { likeness, iou } = now;
-      if (likeness !== null && iou !== null) addPoint({ seconds: time, likeness, iou });
-      if (found) {
-        best.value = { ink: found.ink, ownInk: null, width, height, goal: goal.ink };
-        bestToml.value = found.toml;
-      }
+      const points = record.peek()?.curve ?? [];
+      // Each generator starts from the beginning: the curve is that of the search.
+      const curve =
+        guess.peek() && likeness !== null && iou !== null
+          ? withPoint(points, { seconds: time, likeness, iou })
+          : points;
+      if (found) change({ curve, best: { ink: found.ink, ownInk: null }, soFar: found.toml });
+      else if (curve !== points) change({ curve });
       // Screen readers hear of it now and then, not forty times a second.
       if (likeness !== null && time - said > 10) {
         said = time;
         announce(`${Math.round(time)} seconds, likeness ${likeness.toFixed(2)}`);
       }
     },
-  });
+  };
+}
+
+/** What remains of a search without a result: the fit before it, unless that had less. */
+function fallBack(earlier: Fitted | null): void {
+  const now = record.peek();
+  if (!earlier || now?.result) return;
+  if (earlier.result || !now?.best) record.value = earlier;
+}
+
+export async function startFit(): Promise<void> {
+  const goal = goalPixels();
+  const id = picture.peek()?.id;
+  if (!goal || id === undefined || running.peek()) return;
+  // On a telephone the pictures are above the button.
+  document.getElementById("room")?.scrollTo({ top: 0, behavior: "smooth" });
+  phase.value = "guessing";
+  failure.value = null;
+  goalError.value = null;
+  progress.value = null;
+  elapsed.value = 0;
+  const earlier = record.peek();
+  const isGoal = () => picture.peek()?.id === id;
+  const isCurrent = () => session === mine && isGoal();
+  const mine = new FitSession(goal, seenColors, optionsNow(), events(id, goal, isCurrent));
+  searched = picture.peek();
+  session = mine;
   try {
-    const { ink, ownInk, result: finished } = await session.run();
-    best.value = { ink, ownInk, width, height, goal: goal.ink };
-    result.value = finished;
-    bestToml.value = null;
-    phase.value = "done";
-    const likeness = shownTree.peek()?.card.likeness ?? finished.report.likeness;
+    const { ink, ownInk, result } = await mine.run();
+    if (!isCurrent() || record.peek()?.id !== id) return;
+    change({ best: { ink, ownInk }, result, soFar: null, earlier: null });
+    const likeness = shownTree.peek()?.card.likeness ?? result.report.likeness;
     announce(`The fit has ended with likeness ${likeness.toFixed(2)}`);
   } catch (error) {
     failure.value = sentence(error);
-    best.value ??= keptBest;
-    result.value ??= keptResult;
-    phase.value = result.peek() ? "done" : "idle";
+    if (isGoal()) fallBack(earlier);
   } finally {
     session = null;
+    phase.value = "idle";
   }
 }
+
+// A search is of one goal, and ends with it.
+effect(() => {
+  const { id, name } = picture.value ?? {};
+  if (session && searched && searched.id !== id) {
+    session.cancel();
+    say(`The search for ${searched.name} has ended: ${name} is the goal now.`);
+  }
+});
 
 export function pauseFit(): void {
   session?.pause();
@@ -164,7 +167,7 @@ export function pauseFit(): void {
 
 export function resumeFit(): void {
   session?.resume();
-  phase.value = "searching";
+  phase.value = guess.peek() ? "searching" : "trying";
 }
 
 /** Ends the search; the best so far is judged. */

@@ -1,84 +1,61 @@
 // The goal with its mask: a brush that adds and takes away, a box around the tree, and two lines to drag.
-import { signal, useSignal, useSignalEffect } from "@preact/signals";
+import { computed, signal, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
-import { GOAL_ONLY, show } from "../../ui/ink";
+import { type Area, joined, type Point, paint, stroke } from "./brush";
 import { running } from "./fit-state";
-import { canReadAgain, info, masks, picture, readAgain, setMask } from "./goal-state";
+import { canReadAgain, type GoalPicture, info, masks, picture, readInBox, setMask } from "./goal-state";
 import { Measures } from "./measures";
 
-/** What dragging over the picture does: paint the tree, paint what is not the tree, draw a box around the tree, or move
- * what was read. */
-export const brush = signal<"add" | "take" | "box" | "measures">("add");
+/**
+ * What dragging over the picture does: nothing, paint the tree, paint what is not the tree, draw a box around the tree,
+ * or move what was read. A finger scrolls the page until one of them is picked.
+ */
+export type BrushMode = "off" | "add" | "take" | "box" | "measures";
+const brushMode = signal<BrushMode>(matchMedia("(pointer: coarse)").matches ? "off" : "add");
+const picked = signal(false);
+export const brush = computed(() => brushMode.value);
+
+export function pickBrush(mode: BrushMode): void {
+  brushMode.value = mode;
+  picked.value = true;
+}
+
 /** Diameter in hundredths of the picture's longer side. */
 export const brushSize = signal(5);
 
-/** The photograph, pale, under its mask in blue; or the mask alone, dark. */
-function paint(canvas: HTMLCanvasElement, ink: Uint8Array): void {
-  const shown = picture.peek();
-  if (!shown || ink.length !== shown.width * shown.height) return;
-  const { width, height, photo } = shown;
-  const image = new ImageData(width, height);
-  const { data } = image;
-  const [red, green, blue] = GOAL_ONLY;
-  for (let at = 0; at < ink.length; at++) {
-    const to = at * 4;
-    const inside = ink[at] === 1;
-    if (photo) {
-      const share = inside ? 0.45 : 0.25;
-      for (let channel = 0; channel < 3; channel++) {
-        const over = inside ? ([red, green, blue][channel] ?? 0) : 255;
-        data[to + channel] = (photo[to + channel] ?? 0) * (1 - share) + over * share;
-      }
-      data[to + 3] = 255;
-    } else if (inside) {
-      data[to] = 30;
-      data[to + 1] = 38;
-      data[to + 2] = 42;
-      data[to + 3] = 255;
-    }
-  }
-  show(canvas, image);
-}
-
-function stroke(
-  ink: Uint8Array,
-  width: number,
-  height: number,
-  from: Point,
-  to: Point,
-  radius: number,
-  value: number,
-): void {
-  const steps = Math.max(1, Math.ceil(Math.hypot(to.x - from.x, to.y - from.y) / Math.max(1, radius / 2)));
-  for (let step = 0; step <= steps; step++) {
-    const x = from.x + ((to.x - from.x) * step) / steps;
-    const y = from.y + ((to.y - from.y) * step) / steps;
-    for (let row = Math.max(0, Math.floor(y - radius)); row <= Math.min(height - 1, y + radius); row++) {
-      const half = Math.sqrt(Math.max(0, radius * radius - (row - y) * (row - y)));
-      const first = Math.max(0, Math.round(x - half));
-      const last = Math.min(width - 1, Math.round(x + half));
-      if (last >= first) ink.fill(value, row * width + first, row * width + last + 1);
-    }
-  }
-}
-
-interface Point {
-  x: number;
-  y: number;
-}
-
-/** Two corners of a rectangle. */
-interface Box {
+/** Of a rectangle. */
+interface Corners {
   from: Point;
   to: Point;
 }
+
+/** A rectangle that is drawn, and the picture that it was begun on. */
+interface Box extends Corners {
+  on: GoalPicture;
+}
+
+/** What the brush has painted so far, which is not the mask yet. */
+interface Stroke {
+  on: GoalPicture;
+  ink: Uint8Array<ArrayBuffer>;
+  last: Point;
+  dirty: Area;
+}
+
+/** What was begun on a picture says nothing of the next one, nor of the same file that was read again. */
+const stillOn = <T extends { on: GoalPicture }>(begun: T | null): T | null =>
+  begun?.on === picture.peek() ? begun : null;
 
 /** Boxes of fewer pixels a side are slips of the hand. */
 const SMALLEST_BOX = 8;
 
 /** First column and row, columns and rows of what a box covers of the picture; null if that is next to nothing. */
-function within({ from, to }: Box, width: number, height: number): [number, number, number, number] | null {
+function within(
+  { from, to }: Corners,
+  width: number,
+  height: number,
+): [number, number, number, number] | null {
   const clamp = (at: number, side: number) => Math.round(Math.min(side, Math.max(0, at)));
   const [left, right] = [clamp(Math.min(from.x, to.x), width), clamp(Math.max(from.x, to.x), width)];
   const [top, bottom] = [clamp(Math.min(from.y, to.y), height), clamp(Math.max(from.y, to.y), height)];
@@ -87,7 +64,7 @@ function within({ from, to }: Box, width: number, height: number): [number, numb
 }
 
 /** Where a box lies over the picture, in parts of its sides. */
-function edges({ from, to }: Box, width: number, height: number): Record<string, string> {
+function edges({ from, to }: Corners, width: number, height: number): Record<string, string> {
   const part = (at: number, side: number) => `${(100 * at) / side}%`;
   return {
     left: part(Math.min(from.x, to.x), width),
@@ -97,16 +74,27 @@ function edges({ from, to }: Box, width: number, height: number): Record<string,
   };
 }
 
+/** Joined with any area it is that one. */
+const NOTHING: Area = { left: Infinity, top: Infinity, right: 0, bottom: 0 };
+
 export function GoalEditor(): JSX.Element | null {
   const canvas = useRef<HTMLCanvasElement>(null);
-  const stroking = useRef<{ ink: Uint8Array<ArrayBuffer>; last: Point } | null>(null);
+  const stroking = useRef<Stroke | null>(null);
   const frame = useRef(0);
+  /** What the canvas shows. */
+  const painted = useRef<{ ink: Uint8Array; on: GoalPicture } | null>(null);
   const cursor = useSignal<Point | null>(null);
   const box = useSignal<Box | null>(null);
 
   useSignalEffect(() => {
-    picture.value;
-    if (canvas.current) paint(canvas.current, masks.value.ink);
+    const { ink } = masks.value;
+    const now = picture.value;
+    stroking.current = stillOn(stroking.current);
+    box.value = stillOn(box.peek());
+    // A stroke that has ended is on the canvas already.
+    if (!canvas.current || !now || (painted.current?.ink === ink && painted.current.on === now)) return;
+    paint(canvas.current, now, ink);
+    painted.current = { ink, on: now };
   });
 
   const shown = picture.value;
@@ -121,24 +109,42 @@ export function GoalEditor(): JSX.Element | null {
     };
   };
   const draw = (to: Point) => {
-    const now = stroking.current;
+    const now = stillOn(stroking.current);
     if (!now) return;
-    stroke(now.ink, width, height, now.last, to, radius, brush.peek() === "add" ? 1 : 0);
+    const value = brush.peek() === "add" ? 1 : 0;
+    now.dirty = joined(now.dirty, stroke(now.ink, shown, [now.last, to], radius, value));
     now.last = to;
     cancelAnimationFrame(frame.current);
     frame.current = requestAnimationFrame(() => {
-      if (canvas.current && stroking.current) paint(canvas.current, stroking.current.ink);
+      const drawn = stillOn(stroking.current);
+      if (!canvas.current || !drawn) return;
+      paint(canvas.current, shown, drawn.ink, drawn.dirty);
+      drawn.dirty = NOTHING;
     });
   };
   const end = () => {
-    const now = stroking.current;
+    const now = stillOn(stroking.current);
     stroking.current = null;
-    if (now) setMask({ ink: now.ink });
-    const drawn = box.peek();
+    // A search has begun, by the keyboard: its goal stays.
+    if (running.peek()) return giveUp();
+    if (now) {
+      cancelAnimationFrame(frame.current);
+      if (canvas.current) paint(canvas.current, shown, now.ink, now.dirty);
+      painted.current = { ink: now.ink, on: shown };
+      setMask({ ink: now.ink });
+    }
+    const drawn = stillOn(box.peek());
     box.value = null;
     const sides = drawn && within(drawn, width, height);
-    if (sides) void readAgain("photo", { box: sides });
+    if (sides) void readInBox(sides);
   };
+  /** The page scrolls: the stroke was not meant. */
+  const giveUp = () => {
+    stroking.current = null;
+    box.value = null;
+    if (canvas.current) paint(canvas.current, shown, masks.peek().ink);
+  };
+  const idle = running.value || brush.value === "measures" || brush.value === "off";
   const text = `Goal ${shown.name}, ${width} by ${height} pixels, ${info.value ? `${Math.round((100 * info.value.ink) / (width * height))} % tree` : "mask"}`;
   return (
     <div class="editor" style={{ aspectRatio: `${width} / ${height}` }}>
@@ -147,25 +153,34 @@ export function GoalEditor(): JSX.Element | null {
         role="img"
         aria-label={text}
         data-testid="goal"
-        class={running.value || brush.value === "measures" ? "" : "paintable"}
+        class={idle ? "" : picked.value ? "paintable touch" : "paintable"}
         onPointerDown={(event) => {
-          if (running.peek() || event.button !== 0 || brush.peek() === "measures") return;
+          // A second finger: what the first has painted stays, and a box with it has no clear end.
+          if (!event.isPrimary) {
+            box.value = null;
+            end();
+            return;
+          }
+          if (idle || event.button !== 0 || (event.pointerType === "touch" && !picked.peek())) return;
           event.currentTarget.setPointerCapture(event.pointerId);
           const at = place(event);
           if (brush.peek() === "box") {
-            if (canReadAgain()) box.value = { from: at, to: at };
+            if (canReadAgain()) box.value = { on: shown, from: at, to: at };
             return;
           }
-          stroking.current = { ink: masks.peek().ink.slice(), last: at };
+          stroking.current = { on: shown, ink: masks.peek().ink.slice(), last: at, dirty: NOTHING };
           draw(at);
         }}
         onPointerMove={(event) => {
-          cursor.value = place(event);
-          if (stroking.current) draw(place(event));
-          if (box.peek()) box.value = { from: box.peek()?.from ?? place(event), to: place(event) };
+          if (!event.isPrimary) return;
+          const at = place(event);
+          cursor.value = at;
+          draw(at);
+          const begun = box.peek();
+          if (begun) box.value = { ...begun, to: at };
         }}
-        onPointerUp={end}
-        onPointerCancel={end}
+        onPointerUp={(event) => event.isPrimary && end()}
+        onPointerCancel={(event) => event.isPrimary && giveUp()}
         onPointerLeave={() => {
           cursor.value = null;
         }}
@@ -213,14 +228,14 @@ function Line({ kind, size, at }: { kind: "ground" | "axis"; size: number; at: n
         aria-valuenow={Math.round(at)}
         aria-disabled={running.value}
         onPointerDown={(event) => {
-          if (running.peek()) return;
+          if (running.peek() || !event.isPrimary) return;
           event.currentTarget.setPointerCapture(event.pointerId);
           dragging.value = true;
           event.preventDefault();
         }}
         onPointerMove={(event) => {
           const frame = event.currentTarget.closest(".editor")?.getBoundingClientRect();
-          if (!dragging.peek() || !frame) return;
+          if (!dragging.peek() || !frame || running.peek() || !event.isPrimary) return;
           move(
             ground
               ? ((event.clientY - frame.top) / frame.height) * size
@@ -228,6 +243,9 @@ function Line({ kind, size, at }: { kind: "ground" | "axis"; size: number; at: n
           );
         }}
         onPointerUp={() => {
+          dragging.value = false;
+        }}
+        onPointerCancel={() => {
           dragging.value = false;
         }}
         onKeyDown={(event) => {

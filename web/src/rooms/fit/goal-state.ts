@@ -1,77 +1,163 @@
 // The goal: its mask, the two lines, undo, and where it came from.
-import { signal } from "@preact/signals";
+import { batch, signal } from "@preact/signals";
 import { goalClient } from "../../engine/clients";
 import { thumbnails } from "../../engine/pool";
 import type { Corrections, GoalInfo, GoalPixels, MaskHints, MaskWay } from "../../engine/protocol";
-import { History } from "../../state/history";
 import { announce, sayError, sentence } from "../../state/notes";
 import { baseName } from "../../ui/files";
-
-/** What undo goes back to: the mask and the lines. */
-export interface Mask {
-  ink: Uint8Array<ArrayBuffer>;
-  /** Null where the library finds the line. */
-  ground: number | null;
-  axis: number | null;
-}
+import { type Mask, MaskHistory } from "./mask-history";
 
 export interface GoalPicture {
+  /** The same for as long as it is the same file, however it is read. */
+  id: number;
   name: string;
   width: number;
   height: number;
+  /** Pixels of the file: more than the above if it is large. */
+  full: { width: number; height: number };
   /** RGBA; null if there is only the mask. */
   photo: Uint8Array<ArrayBuffer> | null;
   /** The file in `targets/` that it is. */
   target: string | null;
+  /** Whether a tree was found in a photograph, and how surely. */
+  masked: boolean;
+  confidence: number | null;
 }
 
 export const picture = signal<GoalPicture | null>(null);
-export const masks = new History<Mask>({ ink: new Uint8Array(0), ground: null, axis: null });
+export const masks = new MaskHistory();
 export const info = signal<GoalInfo | null>(null);
 export const reading = signal<string | null>(null);
 export const goalError = signal<string | null>(null);
 /** What the user says is otherwise in the picture than it is read. */
 export const corrections = signal<Corrections>({});
-export const treeHeight = signal(12);
 
 const USUAL_HEIGHT = 12;
+export const treeHeight = signal(USUAL_HEIGHT);
 /** Larger files are not read: the picture would not fit into a worker's memory. */
 const MAX_FILE = 150_000_000;
 
-/** The picture in colour, RGBA, whether it is shown or not; null where it is not known. */
-let colored: Uint8Array<ArrayBuffer> | null = null;
+/** What is kept of a picture's file, and never stored. */
+interface Source {
+  name: string;
+  bytes: Uint8Array;
+  target: string | null;
+  /** The picture in colour, RGBA, whether it is shown or not; null where it is not known. */
+  colored: Uint8Array<ArrayBuffer> | null;
+  /** What was said of the mask before anything was painted. */
+  asRead: { ink: Uint8Array; info: GoalInfo } | null;
+}
+let source: Source | null = null;
 
-/** The bytes of the picture, to read it once more in another way. */
-let lastBytes: { name: string; bytes: Uint8Array; target: string | null } | null = null;
+/** A goal with all that belongs to it, to come back to it. */
+export interface WholeGoal {
+  picture: GoalPicture;
+  mask: Mask;
+  info: GoalInfo | null;
+  corrections: Corrections;
+  treeHeight: number;
+  source: Source | null;
+}
 
+export function wholeGoal(): WholeGoal | null {
+  const shown = picture.peek();
+  if (!shown) return null;
+  return {
+    picture: shown,
+    mask: masks.peek(),
+    info: info.peek(),
+    corrections: corrections.peek(),
+    treeHeight: treeHeight.peek(),
+    source,
+  };
+}
+
+/** The goal becomes this one, at once. */
+export function putGoal(goal: WholeGoal): void {
+  batch(() => {
+    source = goal.source;
+    corrections.value = goal.corrections;
+    treeHeight.value = goal.treeHeight;
+    masks.begin(goal.mask, goal.picture.width);
+    info.value = goal.info;
+    // What is still asked about the mask before is not about this one.
+    checks++;
+    picture.value = goal.picture;
+    goalError.value = null;
+  });
+  if (!goal.info) checkGoal();
+}
+
+let nextId = 1;
+let reads = 0;
+
+/** Another goal is chosen: what is still being read or opened is dropped. Tells whether this is still the last choice. */
+export function chooseGoal(): () => boolean {
+  const mine = ++reads;
+  reading.value = null;
+  return () => mine === reads;
+}
+
+type Opened = Pick<Source, "name" | "bytes" | "target">;
+
+interface Asked {
+  mask: MaskWay;
+  hints: MaskHints;
+  /** Of the picture whose file it is; null for a new one, which has its own. */
+  id: number | null;
+  /** Of the tree, in metres; null for a usual one. */
+  height: Promise<number> | number | null;
+}
+
+/** A picture that nothing was said about yet. */
+const NEW: Asked = { mask: "auto", hints: {}, id: null, height: null };
+
+/** Makes a file the goal. The last choice wins, however long each of them takes to load. */
 async function read(
   name: string,
-  bytes: Uint8Array,
-  mask: MaskWay,
-  target: string | null,
-  hints: MaskHints = {},
+  open: () => Promise<Opened> | Opened,
+  { mask, hints, id, height: asked }: Asked,
 ): Promise<void> {
+  const mine = ++reads;
   reading.value = name;
   goalError.value = null;
   announce(`Reading ${name}`);
   try {
-    const goal = await goalClient.call("goalRead", { name, bytes, mask, hints });
-    const { width, height } = goal.info;
-    // A silhouette is its own mask: there is nothing to see beneath it.
-    const shows = goal.info.masked || mask === "off";
-    const photo = shows && goal.photo.length === width * height * 4 ? goal.photo : null;
-    lastBytes = { name, bytes, target };
-    colored = goal.photo.length === width * height * 4 ? goal.photo : null;
-    corrections.value = {};
-    masks.reset({ ink: goal.ink, ground: null, axis: null });
-    info.value = goal.info;
-    picture.value = { name: baseName(goal.info.name || name), width, height, photo, target };
+    const file = await open();
+    // Another picture was given meanwhile.
+    if (mine !== reads) return;
+    const goal = await goalClient.call("goalRead", { name, bytes: file.bytes, mask, hints });
+    const tall = await asked;
+    if (mine !== reads) return;
+    const { width, height, masked, confidence } = goal.info;
+    const colored = goal.photo.length === width * height * 4 ? goal.photo : null;
+    const shown: GoalPicture = {
+      id: id ?? nextId++,
+      name: baseName(goal.info.name || name),
+      width,
+      height,
+      full: goal.full,
+      // A silhouette is its own mask: there is nothing to see beneath it.
+      photo: masked || mask === "off" ? colored : null,
+      target: file.target,
+      masked,
+      confidence,
+    };
+    putGoal({
+      picture: shown,
+      mask: { ink: goal.ink, ground: null, axis: null, painted: false },
+      info: goal.info,
+      corrections: {},
+      // What was said of another tree does not hold for this one.
+      treeHeight: tall ?? (id === null ? USUAL_HEIGHT : treeHeight.peek()),
+      source: { ...file, colored, asRead: { ink: goal.ink, info: goal.info } },
+    });
     announce(`${name} is the goal`);
   } catch (error) {
     // The goal before stays as it is.
-    goalError.value = sentence(error);
+    if (mine === reads) goalError.value = sentence(error);
   } finally {
-    reading.value = null;
+    if (mine === reads) reading.value = null;
   }
 }
 
@@ -80,22 +166,39 @@ export async function takePicture(file: File): Promise<void> {
     goalError.value = `${file.name} has ${Math.round(file.size / 1e6)} MB: a picture of at most 150 MB is needed.`;
     return;
   }
-  await read(file.name, new Uint8Array(await file.arrayBuffer()), "auto", null);
+  const { name } = file;
+  const open = async () => ({ name, bytes: new Uint8Array(await file.arrayBuffer()), target: null });
+  await read(name, open, NEW);
 }
 
-/** Reads the same picture again, as a photograph or as a drawing, with what is shown of the tree in it. */
+/** Reads the same picture again, as a photograph or as a drawing. */
 export async function readAgain(mask: MaskWay, hints: MaskHints = {}): Promise<void> {
-  if (lastBytes) await read(lastBytes.name, lastBytes.bytes, mask, lastBytes.target, hints);
+  const shown = picture.peek();
+  const file = source;
+  if (file && shown) await read(file.name, () => file, { mask, hints, id: shown.id, height: null });
 }
 
-export const canReadAgain = () => lastBytes !== null;
+/** Finds the tree in a box, in pixels of the goal. */
+export async function readInBox([left, top, width, height]: [number, number, number, number]): Promise<void> {
+  const shown = picture.peek();
+  if (!shown) return;
+  const larger = shown.full.width / shown.width;
+  const scaled = (pixels: number) => Math.round(pixels * larger);
+  await readAgain("photo", { box: [scaled(left), scaled(top), scaled(width), scaled(height)] });
+}
 
-export async function takeTarget(file: string): Promise<void> {
+export const canReadAgain = () => source !== null;
+
+async function targetFile(file: string): Promise<Opened> {
   const response = await fetch(new URL(`targets/${file}`, document.baseURI));
   if (!response.ok)
     throw new Error(`${file} could not be loaded: ${response.status} ${response.statusText}.`);
-  await read(file, new Uint8Array(await response.arrayBuffer()), "auto", file);
-  treeHeight.value = await usualHeight(baseName(file));
+  return { name: file, bytes: new Uint8Array(await response.arrayBuffer()), target: file };
+}
+
+/** A picture that the page brings, with the height of its tree if that is known. */
+export async function takeTarget(file: string, height: number | null = null): Promise<void> {
+  await read(file, () => targetFile(file), { ...NEW, height: height ?? usualHeight(baseName(file)) });
 }
 
 /** The height of the grown species of this name, or a usual one. */
@@ -117,12 +220,13 @@ export function goalPixels(): GoalPixels | null {
   return { name: shown.name, width: shown.width, height: shown.height, ink, ground, axis, colors: null };
 }
 
-/** A copy of the picture in colour, as workers take it. */
-export const photoPixels = () => colored?.slice() ?? null;
+/** The picture in colour; a worker gets a copy of it. */
+export const photoPixels = () => source?.colored ?? null;
 
 /** A changed mask: the library reads it at once. */
-export function setMask(part: Partial<Mask>, key = ""): void {
-  masks.push({ ...masks.peek(), ...part }, key);
+export function setMask(part: Partial<Pick<Mask, "ink" | "ground" | "axis">>, key = ""): void {
+  const before = masks.peek();
+  masks.push({ ...before, ...part, painted: before.painted || part.ink !== undefined }, key);
   checkGoal();
 }
 
@@ -142,8 +246,15 @@ function checkGoal(): void {
   const pixels = goalPixels();
   if (!pixels) return;
   const mine = ++checks;
+  const { painted } = masks.peek();
+  const first = source?.asRead;
+  if (first && !painted && pixels.ground === null && pixels.axis === null) {
+    info.value = first.info;
+    goalError.value = null;
+    return;
+  }
   goalClient
-    .call("goalCheck", { ...pixels, ink: pixels.ink.slice() })
+    .call("goalCheck", pixels)
     .then((found) => {
       if (mine !== checks) return;
       info.value = found;
@@ -154,11 +265,10 @@ function checkGoal(): void {
     });
 }
 
-export function restoreGoal(shown: GoalPicture, mask: Mask): void {
-  colored = null;
-  picture.value = shown;
-  masks.reset(mask);
-  checkGoal();
+/** A goal that was stored: its file is not. */
+export function restoreGoal(stored: Omit<GoalPicture, "id" | "photo">, mask: Mask, height: number): void {
+  const shown = { ...stored, id: nextId++, photo: null };
+  putGoal({ picture: shown, mask, info: null, corrections: {}, treeHeight: height, source: null });
 }
 
 let list: Promise<readonly string[]> | undefined;

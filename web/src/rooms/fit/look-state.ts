@@ -18,7 +18,7 @@ function read(): void {
   const mine = ++asked;
   if (!goal) return;
   const input = {
-    goal: { ...goal, ink: goal.ink.slice() },
+    goal,
     photo: photoPixels(),
     corrections: corrections.peek(),
   };

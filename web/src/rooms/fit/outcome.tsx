@@ -1,17 +1,22 @@
 // What a fit leaves: trees of other seeds, what the picture says of the parameters, and where to take it.
 import type { JSX } from "preact";
 import { treeClient } from "../../engine/clients";
-import type { Seen, Spec } from "../../engine/protocol";
+import type { FitReport, FittedParameter, Seen, Spec } from "../../engine/protocol";
 import { keepSpecies } from "../../state/library";
-import { sayError } from "../../state/notes";
+import { say, sayError } from "../../state/notes";
 import { go } from "../../state/route";
 import { openSource, start } from "../../state/species";
+import { linkTo } from "../../state/species-link";
+import { copyText } from "../../ui/clipboard";
 import { Button } from "../../ui/controls";
 import { canvasPng, download, fileName } from "../../ui/files";
+import { cost } from "../../ui/glb";
 import { show } from "../../ui/ink";
 import { Thumb } from "../../ui/thumb";
-import { BUDGETS, optionsFor, saveMesh } from "../species/exports";
-import { result, shownTree } from "./fit-state";
+import { BUDGETS, optionsFor, saveMesh, sizeOf } from "../species/exports";
+import { keepFit } from "./kept-fits";
+import { isOf, model, modelOf, season, wanted } from "./model-state";
+import { result, shownTree } from "./record";
 
 interface Found {
   readonly name: string;
@@ -22,52 +27,106 @@ const specOf = ({ toml, name }: Found): Spec => ({ source: { toml, name }, value
 
 const PICTURE = 1024;
 
-async function exportMesh(fit: Found, format: "glb" | "obj"): Promise<void> {
+/** The file that is shown: it is written once. */
+async function exportGlb(): Promise<void> {
+  const of = wanted.peek();
+  if (!of) return;
+  const { name, bytes, note } = await modelOf(of);
+  if (note) say(note);
+  download(name, bytes, "model/gltf-binary");
+}
+
+async function exportObj(fit: Found): Promise<void> {
   const spec = specOf(fit);
   const { info } = await openSource(spec.source);
-  const options = optionsFor(format, BUDGETS[0], { wind: true });
-  await saveMesh(fileName(fit.name, format), { spec, seed: info.tree_seed ?? 1, format, options });
+  const options = optionsFor("obj", BUDGETS[0], { season: season.peek() || null });
+  const name = fileName(fit.name, "obj");
+  const files = await saveMesh(name, { spec, seed: info.tree_seed ?? 1, format: "obj", options });
+  say(`${name} is written: ${sizeOf(files)}.`);
+}
+
+async function copyTree(fit: Found): Promise<void> {
+  const hash = await linkTo(specOf(fit).source, season.peek());
+  await copyText(
+    new URL(hash, location.href).href,
+    "The link to this tree is copied. It does not have your picture.",
+  );
 }
 
 async function exportPicture(fit: Found): Promise<void> {
   const spec = specOf(fit);
   const { info } = await openSource(spec.source);
-  const input = { spec, seed: info.tree_seed ?? 1, season: "", size: PICTURE, azimuth: 0, elevation: 0 };
+  const input = {
+    spec,
+    seed: info.tree_seed ?? 1,
+    season: season.peek(),
+    size: PICTURE,
+    azimuth: 0,
+    elevation: 0,
+  };
   const picture = await treeClient.call("picture", input);
   const canvas = document.createElement("canvas");
   show(canvas, new ImageData(new Uint8ClampedArray(picture.rgba.buffer), picture.size, picture.size));
   download(fileName(fit.name, "png"), await canvasPng(canvas));
 }
 
-export function Outcome(): JSX.Element | null {
+/** Where the tree that is shown can be taken. */
+export function TakeAway(): JSX.Element | null {
   const fit = shownTree.value;
-  const found = result.value;
-  if (!fit || !found) return null;
-  const kind = specOf({ name: fit.name, toml: found.toml });
+  if (!fit) return null;
+  const of = wanted.value;
+  const file = of && isOf(model.value, of) ? model.value : null;
   const edit = () =>
-    start(specOf(fit).source)
+    start(specOf(fit).source, { season: season.peek() })
       .then(() => go("species"))
       .catch(sayError);
   return (
+    <div class="takeaway">
+      <Button
+        icon="keep"
+        label="Keep as species"
+        kind="primary"
+        onPress={() => keepSpecies(fit.name, fit.toml)}
+      />
+      <Button
+        icon="keep"
+        label="Keep this fit"
+        title="With its goal, in your fits below: to go on with it or to compare it."
+        testid="keep-fit"
+        onPress={() => void keepFit().catch(sayError)}
+      />
+      <Button
+        icon="link"
+        label="Copy its link"
+        title="A link that opens this tree in the species room. It has the species, and not your picture."
+        testid="fit-link"
+        onPress={() => void copyTree(fit).catch(sayError)}
+      />
+      <Button icon="edit" label="Edit" onPress={() => void edit()} testid="edit-fit" />
+      <Button
+        icon="download"
+        label="TOML"
+        testid="fit-toml"
+        onPress={() => download(fileName(fit.name, "toml"), fit.toml, "application/toml")}
+      />
+      <Button
+        icon="download"
+        label={file ? `GLB, ${cost(file.triangles, file.bytes.length)}` : "GLB"}
+        testid="fit-glb"
+        onPress={() => void exportGlb().catch(sayError)}
+      />
+      <Button icon="download" label="OBJ" onPress={() => void exportObj(fit).catch(sayError)} />
+      <Button icon="download" label="PNG" onPress={() => void exportPicture(fit).catch(sayError)} />
+    </div>
+  );
+}
+
+export function Outcome(): JSX.Element | null {
+  const found = result.value;
+  if (!found) return null;
+  const kind = specOf({ name: found.report.species, toml: found.toml });
+  return (
     <section class="outcome" aria-label="Outcome">
-      <div class="takeaway">
-        <Button
-          icon="keep"
-          label="Keep as species"
-          kind="primary"
-          onPress={() => keepSpecies(fit.name, fit.toml)}
-        />
-        <Button icon="edit" label="Edit" onPress={() => void edit()} testid="edit-fit" />
-        <Button
-          icon="download"
-          label="TOML"
-          testid="fit-toml"
-          onPress={() => download(fileName(fit.name, "toml"), fit.toml, "application/toml")}
-        />
-        <Button icon="download" label="GLB" onPress={() => void exportMesh(fit, "glb").catch(sayError)} />
-        <Button icon="download" label="OBJ" onPress={() => void exportMesh(fit, "obj").catch(sayError)} />
-        <Button icon="download" label="PNG" onPress={() => void exportPicture(fit).catch(sayError)} />
-      </div>
       <h3>Eight more of the kind</h3>
       <ul class="strip eight">
         {Array.from({ length: 8 }, (_, at) => at + 2).map((seed) => (
@@ -76,7 +135,7 @@ export function Outcome(): JSX.Element | null {
               type="button"
               title="Open this tree in the species room"
               onClick={() =>
-                void start(kind.source, { seed })
+                void start(kind.source, { seed, season: "" })
                   .then(() => go("species"))
                   .catch(sayError)
               }
@@ -92,11 +151,31 @@ export function Outcome(): JSX.Element | null {
 }
 
 const SEEN: readonly { seen: Seen; title: string; what: string }[] = [
-  { seen: "determined", title: "Determined", what: "The picture fixes these." },
+  { seen: "determined", title: "Determined", what: "The picture tells most about these." },
   { seen: "loosely", title: "Loosely", what: "The picture allows a wide range." },
-  { seen: "not-seen", title: "Not seen", what: "The picture says nothing of these." },
-  { seen: "not-tried", title: "Not searched", what: "These stayed as they were." },
+  { seen: "not-seen", title: "Not seen", what: "The picture says little or nothing of these." },
+  { seen: "not-tried", title: "Not tried", what: "There was no time for these." },
 ];
+
+/** A number with the interval in which nine in ten trees have it that look so. */
+function told({ value, interval }: FittedParameter): string {
+  const short = (number: number): string => String(Number(number.toPrecision(3)));
+  const range = interval ? ` (${short(interval.low)} to ${short(interval.high)})` : "";
+  return Number(value.toPrecision(4)) + range;
+}
+
+/** What the intervals are true for, or why there are none. */
+function Trust({ of }: { of: FitReport["intervals"] }): JSX.Element | null {
+  if (!of) return null;
+  const trees = `trees around ${of.species.replaceAll("_", " ")}`;
+  return (
+    <p class="hint">
+      {of.is_familiar
+        ? `In brackets: where nine in ten ${trees} that look so have the number.`
+        : `The picture is unlike those of ${trees}, so there are no intervals.`}
+    </p>
+  );
+}
 
 export function Determined(): JSX.Element | null {
   const parameters = result.value?.report.parameters ?? [];
@@ -104,6 +183,7 @@ export function Determined(): JSX.Element | null {
   return (
     <section class="card determined" aria-label="What the picture determines">
       <h3>What the picture determines</h3>
+      <Trust of={result.value?.report.intervals ?? null} />
       {SEEN.map(({ seen, title, what }, at) => {
         const slots = parameters.filter((each) => each.seen === seen);
         if (slots.length === 0) return null;
@@ -115,9 +195,9 @@ export function Determined(): JSX.Element | null {
             </summary>
             <p class="hint">{what}</p>
             <ul class="slots">
-              {slots.map(({ slot, value }) => (
-                <li key={slot}>
-                  <code>{slot}</code> {Number(value.toPrecision(4))}
+              {slots.map((each) => (
+                <li key={each.slot}>
+                  <code>{each.slot}</code> {told(each)}
                 </li>
               ))}
             </ul>

@@ -2,18 +2,19 @@
 import type { ComponentChildren, JSX } from "preact";
 import type { Card, FitReport, Reference } from "../../engine/protocol";
 import { Meter } from "../../ui/controls";
-import { result, shownTree, shownWhich } from "./fit-state";
+import { result, shownTree, shownWhich } from "./record";
 
 /** Medians over fifteen species, from the library's documents: two seeds of a species, two species. */
 const SAME_SPECIES = 0.77;
 const OTHER_SPECIES = 0.44;
 
+/** For where the library has no verdict. */
 function meaning(likeness: number): string {
-  if (likeness >= 0.9) return "Very like the goal: closer than two trees of one species usually are.";
-  if (likeness >= SAME_SPECIES) return "Like the goal as two trees of one species are.";
-  if (likeness >= 0.6) return "A relative: the habit is right, some of the parts are not.";
-  if (likeness >= OTHER_SPECIES) return "Only as like as trees of two species are.";
-  return "Unlike the goal: check its mask, its ground and its height, or search longer.";
+  if (likeness >= 0.9) return "Very like the goal: closer than two trees of one species usually are";
+  if (likeness >= SAME_SPECIES) return "Like the goal as two trees of one species are";
+  if (likeness >= 0.6) return "A relative: the habit is right, some of the parts are not";
+  if (likeness >= OTHER_SPECIES) return "Only as like as trees of two species are";
+  return "Unlike the goal: check its mask, its ground and its height, or search longer";
 }
 
 const percent = (share: number) => `${(100 * share).toFixed(1)} %`;
@@ -118,7 +119,9 @@ export function ScoreCard(): JSX.Element | null {
         <p class="big">{card.likeness.toFixed(2)}</p>
         <div>
           <h3>Likeness</h3>
-          <p>{own ? "How far this very tree lies on the goal." : meaning(card.likeness)}</p>
+          <p class={own ? "" : "verdict"}>
+            {own ? "How far this very tree lies on the goal." : `${fit.verdict ?? meaning(card.likeness)}.`}
+          </p>
         </div>
       </header>
       <p class="hint">
@@ -151,7 +154,7 @@ export function ScoreCard(): JSX.Element | null {
         </Row>
         <Fresh fresh={fit.report.fresh_seeds} />
       </dl>
-      {fit.verdict && <p class="verdict">{fit.verdict}.</p>}
+      {own && fit.verdict && <p class="verdict below">{fit.verdict}.</p>}
       <Differences of={fit.report.readings.differences.map((one) => one.words)} />
       <References references={fit.report.references} />
     </section>

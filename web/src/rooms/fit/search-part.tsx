@@ -3,6 +3,7 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { loadCatalogue } from "../../engine/clients";
+import { familyTitle } from "../../state/families";
 import { sayError } from "../../state/notes";
 import { Check, Field, NumberInput, Segmented } from "../../ui/controls";
 import { generator, individual, leafiness, running, seconds } from "./fit-state";
@@ -11,7 +12,7 @@ import { treeHeight } from "./goal-state";
 const BUDGETS = [10, 30, 60, 180] as const;
 
 export function SearchPart(): JSX.Element {
-  const families = useSignal<readonly string[]>(["weber-penn"]);
+  const families = useSignal<readonly string[]>([]);
   useEffect(() => {
     loadCatalogue()
       .then((all) => {
@@ -64,12 +65,14 @@ export function SearchPart(): JSX.Element {
               generator.value = event.currentTarget.value;
             }}
           >
+            <option value="">what suits the picture</option>
+            <option value="trees">natural trees</option>
+            <option value="auto">any family</option>
             {families.value.map((family) => (
               <option key={family} value={family}>
-                {family}
+                {familyTitle(family)}
               </option>
             ))}
-            <option value="auto">the family that it looks like</option>
           </select>
         )}
       </Field>

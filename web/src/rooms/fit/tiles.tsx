@@ -2,10 +2,17 @@
 import { useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
-import { Segmented } from "../../ui/controls";
+import { reducedMotion } from "../../state/theme";
+import { Button, Segmented } from "../../ui/controls";
 import { BOTH, inkImage, overlayImage, show } from "../../ui/ink";
-import { best, progress, result, shownInk, shownTree, shownWhich, which } from "./fit-state";
+import { Curve } from "./curve";
+import { progress } from "./fit-state";
 import { GoalEditor } from "./goal-editor";
+import { picture } from "./goal-state";
+import { ModelStage } from "./model-stage";
+import { blowing, season, seasons } from "./model-state";
+import { TakeAway } from "./outcome";
+import { best, result, shownInk, shownTree, shownWhich, which } from "./record";
 
 function Best(): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -41,10 +48,97 @@ function scoreText(): string {
   return `Likeness ${card.likeness.toFixed(2)}, IoU ${card.iou.toFixed(2)}.`;
 }
 
+/** The choice between the goal's own tree and one of its kind, or what the one tree is. */
+function Caption(): JSX.Element {
+  if (!best.value?.ownInk) return <>{result.value ? "Best tree" : "Best tree so far"}</>;
+  return (
+    <Segmented
+      label="Tree that is shown"
+      value={shownWhich.value}
+      options={[
+        { value: "own", label: "This very tree" },
+        { value: "kind", label: "Its kind" },
+      ]}
+      onPick={(picked) => {
+        which.value = picked;
+      }}
+    />
+  );
+}
+
+function Season(): JSX.Element | null {
+  const known = ["", ...new Set([...seasons.value, "winter"])];
+  return (
+    <label class="inline">
+      <span>Season</span>
+      <select
+        value={season.value}
+        onChange={(event) => {
+          season.value = event.currentTarget.value;
+        }}
+      >
+        {known.map((name) => (
+          <option key={name} value={name}>
+            {name || "its own"}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+function Wind(): JSX.Element {
+  return (
+    <Button
+      icon="wind"
+      label="Wind"
+      pressed={blowing.value}
+      disabled={reducedMotion.value}
+      {...(reducedMotion.value ? { title: "Your system asks for little motion." } : {})}
+      testid="fit-wind"
+      onPress={() => {
+        blowing.value = !blowing.value;
+      }}
+    />
+  );
+}
+
+/** The best tree: flat while the search runs, in three dimensions once it has ended. */
+function TreeTile(): JSX.Element {
+  if (!result.value) {
+    return (
+      <figure class="tile">
+        <div class="paper">
+          <Best />
+        </div>
+        <figcaption>
+          <Caption />
+        </figcaption>
+      </figure>
+    );
+  }
+  return (
+    <figure class="tile tree">
+      <ModelStage>
+        <Best />
+      </ModelStage>
+      <figcaption>
+        <Caption />
+        <Season />
+        <Wind />
+        <span>Drag to turn it.</span>
+      </figcaption>
+    </figure>
+  );
+}
+
 export function Tiles(): JSX.Element {
   const now = best.value;
+  const shown = picture.value;
+  const layout = result.value ? " done" : now ? " three" : "";
+  const aspect = shown ? { "--aspect": shown.width / shown.height } : {};
   return (
-    <div class={`tiles${now ? " three" : ""}`}>
+    <div class={`tiles${layout}`} style={aspect}>
       <figure class="tile goal">
         <div class="paper">
           <GoalEditor />
@@ -53,7 +147,8 @@ export function Tiles(): JSX.Element {
       </figure>
       {now && (
         <>
-          <figure class="tile">
+          <TreeTile />
+          <figure class="tile over">
             <div class="paper">
               <Overlay />
             </div>
@@ -63,30 +158,12 @@ export function Tiles(): JSX.Element {
               <span class="swatch both">both</span>
             </figcaption>
           </figure>
-          <figure class="tile">
-            <div class="paper">
-              <Best />
+          {result.value && (
+            <div class="beside">
+              <TakeAway />
+              <Curve />
             </div>
-            <figcaption>
-              {now.ownInk ? (
-                <Segmented
-                  label="Tree that is shown"
-                  value={shownWhich.value}
-                  options={[
-                    { value: "own", label: "This very tree" },
-                    { value: "kind", label: "Its kind" },
-                  ]}
-                  onPick={(picked) => {
-                    which.value = picked;
-                  }}
-                />
-              ) : result.value ? (
-                "Best tree"
-              ) : (
-                "Best tree so far"
-              )}
-            </figcaption>
-          </figure>
+          )}
         </>
       )}
     </div>

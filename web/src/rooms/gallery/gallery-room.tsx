@@ -4,24 +4,13 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { loadCatalogue } from "../../engine/clients";
 import type { Family, SpeciesSource } from "../../engine/protocol";
+import { familyAbout, familyTitle } from "../../state/families";
 import { dropSpecies, mySpecies } from "../../state/library";
 import { sayError, sentence } from "../../state/notes";
 import { go } from "../../state/route";
 import { start } from "../../state/species";
 import { Alert, Button, Segmented } from "../../ui/controls";
 import { Thumb } from "../../ui/thumb";
-
-const TITLES: Record<string, [string, string]> = {
-  "weber-penn": ["Weber and Penn", "Trees by levels of stems. Fits and the map use these."],
-  lsystem: ["Grammars", "L-systems after Hewitt, Steen and The Algorithmic Beauty of Plants."],
-  fractal: ["Fractal trees", "Recursive trees after Coffey."],
-  stylised: ["Stylised trees", "Low-poly trees of blobs, cones and fronds."],
-  "space-colonization": [
-    "Space colonisation",
-    "Trees that fill a volume, after Runions, Lane and Prusinkiewicz.",
-  ],
-  "least-cost-path": ["Least-cost paths", "Trees whose branches share paths, after Xu and Mould."],
-};
 
 type Season = "leafy" | "winter";
 /** Stays while the page is open. */
@@ -63,12 +52,11 @@ function Card({ source, name, description, seed = 1, onDrop }: CardProps): JSX.E
 }
 
 function Section({ family, species }: Family): JSX.Element {
-  const [title, about] = TITLES[family] ?? [family, ""];
   return (
     <section class="family">
       <header>
-        <h2>{title}</h2>
-        <p>{about}</p>
+        <h2>{familyTitle(family)}</h2>
+        <p>{familyAbout(family)}</p>
       </header>
       <ul class="cards">
         {species.map(({ name, description }) => (

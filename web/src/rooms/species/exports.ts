@@ -1,11 +1,12 @@
 // Downloads of the species room. Every file is written by the library.
 import { treeClient } from "../../engine/clients";
-import type { ExportOptions, MeshFormat, Ops } from "../../engine/protocol";
-import { announce } from "../../state/notes";
+import type { ExportOptions, MeshFormat, NamedFile, Ops } from "../../engine/protocol";
+import { announce, say } from "../../state/notes";
 import { recipes, spec, speciesName, toToml } from "../../state/species";
 import { baseName, download, fileName } from "../../ui/files";
-import { leaves, level } from "./tree-state";
-import { view } from "./view-handle";
+import { cost, megabytes, trianglesIn } from "../../ui/glb";
+import { view } from "../../view3d/handle";
+import { leaves, leavesAt, level } from "./tree-state";
 
 export const FORMATS = [
   { format: "glb", label: "GLB", what: "glTF, for engines and Blender" },
@@ -34,29 +35,41 @@ export const BUDGETS = [
     triangles: [50_000, 8_000, 2_000],
     billboard: 2,
   },
+  { id: "view", label: "As the view shows it: its level and leaves", triangles: [], billboard: 0 },
   { id: "whole", label: "Every leaf and twig: may be large", triangles: [], billboard: 0 },
 ] as const;
 export type Budget = (typeof BUDGETS)[number];
 
-/** Pixels of a side of the bark's picture. */
-const BARK = 1024;
+/** Pixels per side of the pictures of bark and leaves. */
+const TEXTURES = 1024;
 
-/** The options of a file of this format; what it cannot hold is left out. */
-export function optionsFor(format: MeshFormat, budget: Budget, asked: ExportOptions): ExportOptions {
+/** One of the levels of fixed coarseness, of which a view shows one. */
+const atLevel = (level: number) => ({ lod: level + 1, level });
+
+/** The options of a file of this format; what it cannot hold is left out. `shown` is the level of the view. */
+export function optionsFor(
+  format: MeshFormat,
+  budget: Budget,
+  asked: ExportOptions,
+  shown = 0,
+): ExportOptions {
   const held = HOLDS[format];
   const options: ExportOptions = { ...asked, wind: Boolean(asked.wind) && held.wind };
   if (!held.pictures) {
     // Cards without their picture would be plain squares.
     if (asked.leaves === "cards") options.leaves = "simple";
-    return options;
+    return { ...options, ...atLevel(shown) };
   }
-  const { triangles, billboard } = budget;
-  options.textures = BARK;
-  if (!triangles.length) return options;
+  const { id, triangles, billboard } = budget;
+  options.textures = TEXTURES;
+  if (id === "view") return { ...options, ...atLevel(shown) };
+  if (id === "whole") return { ...options, finest: true };
+  // How leaves are drawn follows from the budget.
+  if (options.leaves !== "none") delete options.leaves;
+  // The library's own choice for a GLB, which also takes trees that do not fit into it.
+  if (id === "near" && format === "glb") return options;
   options.triangles = held.levels ? triangles : triangles.slice(0, 1);
   if (held.levels) options.billboard = billboard;
-  // How leaves are drawn follows from the budget.
-  if (options.leaves !== "none") options.leaves = "outline";
   return options;
 }
 
@@ -76,17 +89,29 @@ export async function exportToml(): Promise<void> {
 export async function exportMesh(format: MeshFormat, budget: Budget, wind: boolean): Promise<void> {
   const { seed, season } = recipes.peek();
   announce(`Writing ${format.toUpperCase()}`);
-  const options = optionsFor(format, budget, { leaves: leaves.peek(), season: season || null, wind });
+  const asked = { leaves: leavesAt(leaves.peek(), level.peek()), season: season || null, wind };
+  const options = optionsFor(format, budget, asked, level.peek());
   const name = fileName(`${speciesName.peek()}-${seed}`, format);
-  const bytes = await saveMesh(name, { spec: spec.peek(), seed, format, options });
-  announce(`${format.toUpperCase()} is written: ${Math.ceil(bytes / 1024)} KiB`);
+  const files = await saveMesh(name, { spec: spec.peek(), seed, format, options });
+  say(`${name} is written: ${sizeOf(files)}.`);
 }
 
-/** Saves a mesh as `name`, and the files that it names. The length of all in bytes. */
-export async function saveMesh(name: string, input: Omit<Ops["export"]["in"], "stem">): Promise<number> {
-  const files = await treeClient.call("export", { ...input, stem: baseName(name) });
+/** Saves a mesh as `name`, and the files that it names. */
+export async function saveMesh(
+  name: string,
+  input: Omit<Ops["export"]["in"], "stem">,
+): Promise<readonly NamedFile[]> {
+  const { files, note } = await treeClient.call("export", { ...input, stem: baseName(name) });
+  if (note) say(note);
   for (const file of files) download(file.name, file.bytes, TYPES[file.name.split(".").at(-1) ?? ""]);
-  return files.reduce((sum, { bytes }) => sum + bytes.length, 0);
+  return files;
+}
+
+/** What a mesh costs those who use it: triangles, where that is a look into the file, and megabytes of all files. */
+export function sizeOf(files: readonly NamedFile[]): string {
+  const bytes = files.reduce((sum, file) => sum + file.bytes.length, 0);
+  const [mesh] = files;
+  return mesh?.name.endsWith(".glb") ? cost(trianglesIn(mesh.bytes), bytes) : megabytes(bytes);
 }
 
 export async function exportView(): Promise<void> {

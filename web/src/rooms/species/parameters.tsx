@@ -1,4 +1,4 @@
-// Every declared parameter, by groups, with a search.
+// Every declared parameter, by groups, with a search; above them the few that people want first.
 import { useComputed, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import type { Parameter } from "../../engine/protocol";
@@ -56,6 +56,34 @@ const matches = (parameter: Parameter, query: string) =>
     .toLowerCase()
     .includes(query);
 
+/** The few numbers that people want first, in their words. Those without an effect are left out. */
+function Handles(): JSX.Element | null {
+  const rows = useComputed(() => {
+    const of = (parameter: Parameter) =>
+      parameter.slots.flatMap((slot) => (slot.handle ? [{ parameter, slot, handle: slot.handle }] : []));
+    const all = (opened.value?.declared ?? []).flatMap(of);
+    return all.sort((a, b) => a.handle.order - b.handle.order);
+  });
+  const shown = rows.value.filter(({ slot }) => active.value[slot.index] ?? true);
+  if (shown.length === 0) return null;
+  return (
+    <section class="handles" aria-label="Main parameters">
+      {shown.map(({ parameter, slot, handle }) => (
+        <SlotRow
+          key={slot.slot}
+          parameter={parameter}
+          slot={slot}
+          label={handle.name}
+          value={values.value[slot.index] ?? slot.default}
+          active={true}
+          locked={locked.value.has(slot.slot)}
+          isHandle={true}
+        />
+      ))}
+    </section>
+  );
+}
+
 export function Parameters(): JSX.Element {
   const query = useSignal("");
   const open = useSignal<ReadonlySet<string>>(new Set());
@@ -73,6 +101,7 @@ export function Parameters(): JSX.Element {
   const searching = query.value.trim() !== "";
   return (
     <section class="parameters" aria-label="Parameters">
+      <Handles />
       <div class="searchbox">
         <Icon name="search" />
         <input

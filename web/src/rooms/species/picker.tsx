@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { loadCatalogue } from "../../engine/clients";
 import type { Family } from "../../engine/protocol";
+import { familyTitle } from "../../state/families";
 import { mySpecies } from "../../state/library";
 import { sayError } from "../../state/notes";
 import { recipes, speciesName, startOrSay } from "../../state/species";
@@ -45,7 +46,7 @@ export function Picker(): JSX.Element {
             </optgroup>
           )}
           {families.value.map(({ family, species }) => (
-            <optgroup key={family} label={family}>
+            <optgroup key={family} label={familyTitle(family)}>
               {species.map(({ name }) => (
                 <option key={name} value={`built:${name}`}>
                   {name.replaceAll("_", " ")}

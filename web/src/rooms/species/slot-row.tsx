@@ -23,6 +23,10 @@ export function rounded(value: number, low: number, high: number, whole: boolean
 const UNITS: Record<string, string> = { ratio: "", count: "" };
 export const unitText = (unit: string) => UNITS[unit] ?? unit;
 
+/** What a value of a choice is called, which counts from the first; null for other numbers. */
+export const choiceName = ({ choices, first }: Parameter, value: number): string | null =>
+  choices?.[value - (first ?? 0)]?.replaceAll("_", " ") ?? null;
+
 interface RowProps {
   parameter: Parameter;
   slot: Slot;
@@ -30,6 +34,8 @@ interface RowProps {
   value: number;
   active: boolean;
   locked: boolean;
+  /** Whether it stands apart from the other rows of its parameter, under a name of its own. */
+  isHandle?: boolean;
 }
 
 function Choice({ parameter, slot, value, id }: RowProps & { id: string }): JSX.Element {
@@ -44,7 +50,7 @@ function Choice({ parameter, slot, value, id }: RowProps & { id: string }): JSX.
   );
 }
 
-function Slide({ parameter, slot, value, id, label }: RowProps & { id: string }): JSX.Element {
+function Slide({ parameter, slot, value, id, label, isHandle }: RowProps & { id: string }): JSX.Element {
   const [low, high] = span(slot, value);
   const whole = parameter.kind === "integer" || parameter.kind === "flagged integer";
   // Logarithmic where the declaration says so: the slider then moves by factors.
@@ -68,7 +74,7 @@ function Slide({ parameter, slot, value, id, label }: RowProps & { id: string })
         }}
       />
       <NumberInput
-        label={`${parameter.name} ${label}`}
+        label={isHandle ? label : `${parameter.name} ${label}`}
         value={value}
         {...(parameter.min === null ? {} : { min: parameter.min })}
         {...(parameter.max === null ? {} : { max: parameter.max })}
@@ -80,13 +86,17 @@ function Slide({ parameter, slot, value, id, label }: RowProps & { id: string })
 }
 
 function Row(props: RowProps): JSX.Element {
-  const { parameter, slot, label, value, active, locked } = props;
+  const { parameter, slot, label, value, active, locked, isHandle } = props;
   const id = useId();
+  const name = isHandle ? label : slot.slot;
   const changed = original(slot) !== value;
   return (
-    <div class={`slot${active ? "" : " inactive"}${changed ? " changed" : ""}`} data-slot={slot.slot}>
+    <div
+      class={`slot${active ? "" : " inactive"}${changed ? " changed" : ""}`}
+      {...{ [isHandle ? "data-handle" : "data-slot"]: slot.slot }}
+    >
       <label for={id}>
-        <span class={parameter.slots.length === 1 ? "hidden" : ""}>{label}</span>
+        <span class={parameter.slots.length === 1 && !isHandle ? "hidden" : ""}>{label}</span>
         {!active && <span class="note"> has no effect now</span>}
       </label>
       <div class="slide">
@@ -95,7 +105,7 @@ function Row(props: RowProps): JSX.Element {
           icon="reset"
           iconOnly
           kind="quiet"
-          label={`Reset ${slot.slot}`}
+          label={`Reset ${name}`}
           disabled={!changed}
           onPress={() => setSlot(slot, original(slot))}
         />
@@ -103,7 +113,7 @@ function Row(props: RowProps): JSX.Element {
           icon={locked ? "lock" : "unlock"}
           iconOnly
           kind="quiet"
-          label={`Lock ${slot.slot}`}
+          label={`Lock ${name}`}
           pressed={locked}
           title={locked ? "Dice leave this as it is" : "Keep this from the dice"}
           onPress={() => toggleLock(slot.slot)}

@@ -17,6 +17,7 @@ import {
   wanted,
 } from "../../state/species";
 import { Alert, Button, Check, Field, Segmented } from "../../ui/controls";
+import { useUndoKeys } from "../../ui/keys";
 import { BUDGETS, type Budget, exportMesh, exportToml, exportView, FORMATS } from "./exports";
 import { Parameters } from "./parameters";
 import { Picker } from "./picker";
@@ -35,25 +36,6 @@ const STRENGTHS = [
   { value: "0.3", label: "Some" },
   { value: "0.7", label: "Much" },
 ] as const;
-
-function useUndoKeys(): void {
-  useEffect(() => {
-    const listen = (event: KeyboardEvent) => {
-      if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
-      // Text fields have an undo of their own; sliders and buttons do not.
-      const inText =
-        event.target instanceof HTMLInputElement && /^(search|text|number)$/.test(event.target.type);
-      if (inText) return;
-      const key = event.key.toLowerCase();
-      if (key === "z" && !event.shiftKey) recipes.undo();
-      else if ((key === "z" && event.shiftKey) || key === "y") recipes.redo();
-      else return;
-      event.preventDefault();
-    };
-    addEventListener("keydown", listen);
-    return () => removeEventListener("keydown", listen);
-  }, []);
-}
 
 function Toolbar(): JSX.Element {
   const strength = useSignal<(typeof STRENGTHS)[number]["value"]>("0.3");
@@ -176,7 +158,8 @@ function Files(): JSX.Element {
         }}
       />
       <p class="hint">
-        Files are in metres with +Y up. They hold the tree of the seed and season that you see.
+        Files are in metres with +Y up. They hold the tree of the seed and season that you see; PLY and STL
+        its level of detail too.
       </p>
     </section>
   );
@@ -184,7 +167,7 @@ function Files(): JSX.Element {
 
 export function SpeciesRoom(): JSX.Element {
   const tab = useSignal<Tab>("parameters");
-  useUndoKeys();
+  useUndoKeys(recipes);
   useEffect(() => {
     if (restored.value) wanted.value = true;
   }, [restored.value]);

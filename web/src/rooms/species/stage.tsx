@@ -7,9 +7,10 @@ import { sayError } from "../../state/notes";
 import { recipes, speciesName } from "../../state/species";
 import { reducedMotion, theme } from "../../state/theme";
 import { Alert, Button, Segmented } from "../../ui/controls";
+import { KEYS_IN_WORDS, setView, turnByKey } from "../../view3d/handle";
+import type { TreeView } from "../../view3d/tree-view";
 import { exportView } from "./exports";
-import { counts, failure, growing, LEAVES, type Leaves, leaves, level, mesh } from "./tree-state";
-import { setView, view } from "./view-handle";
+import { busy, cards, counts, failure, LEAVES, type Leaves, leaves, level, mesh } from "./tree-state";
 
 const number = new Intl.NumberFormat("en");
 
@@ -18,18 +19,9 @@ export function describe(stats: TreeStats, name: string, seed: number, season: s
   return `${name.replaceAll("_", " ")}${when}, seed ${seed}: ${stats.height.toFixed(1)} m high, ${stats.width.toFixed(1)} m wide, ${number.format(stats.stems)} stems, ${number.format(stats.leaves)} leaves`;
 }
 
-const KEYS: Record<string, [number, number, number]> = {
-  ArrowLeft: [-0.15, 0, 1],
-  ArrowRight: [0.15, 0, 1],
-  ArrowUp: [0, 0.1, 1],
-  ArrowDown: [0, -0.1, 1],
-  "+": [0, 0, 0.87],
-  "=": [0, 0, 0.87],
-  "-": [0, 0, 1.15],
-};
-
 export function Stage(): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
+  const view = useRef<TreeView | null>(null);
   const ready = useSignal(false);
   const lost = useSignal(false);
   const broken = useSignal<string | null>(null);
@@ -40,11 +32,10 @@ export function Stage(): JSX.Element {
     import("../../view3d/tree-view")
       .then((module) => {
         if (gone || !canvas.current) return;
-        setView(
-          new module.TreeView(canvas.current, (isLost) => {
-            lost.value = isLost;
-          }),
-        );
+        view.current = new module.TreeView(canvas.current, (isLost) => {
+          lost.value = isLost;
+        });
+        setView(view.current);
         ready.value = true;
       })
       .catch((error: unknown) => {
@@ -52,18 +43,19 @@ export function Stage(): JSX.Element {
       });
     return () => {
       gone = true;
+      view.current = null;
       setView(null);
     };
   }, [ready, lost, broken]);
 
   useSignalEffect(() => {
-    if (ready.value && mesh.value) view()?.setMesh(mesh.value.data);
+    if (ready.value && mesh.value && cards.value) view.current?.setMesh(mesh.value.data, cards.value);
   });
   useSignalEffect(() => {
-    if (ready.value) view()?.setTheme(theme() === "dark");
+    if (ready.value) view.current?.setTheme(theme() === "dark");
   });
   useSignalEffect(() => {
-    if (ready.value) view()?.setWind(wind.value && !reducedMotion.value);
+    if (ready.value) view.current?.setWind(wind.value && !reducedMotion.value);
   });
 
   const shown = mesh.value;
@@ -75,19 +67,14 @@ export function Stage(): JSX.Element {
       <div
         class="view"
         role="group"
-        aria-label="View of the tree. Arrow keys turn it, plus and minus come nearer and go back."
+        aria-label={`View of the tree. ${KEYS_IN_WORDS}`}
         // biome-ignore lint/a11y/noNoninteractiveTabindex: the keys below turn the tree.
         tabIndex={0}
-        onKeyDown={(event) => {
-          const step = KEYS[event.key];
-          if (!step || event.ctrlKey || event.metaKey) return;
-          event.preventDefault();
-          view()?.orbit(...step);
-        }}
+        onKeyDown={turnByKey}
       >
         <canvas ref={canvas} role="img" aria-label={text} data-testid="tree" />
       </div>
-      <div class={`busy${growing.value ? " on" : ""}`} aria-hidden="true" />
+      <div class={`busy${busy.value ? " on" : ""}`} aria-hidden="true" />
       {failure.value && <Alert text={failure.value} />}
       {broken.value && <Alert text={broken.value} />}
       {lost.value && (

@@ -5,6 +5,7 @@ use super::table::{FAILED, GOAL, REASON, STATE};
 use crate::commands::fit::run_folder::RunFolder;
 use crate::text;
 use anyhow::Context;
+use pleach_table::Table;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, DirEntry};
@@ -90,16 +91,17 @@ impl Found {
     /// Reads the goals that failed from a table of a batch.
     fn read_failures(&mut self, table: &Path) -> anyhow::Result<()> {
         let cannot = || format!("cannot read {}", table.display());
-        let mut reader = csv::Reader::from_path(table).with_context(cannot)?;
-        let header = reader.headers().with_context(cannot)?.clone();
-        let at = |name: &str| header.iter().position(|column| column == name);
-        let (Some(goal), Some(state), Some(reason)) = (at(GOAL), at(STATE), at(REASON)) else {
+        let name = text::path(table).to_string();
+        let bytes = pleach_table::load(table).with_context(cannot)?;
+        let read = Table::new(&name, &bytes).with_context(cannot)?;
+        let at = |name| read.column(&[name]);
+        let (Some(goal), Some(state), Some(reason)) = (at(GOAL)?, at(STATE)?, at(REASON)?) else {
             // Not a table of a batch.
             return Ok(());
         };
-        for row in reader.records() {
+        for row in read.rows() {
             let row = row.with_context(cannot)?;
-            let cell = |at: usize| text::from_cell(row.get(at).unwrap_or_default()).into_owned();
+            let cell = |at: usize| text::from_cell(row.text(at)).into_owned();
             let goal = PathBuf::from(cell(goal));
             if cell(state) == FAILED
                 && let Some(name) = run_name(&goal)

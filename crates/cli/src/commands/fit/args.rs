@@ -21,7 +21,7 @@ use std::time::Duration;
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::EXAMPLES, args_override_self = true)]
 pub(crate) struct Fit {
-    /// The goal, or several: PNG, JPEG, WebP or TIFF; black on white, white on black, or by transparency;
+    /// The goal, or several: PNG, JPEG, WebP, TIFF, GIF or BMP; black on white, white on black, or by transparency;
     /// `-` is standard input
     #[arg(value_name = "GOAL", required_unless_present = "list")]
     pub(super) goals: Vec<PathBuf>,
@@ -120,7 +120,7 @@ pub(super) struct GoalArgs {
     #[arg(long, value_name = "AZ[,EL]=FILE", allow_hyphen_values = true, value_parser = values::known_view)]
     pub(super) holdout_view: Vec<FurtherView>,
     /// Whether the tree has leaves: `auto` looks whether the goal is more like trees with leaves or
-    /// like bare ones (with --from auto; otherwise it has)
+    /// like bare ones (with --from auto; with --from SPECIES as its file says; otherwise it has)
     #[arg(long, default_value = "auto", value_parser = one_of(values::LEAVES), conflicts_with = "no_leaves")]
     pub(super) leaves: Leaves,
     /// Where the colours and the season of the result come from

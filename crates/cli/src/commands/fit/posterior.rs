@@ -1,6 +1,7 @@
 //! What the goal says about the numbers of its tree: `--posterior`.
 
 use super::drawing::write_species;
+use super::judged::readable;
 use super::run_folder::Claim;
 use super::run_folder::names::{POSTERIOR_SHEET, sample_file};
 use crate::commands::sheet::{render, sheet};
@@ -86,12 +87,6 @@ pub(super) fn said(found: &PosteriorReport) -> String {
         found.species,
         told.len(),
     )
-}
-
-/// Three digits that count.
-fn readable(value: f64) -> String {
-    let decimals = if value == 0.0 { 0.0 } else { (2.0 - value.abs().log10().floor()).clamp(0.0, 6.0) };
-    format!("{value:.*}", decimals as usize)
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use super::names::RUNS;
 use super::run_folder::names::{POSTERIOR_SHEET, SHEET};
-use super::{individual, posterior, several, views};
-use pleach::{FitReport, IdentifiabilityCounts};
+use super::{individual, judged, posterior, several, views};
+use pleach::FitReport;
 use pleach_fit::{AssessmentSettings, KindVerdict, References};
 use std::path::Path;
 
@@ -35,16 +35,7 @@ pub(super) fn report(summary: &FitReport, goal: &Path, folder: &Path) -> String 
     if let Some(references) = &summary.references {
         judged += &beside(references);
     }
-    if let Some(IdentifiabilityCounts { determined, loosely, not_seen, not_tried }) = summary.determined {
-        let late = if not_tried > 0 {
-            format!(", {not_tried} were not tried for want of time")
-        } else {
-            String::new()
-        };
-        judged += &format!(
-            "of the parameters the goal determines {determined}, loosely {loosely}; {not_seen} are not seen{late}\n"
-        );
-    }
+    judged += &judged::said(summary);
     let mut individual =
         summary.individual.as_ref().map_or_else(String::new, |one| individual::beside(one, &summary.scores));
     let mut tree = String::new();

@@ -43,7 +43,7 @@ impl Request {
         };
         Ok(Self {
             goal: goal.display().to_string(),
-            goal_sha256: digits(Sha256::digest(source.bytes())),
+            goal_sha256: digits(Sha256::digest(source.file_bytes())),
             inputs_sha256: inputs.collect::<anyhow::Result<_>>()?,
             mask_command: segmenter.map(|command| command.text().to_owned()),
             options: written,

@@ -57,7 +57,7 @@ pub(super) fn write(
     if let Some(assessment) = &fitted.assessment {
         let space = kind.species.generator.space();
         comments.extend(judged::comments(assessment, space));
-        write_table(&claim.file("parameters.csv"), judged::table(assessment, &fitted.best.genome, space))?;
+        write_table(&claim.file("parameters.csv"), judged::table(assessment, &report.parameters))?;
     }
     write_species(&claim.file("best.toml"), &kind.species, &comments)?;
     let reading = &report.readings.goal;

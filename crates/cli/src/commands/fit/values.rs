@@ -24,7 +24,8 @@ pub(super) const APPEARANCES: &[Choice<AppearanceFrom>] = &[
 pub(super) const LEAVES: &[Choice<Leaves>] = &[
     (
         "auto",
-        "If the goal looks more like trees with leaves than like bare ones; with --from auto only",
+        "With --from auto if the goal looks more like trees with leaves than like bare ones; with --from SPECIES as its \
+         file says",
         Leaves::Auto,
     ),
     ("on", "Always", Leaves::On),

@@ -3,7 +3,7 @@
 use super::Grow;
 use crate::commands::format::Format;
 use anyhow::bail;
-use pleach::{LeafForm, MeshFeature};
+use pleach::{LeafForm, MeshFeature, MeshFormat};
 use std::sync::LazyLock;
 
 /// Where a tree goes: a file, or statistics alone.
@@ -29,14 +29,16 @@ impl Goes {
 /// What takes an option.
 #[derive(Clone, Copy)]
 enum Takes {
-    /// Everything.
-    All,
-    /// Everything but a flat drawing, which has colours of its own.
-    AllButPng,
+    /// Everything but skeletons, which have no leaves.
+    Leafy,
+    /// The same but for a flat drawing, which has colours of its own.
+    LeafyButPng,
     /// A flat drawing.
     Png,
     /// Every mesh.
     Meshes,
+    /// The format of meshes that has lines.
+    Obj,
     /// Meshes whose format can hold it.
     Holding(MeshFeature),
 }
@@ -55,9 +57,12 @@ struct Choice {
 impl Choice {
     fn takes(&self, goes: Goes) -> bool {
         match (self.takes, goes) {
-            (Takes::All, _) | (Takes::Meshes, Goes::Into(Format::Mesh(_))) => true,
-            (Takes::AllButPng, goes) => goes != Goes::Into(Format::Png),
+            (Takes::Meshes, Goes::Into(Format::Mesh(_))) => true,
+            (Takes::Leafy | Takes::LeafyButPng, Goes::Into(Format::Skeleton(_))) => false,
+            (Takes::Leafy, _) => true,
+            (Takes::LeafyButPng, goes) => goes != Goes::Into(Format::Png),
             (Takes::Png, goes) => goes == Goes::Into(Format::Png),
+            (Takes::Obj, goes) => goes == Goes::Into(Format::Mesh(MeshFormat::Obj)),
             (Takes::Holding(feature), Goes::Into(Format::Mesh(format))) => format.holds(feature),
             (Takes::Meshes | Takes::Holding(_), _) => false,
         }
@@ -66,23 +71,26 @@ impl Choice {
 
 /// The table. `--no-leaves`, `--leafy`, `--seed`, `--seeds` and the limits apply to every output.
 #[rustfmt::skip]
-static CHOICES: [Choice; 18] = {
-    use MeshFeature::{Billboard, Budget, Forest, LeafCards, LeafInstances, Levels, Sway, Textures, Wind};
-    use Takes::{All, AllButPng, Holding, Meshes, Png};
+static CHOICES: [Choice; 21] = {
+    use MeshFeature::{Billboard, Budget, Compression, Forest, LeafCards, LeafInstances, Levels, Sway, Textures, Wind};
+    use Takes::{Holding, Leafy, LeafyButPng, Meshes, Obj, Png};
 
     const fn choice(flag: &'static str, what: &'static str, takes: Takes, given: fn(&Grow) -> bool) -> Choice {
         Choice { flag, what, takes, given }
     }
     [
         choice("--size", "the size of a picture", Png, |g| g.size.is_some()),
-        choice("--season", "a season's leaves and colours", AllButPng, |g| g.mesh.season.is_some()),
+        choice("--season", "a season's leaves and colours", LeafyButPng, |g| g.mesh.season.is_some()),
+        choice("--lines", "axes as lines", Obj, |g| g.lines),
+        choice("--finest", "every leaf and twig", Meshes, |g| g.mesh.finest),
         choice("--tolerance", "the tolerance of a surface", Meshes, |g| g.mesh.tolerance.is_some()),
-        choice("--leaves none", "a tree without leaves", All, |g| g.mesh.leaves == Some(LeafForm::None)),
+        choice("--leaves none", "a tree without leaves", Leafy, |g| g.mesh.leaves == Some(LeafForm::None)),
         choice("--leaves outline", "leaves as triangles", Meshes, |g| g.mesh.leaves == Some(LeafForm::Outline)),
         choice("--leaves simple", "leaves of two triangles", Meshes, |g| g.mesh.leaves == Some(LeafForm::Simple)),
         choice("--leaves cards", "cards with a leaf's picture", Holding(LeafCards), |g| g.mesh.leaves == Some(LeafForm::Cards)),
         choice("--leaves instances", "placed leaves", Holding(LeafInstances), |g| g.mesh.leaves == Some(LeafForm::Instances)),
-        choice("--textures", "pictures of bark", Holding(Textures), |g| g.mesh.textures.is_some()),
+        choice("--textures", "pictures of bark and leaves", Holding(Textures), |g| g.mesh.textures.is_some()),
+        choice("--compress", "smaller vertices", Holding(Compression), |g| g.mesh.compress.is_some()),
         choice("--weld", "one watertight surface", Meshes, |g| g.mesh.weld.is_some()),
         choice("--wind", "data for wind shaders", Holding(Wind), |g| g.mesh.wind),
         choice("--lod", "levels of detail", Holding(Levels), |g| g.mesh.lod.is_some() && !g.mesh.lod_files),

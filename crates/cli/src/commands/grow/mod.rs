@@ -11,6 +11,7 @@ use crate::{files, input, output, skeleton};
 use anyhow::{Context, bail, ensure};
 use formats::Goes;
 use indicatif::{ProgressBar, ProgressStyle};
+use pleach::Skeleton;
 use pleach_silhouette::{Frame, View, picture};
 use pleach_tree::{Foliage, Growth, Species, Tree, Workspace};
 use statistics::{Report, Summary};
@@ -31,6 +32,11 @@ const EXAMPLES: &str = "Examples:
   pleach grow acer -o tree.glb --lod 3          three levels of detail
   pleach grow acer -o tree.obj --season autumn  a mesh in another format
   pleach grow acer -o flat.png                  the flat drawing alone
+  pleach grow acer -o tree.swc                  axes and radii of the stems
+  pleach grow acer -o cylinders.csv             the same as TreeQSM's table
+  pleach grow acer -o tree.mtg                  the same as OpenAlea's tree graph
+  pleach grow cylinders.csv -o tree.glb         a measured tree as a mesh
+  pleach grow acer --lines -o axes.obj          the axes alone, as lines
   pleach grow acer --forest 40x40m -o wood.glb  a few trees in many places
   pleach grow acer --stats-only --json          statistics for scripts
   pleach grow acer --seeds 0..100 --stats-only  means and spreads
@@ -41,6 +47,14 @@ const EXAMPLES: &str = "Examples:
 
 A .png from here is a flat drawing in two colours; `pleach render` makes shaded pictures, with bark, \
 light, seasons and views.
+
+A .swc holds a node per line, with its parent. A .csv holds cylinders with the columns of TreeQSM, which rTwig \
+reads: radius, length, start, axis, parent, extension, branch, BranchOrder, PositionInBranch; metres, z up. A .mtg \
+holds plants (P), axes (A) and nodes (N) with XX, YY, ZZ, Radius and Level. In all of them a branch starts on its \
+parent's axis, and roots are left out.
+
+SPECIES may be a measured tree: a .swc, or a .csv of cylinders with the columns of TreeQSM or rTwig. It has one tree \
+without leaves, whatever the seed.
 
 Statistics go to standard output, or to standard error where the tree goes to standard output. They are \
 of the tree that is written: without the leaves that --no-leaves, --leaves none or --season winter leave \
@@ -60,7 +74,7 @@ pub(crate) struct Grow {
     /// Grow a tree for every seed from A up to but not including B
     #[arg(long, value_name = "A..B", value_parser = input::seeds, conflicts_with_all = ["seed", "forest"])]
     seeds: Option<Range<u64>>,
-    /// File (.json, .png, .glb, .obj, .ply, .stl or .usda), folder, or `-` for standard output; the
+    /// File (.json, .png, .swc, .csv, .mtg, .glb, .obj, .ply, .stl or .usda), folder, or `-` for standard output; the
     /// working directory by default
     #[arg(short, long, value_name = "PATH", conflicts_with = "stats_only")]
     out: Option<PathBuf>,
@@ -85,6 +99,9 @@ pub(crate) struct Grow {
     /// Height and width of a .png in pixels [default: 1024]
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=8192))]
     size: Option<u32>,
+    /// Write the axes of the stems as lines instead of surfaces (.obj)
+    #[arg(long, conflicts_with_all = ["finest", "triangles", "lod", "lod_files", "weld", "tolerance", "leaves", "textures", "roots", "season"])]
+    lines: bool,
     #[command(flatten)]
     mesh: MeshArgs,
     #[command(flatten)]
@@ -252,6 +269,12 @@ impl Grow {
                     files::write_out(&path, |mut out| skeleton::write(&mut out, species, seed, tree))?
                 }
                 Format::Png => self.picture(&path, tree)?,
+                Format::Skeleton(format) => {
+                    files::write_out(&path, |mut out| Ok(Skeleton::new(tree).write(format, &mut out)?))?
+                }
+                Format::Mesh(_) if self.lines => {
+                    files::write_out(&path, |mut out| Ok(Skeleton::new(tree).write_lines(&mut out)?))?
+                }
                 Format::Mesh(format) => self.mesh.write(&path, format, species, seed, tree)?,
             }
             written.push(path);

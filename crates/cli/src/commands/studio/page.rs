@@ -19,6 +19,7 @@ fn media_type(path: &str) -> &'static str {
         "css" => "text/css; charset=utf-8",
         "svg" => "image/svg+xml",
         "png" => "image/png",
+        "jpg" => "image/jpeg",
         "json" => "application/json",
         "wasm" => "application/wasm",
         _ => "application/octet-stream",

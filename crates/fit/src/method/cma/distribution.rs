@@ -1,9 +1,8 @@
 //! The normal distribution, and how a generation moves it (Hansen 2016, §3 and appendix A).
 
+use super::eigen::eigen;
 use super::margin::{Marginal, corrected};
 use super::strategy::Strategy;
-use linfa_linalg::eigh::Eigh;
-use ndarray::Array2;
 use pleach_tree::math;
 use serde::{Deserialize, Serialize};
 
@@ -134,16 +133,11 @@ impl Distribution {
 
     fn decompose(&mut self) {
         self.decomposed = self.generation;
-        let n = self.mean.len();
-        let found = Array2::from_shape_vec((n, n), self.covariance.clone()).ok();
-        let Some((values, vectors)) = found.and_then(|matrix| matrix.eigh().ok()) else {
+        let Some((values, vectors)) = eigen(&self.covariance, &self.basis, self.mean.len()) else {
             return self.forget_covariance();
         };
-        if values.iter().any(|value| !(*value > 0.0 && value.is_finite())) {
-            return self.forget_covariance();
-        }
         self.roots = values.iter().map(|value| value.sqrt()).collect();
-        self.basis = vectors.iter().copied().collect();
+        self.basis = vectors;
     }
 
     /// Back to a ball: rounding has made the matrix useless.

@@ -16,6 +16,7 @@
 
 mod coding;
 mod distribution;
+mod eigen;
 mod margin;
 mod normal;
 mod strategy;

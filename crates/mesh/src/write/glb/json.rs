@@ -1,8 +1,11 @@
 //! The JSON part of a GLB file.
 
-use super::layout::{Layout, PartLayout, Placements, SKIN_BYTES};
-use super::{Placed, Scene, animation, upright};
-use crate::palette::linear;
+use super::layout::{Layout, PartLayout, Placements, SKIN_BYTES, WIND_BYTES};
+use super::materials::{
+    TRANSFORM, TRANSMISSION, Textures, has_picture, material, transform_textures, transmitted,
+};
+use super::quantize::{Form, Grid};
+use super::{Placed, Scene, Site, animation, upright};
 use crate::part::Material;
 use crate::pictures::Pictures;
 use glam::Vec3;
@@ -15,6 +18,7 @@ const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_BYTE: u32 = 5121;
+const BYTE: u32 = 5120;
 /// Bounds before they are known: no number takes more room.
 const WIDEST: f64 = -1.234_567_890_123_456_7e-100;
 
@@ -26,7 +30,11 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
     let mut drawn = Vec::new();
     for mesh in 0..meshes {
         let name = mesh_name(scene, mesh);
-        drawn.push(file.mesh(&name, layout.parts.iter().filter(|p| p.part.mesh == mesh)));
+        drawn.push(file.mesh(
+            &name,
+            layout.parts.iter().filter(|p| p.part.mesh == mesh),
+            scene.grid.as_ref(),
+        ));
     }
     let mut roots = Vec::new();
     for (placed, sites) in scene.placed.iter().zip(&layout.sites) {
@@ -39,7 +47,19 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
         roots.push(root);
     }
     let textures = file.textures(layout);
-    let materials: Vec<Value> = file.materials.iter().map(|&m| material(scene, &textures, m)).collect();
+    if file.materials.iter().any(|&material| transmitted(material).is_some()) {
+        file.uses(TRANSMISSION);
+    }
+    let mut materials: Vec<Value> = file.materials.iter().map(|&m| material(scene, &textures, m)).collect();
+    if let Some(grid) = &scene.grid {
+        file.uses(QUANTIZATION);
+        for (value, &material) in materials.iter_mut().zip(&file.materials.clone()) {
+            if let Some(tiles) = grid.tiles(material).filter(|_| has_picture(value)) {
+                file.uses(TRANSFORM);
+                transform_textures(value, tiles);
+            }
+        }
+    }
     let mut root = json!({
         "asset": {"version": "2.0", "generator": concat!("pleach ", env!("CARGO_PKG_VERSION"))},
         "scene": 0,
@@ -65,8 +85,10 @@ pub(super) fn text(scene: &Scene<'_>, layout: &Layout) -> String {
     if !file.used.is_empty() {
         root["extensionsUsed"] = json!(file.used);
     }
-    if file.used.contains(&INSTANCING) {
-        root["extensionsRequired"] = json!([INSTANCING]);
+    let required = [INSTANCING, QUANTIZATION].into_iter().filter(|extension| file.used.contains(extension));
+    let required: Vec<&str> = required.collect();
+    if !required.is_empty() {
+        root["extensionsRequired"] = json!(required);
     }
     root.to_string()
 }
@@ -79,46 +101,7 @@ fn mesh_name(scene: &Scene<'_>, mesh: usize) -> String {
 
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 const LEVELS: &str = "MSFT_lod";
-
-fn material(scene: &Scene<'_>, textures: &[Textures], material: Material) -> Value {
-    let own = textures.iter().find(|textures| textures.material == material);
-    if let Some(Textures { color, normal, roughness, .. }) = own.filter(|_| material == Material::Bark) {
-        let mut value = json!({
-            "name": material.name(),
-            "pbrMetallicRoughness": {
-                "baseColorTexture": {"index": color}, "metallicFactor": 0.0, "roughnessFactor": 1.0,
-            },
-        });
-        if let Some(normal) = normal {
-            value["normalTexture"] = json!({"index": normal});
-        }
-        if let Some(roughness) = roughness {
-            value["occlusionTexture"] = json!({"index": roughness});
-            value["pbrMetallicRoughness"]["metallicRoughnessTexture"] = json!({"index": roughness});
-        }
-        return value;
-    }
-    if let Some(Textures { color: texture, .. }) = own {
-        let roughness = if material == Material::Card { 1.0 } else { 0.7 };
-        return json!({
-            "name": material.name(), "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.4,
-            "pbrMetallicRoughness": {
-                "baseColorTexture": {"index": texture}, "metallicFactor": 0.0, "roughnessFactor": roughness,
-            },
-        });
-    }
-    let [r, g, b] = linear(scene.palette.color(material)).map(|c| (f64::from(c) * 1e4).round() / 1e4);
-    let roughness = if material == Material::Bark { 0.95 } else { 0.7 };
-    let mut value = json!({
-        "name": material.name(),
-        "pbrMetallicRoughness":
-            {"baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0, "roughnessFactor": roughness},
-    });
-    if material != Material::Bark {
-        value["doubleSided"] = json!(true);
-    }
-    value
-}
+const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 /// The meshes of one number: what is drawn where it stands, and what is drawn by instances.
 #[derive(Default)]
@@ -141,9 +124,6 @@ fn put(node: &mut Value, placed: &Placed) {
         node["scale"] = json!(vec![site.scale; 3]);
     }
 }
-
-/// Numbers of the textures of a material.
-type Textures = Pictures<usize>;
 
 #[derive(Default)]
 struct File {
@@ -205,11 +185,25 @@ impl File {
         push(&mut self.accessors, accessor)
     }
 
-    fn mesh<'p>(&mut self, name: &str, parts: impl Iterator<Item = &'p PartLayout>) -> Drawn {
+    /// An accessor whose whole numbers stand for −1 or 0 to 1.
+    fn normalized(&mut self, view: usize, offset: u64, component: u32, kind: &str, count: u64) -> usize {
+        let accessor = self.accessor(view, offset, component, kind, count);
+        if component != FLOAT {
+            self.accessors[accessor]["normalized"] = json!(true);
+        }
+        accessor
+    }
+
+    fn mesh<'p>(
+        &mut self,
+        name: &str,
+        parts: impl Iterator<Item = &'p PartLayout>,
+        grid: Option<&Grid>,
+    ) -> Drawn {
         let mut drawn = Drawn::default();
         let mut primitives = Vec::new();
         for layout in parts {
-            let primitive = self.primitive(layout);
+            let primitive = self.primitive(layout, grid);
             if layout.part.instances == 0 {
                 primitives.push(primitive);
                 continue;
@@ -227,13 +221,22 @@ impl File {
         drawn
     }
 
-    fn primitive(&mut self, layout: &PartLayout) -> Value {
-        let (part, place) = (layout.part, layout.place);
+    fn primitive(&mut self, layout: &PartLayout, grid: Option<&Grid>) -> Value {
+        let (part, place, form) = (layout.part, layout.place, layout.form);
         let count = part.count.vertices;
-        let view = self.view(place.vertices, count * 32, Some(32), Some(ARRAY_BUFFER));
+        let (stride, normal_at, uv_at) = form.sizes();
+        let view = self.view(place.vertices, count * stride, Some(stride), Some(ARRAY_BUFFER));
         let mut attributes = Map::new();
-        let position = self.accessor(view, 0, FLOAT, "VEC3", count);
-        let wide = |v: Vec3| json!(v.to_array().map(f64::from));
+        let (has_grid, has_tiles) = match form {
+            Form::Floats => (false, true),
+            Form::Numbers { has_grid, tiles } => (has_grid, tiles.is_some()),
+        };
+        let component = if has_grid { UNSIGNED_SHORT } else { FLOAT };
+        let position = self.accessor(view, 0, component, "VEC3", count);
+        let wide = |v: Vec3| match grid.filter(|_| has_grid) {
+            Some(grid) => json!(grid.position(v)),
+            None => json!(v.to_array().map(f64::from)),
+        };
         let (min, max) = match layout.bounds {
             Some((min, max)) => (wide(min), wide(max)),
             None => (json!(vec![WIDEST; 3]), json!(vec![WIDEST; 3])),
@@ -241,28 +244,38 @@ impl File {
         self.accessors[position]["min"] = min;
         self.accessors[position]["max"] = max;
         attributes.insert("POSITION".into(), json!(position));
-        attributes.insert("NORMAL".into(), json!(self.accessor(view, 12, FLOAT, "VEC3", count)));
-        attributes.insert("TEXCOORD_0".into(), json!(self.accessor(view, 24, FLOAT, "VEC2", count)));
+        let small = if form == Form::Floats { FLOAT } else { BYTE };
+        attributes.insert("NORMAL".into(), json!(self.normalized(view, normal_at, small, "VEC3", count)));
+        if has_tiles {
+            let component = if form == Form::Floats { FLOAT } else { UNSIGNED_SHORT };
+            let tiles = self.normalized(view, uv_at, component, "VEC2", count);
+            attributes.insert("TEXCOORD_0".into(), json!(tiles));
+        }
         if layout.has_tangents {
-            let view = self.view(place.tangents, count * 16, Some(16), Some(ARRAY_BUFFER));
-            attributes.insert("TANGENT".into(), json!(self.accessor(view, 0, FLOAT, "VEC4", count)));
+            let bytes = form.tangent_bytes();
+            let view = self.view(place.tangents, count * bytes, Some(bytes), Some(ARRAY_BUFFER));
+            attributes.insert("TANGENT".into(), json!(self.normalized(view, 0, small, "VEC4", count)));
         }
         if part.wind {
-            let view = self.view(place.wind, count * 32, Some(32), Some(ARRAY_BUFFER));
-            attributes.insert("_WIND_PIVOT".into(), json!(self.accessor(view, 0, FLOAT, "VEC4", count)));
-            attributes.insert("_WIND_SWAY".into(), json!(self.accessor(view, 16, FLOAT, "VEC4", count)));
+            let view = self.view(place.wind, count * WIND_BYTES, Some(WIND_BYTES), Some(ARRAY_BUFFER));
+            // Engines read these sets, and not attributes of other names.
+            for set in 1..=7 {
+                let accessor = self.accessor(view, 8 * (set - 1), FLOAT, "VEC2", count);
+                attributes.insert(format!("TEXCOORD_{set}"), json!(accessor));
+            }
         }
         if part.rigged {
             let view = self.view(place.skin, count * SKIN_BYTES, Some(SKIN_BYTES), Some(ARRAY_BUFFER));
             let joints = self.accessor(view, 0, UNSIGNED_SHORT, "VEC4", count);
-            let weights = self.accessor(view, 8, UNSIGNED_BYTE, "VEC4", count);
-            self.accessors[weights]["normalized"] = json!(true);
+            let weights = self.normalized(view, 8, UNSIGNED_BYTE, "VEC4", count);
             attributes.insert("JOINTS_0".into(), json!(joints));
             attributes.insert("WEIGHTS_0".into(), json!(weights));
         }
         let triangles = part.count.triangles;
-        let view = self.view(place.indices, triangles * 12, None, Some(ELEMENT_ARRAY_BUFFER));
-        let indices = self.accessor(view, 0, UNSIGNED_INT, "SCALAR", triangles * 3);
+        let bytes = triangles * layout.index_bytes();
+        let view = self.view(place.indices, bytes, None, Some(ELEMENT_ARRAY_BUFFER));
+        let component = if layout.has_short_indices() { UNSIGNED_SHORT } else { UNSIGNED_INT };
+        let indices = self.accessor(view, 0, component, "SCALAR", triangles * 3);
         let material = self.material(part.material);
         json!({"attributes": attributes, "indices": indices, "material": material})
     }
@@ -300,7 +313,10 @@ impl File {
     ) -> usize {
         let mut levels = Vec::new();
         for (level, &mesh) in placed.meshes.iter().enumerate() {
-            let mut node = self.node(&placed.level_name(level), &drawn[mesh]);
+            let is_alone = placed.meshes.len() == 1 && placed.sites[..] != [Site::ORIGIN];
+            // Where it stands takes in what whole numbers stand for.
+            let grid = scene.grid.as_ref().filter(|_| sites.is_none());
+            let mut node = self.node(&placed.level_name(level), &drawn[mesh], grid, is_alone);
             if let Some(sites) = sites {
                 node["extensions"] = sites.clone();
             }
@@ -331,9 +347,10 @@ impl File {
         push(&mut self.nodes, finest)
     }
 
-    /// A node that shows a mesh where it is; what is instanced becomes nodes below it.
-    fn node(&mut self, name: &str, drawn: &Drawn) -> Value {
-        let children: Vec<usize> = drawn
+    /// A node that shows a mesh where it is; what is instanced becomes nodes below it, and so does a mesh of whole
+    /// numbers, which has a place of its own, if the node has one too.
+    fn node(&mut self, name: &str, drawn: &Drawn, grid: Option<&Grid>, is_placed: bool) -> Value {
+        let mut children: Vec<usize> = drawn
             .instanced
             .iter()
             .map(|(mesh, name, placed)| {
@@ -342,7 +359,19 @@ impl File {
             .collect();
         let mut node = json!({"name": name});
         if let Some(mesh) = drawn.mesh {
-            node["mesh"] = json!(mesh);
+            let mut own = json!({"mesh": mesh});
+            if let Some(grid) = grid {
+                own["translation"] = json!(grid.origin.to_array());
+                own["scale"] = json!(vec![grid.step; 3]);
+            }
+            if grid.is_some() && (is_placed || !children.is_empty()) {
+                // What moves and scales the mesh must not move and scale what else stands here.
+                own["name"] = json!(format!("{name} mesh"));
+                children.insert(0, push(&mut self.nodes, own));
+            } else {
+                own["name"] = json!(name);
+                node = own;
+            }
         }
         if !children.is_empty() {
             node["children"] = json!(children);

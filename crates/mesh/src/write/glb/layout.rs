@@ -1,5 +1,6 @@
 //! Where everything lies in the binary chunk.
 
+use super::quantize::Form;
 use super::{Scene, Site, animation};
 use crate::block::{Block, Placement};
 use crate::part::Part;
@@ -8,6 +9,9 @@ use glam::Vec3;
 
 /// Bytes of a vertex' joint numbers and weights.
 pub(super) const SKIN_BYTES: u64 = 12;
+
+/// Bytes of a vertex' wind data.
+pub(super) const WIND_BYTES: u64 = 56;
 
 /// Offsets of a part's data in the binary chunk; those of data that it does not have are unused.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,6 +60,7 @@ impl Placements {
 pub(super) struct PartLayout {
     pub(super) part: Part,
     pub(super) place: Place,
+    pub(super) form: Form,
     /// Whether its material shows a picture of normals.
     pub(super) has_tangents: bool,
     next: Place,
@@ -66,18 +71,28 @@ pub(super) struct PartLayout {
 impl PartLayout {
     /// Number of the next corner.
     pub(super) fn next_corner(&self) -> u32 {
-        ((self.next.vertices - self.place.vertices) / 32) as u32
+        ((self.next.vertices - self.place.vertices) / self.form.stride()) as u32
+    }
+
+    /// Whether indices have 16 bits. The largest number of them stands for none.
+    pub(super) fn has_short_indices(&self) -> bool {
+        self.form != Form::Floats && self.part.count.vertices <= u64::from(u16::MAX)
+    }
+
+    /// Bytes of a triangle's indices.
+    pub(super) fn index_bytes(&self) -> u64 {
+        if self.has_short_indices() { 6 } else { 12 }
     }
 
     /// Where `block` goes; the next one goes behind it.
     pub(super) fn advance(&mut self, block: &Block) -> Place {
         let place = self.next;
         let vertices = block.vertices.len() as u64;
-        self.next.vertices += vertices * 32;
-        self.next.tangents += vertices * 16;
-        self.next.wind += vertices * 32;
+        self.next.vertices += vertices * self.form.stride();
+        self.next.tangents += vertices * self.form.tangent_bytes();
+        self.next.wind += vertices * WIND_BYTES;
         self.next.skin += vertices * SKIN_BYTES;
-        self.next.indices += block.triangles.len() as u64 * 12;
+        self.next.indices += block.triangles.len() as u64 * self.index_bytes();
         self.next.placements.advance(block.instances.len() as u64);
         for at in block.vertices.iter().map(|v| v.position) {
             let (min, max) = self.bounds.unwrap_or((at, at));
@@ -116,15 +131,25 @@ impl Layout {
                 let vertices = part.count.vertices;
                 let own = scene.pictures.iter().find(|pictures| pictures.material == part.material);
                 let has_tangents = own.is_some_and(|pictures| pictures.normal.is_some());
+                let form = Form::new(scene.grid.as_ref(), &part, own.is_some());
+                let mut layout = PartLayout {
+                    part,
+                    place: Place::default(),
+                    form,
+                    has_tangents,
+                    next: Place::default(),
+                    bounds: None,
+                };
                 let place = Place {
-                    vertices: take(vertices * 32),
-                    tangents: take(if has_tangents { vertices * 16 } else { 0 }),
-                    wind: take(if part.wind { vertices * 32 } else { 0 }),
+                    vertices: take(vertices * form.stride()),
+                    tangents: take(if has_tangents { vertices * form.tangent_bytes() } else { 0 }),
+                    wind: take(if part.wind { vertices * WIND_BYTES } else { 0 }),
                     skin: take(if part.rigged { vertices * SKIN_BYTES } else { 0 }),
-                    indices: take(part.count.triangles * 12),
+                    indices: take(part.count.triangles * layout.index_bytes()),
                     placements: Placements::new(part.instances, &mut take),
                 };
-                PartLayout { part, place, has_tangents, next: place, bounds: None }
+                (layout.place, layout.next) = (place, place);
+                layout
             })
             .collect();
         let joints = scene.rig.map_or(0, |rig| rig.joints.len() as u64);
@@ -162,7 +187,11 @@ impl Layout {
         }
         for (placed, at) in scene.placed.iter().zip(&self.sites) {
             let Some(at) = at else { continue };
-            let sites: Vec<Placement> = placed.sites.iter().map(Site::upright).collect();
+            let put = |site: &Site| {
+                let upright = site.upright();
+                scene.grid.as_ref().map_or(upright, |grid| grid.placement(&upright))
+            };
+            let sites: Vec<Placement> = placed.sites.iter().map(put).collect();
             for (offset, numbers) in at.runs(&sites) {
                 fixed.push((offset, bytemuck::cast_slice(&numbers).to_vec()));
             }

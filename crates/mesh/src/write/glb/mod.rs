@@ -5,8 +5,9 @@
 //!
 //! | what | how |
 //! | --- | --- |
-//! | corners | interleaved position, normal, texture coordinates; tangents where there is a picture of normals; wind in `_WIND_PIVOT`, `_WIND_SWAY` |
+//! | corners | interleaved position, normal, texture coordinates; tangents where there is a picture of normals; wind in `TEXCOORD_1` to `TEXCOORD_7` |
 //! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided; cards show pictures with alpha masks, bark tiles with normals, roughness and occlusion |
+//! | corners with a [`Grid`] | positions and texture coordinates of 16 bits, the latter where a picture is shown, normals and tangents of 8 (`KHR_mesh_quantization`, then required); nodes and `KHR_texture_transform` put them where they belong |
 //! | levels of detail | nodes and meshes `NAME_LOD0`, `NAME_LOD1`, … under one of the tree's name, all in the scene; or, if asked for, `MSFT_lod` on the node of the finest |
 //! | leaves as instances | `EXT_mesh_gpu_instancing`, then required: without it there is no crown |
 //! | forests | a node for each mesh, instanced (`EXT_mesh_gpu_instancing`), or many nodes that share few meshes |
@@ -15,9 +16,12 @@
 mod animation;
 mod json;
 mod layout;
-mod tangents;
+mod materials;
+mod quantize;
 
-use crate::block::{Block, Placement, Vertex, Wind};
+pub use quantize::Grid;
+
+use crate::block::{Block, Placement, Wind};
 use crate::mesher::Mesher;
 use crate::palette::Palette;
 use crate::part::{MeshError, Part, Sink};
@@ -25,6 +29,7 @@ use crate::pictures::Pictures;
 use crate::rig::Rig;
 use crate::settings::MeshSettings;
 use crate::stream::send;
+use crate::tangents::tangents;
 use glam::{Quat, Vec3, vec3};
 use layout::Layout;
 use pleach_plant::Tree;
@@ -103,6 +108,9 @@ pub struct Scene<'a> {
     /// Whether the coarser levels of detail hang on the finest by `MSFT_lod`, outside the scene, instead of standing
     /// in it as nodes.
     pub lod_extension: bool,
+    /// What whole numbers stand for, where vertices are to be written as such: that of all meshes, which have neither
+    /// wind data nor joints.
+    pub grid: Option<Grid>,
     /// Joints and their sway, for a mesh that was made with this rig.
     pub rig: Option<&'a Rig>,
     /// PNG files that materials show instead of their colour.
@@ -130,6 +138,7 @@ pub fn write<W: Write + Seek>(out: W, name: &str, tree: &Tree, palette: &Palette
         extras: serde_json::Value::Null,
         placed: vec![Placed::at_origin(name, 1)],
         lod_extension: false,
+        grid: None,
         rig: None,
         pictures: Vec::new(),
     };
@@ -178,15 +187,16 @@ impl<W: Write + Seek> Sink for Glb<'_, W> {
     fn block(&mut self, part: usize, block: &mut Block) -> Result<(), MeshError> {
         turn_upright(block);
         let layout = &mut self.layout.parts[part];
-        let tangents = layout.has_tangents.then(|| tangents::tangents(block, layout.next_corner()));
+        let tangents = layout.has_tangents.then(|| tangents(block, layout.next_corner()));
         let place = layout.advance(block);
-        let vertices: Vec<[f32; 8]> = block.vertices.iter().map(Vertex::to_array).collect();
-        self.write_at(place.vertices, bytemuck::cast_slice(&vertices))?;
+        let form = layout.form;
+        let is_short = layout.has_short_indices();
+        self.write_at(place.vertices, &form.vertices(self.scene.grid.as_ref(), &block.vertices))?;
         if let Some(tangents) = tangents {
-            self.write_at(place.tangents, bytemuck::cast_slice(&tangents))?;
+            self.write_at(place.tangents, &form.tangents(&tangents))?;
         }
         if !block.wind.is_empty() {
-            let wind: Vec<[f32; 8]> = block.wind.iter().map(Wind::to_array).collect();
+            let wind: Vec<[f32; 14]> = block.wind.iter().map(Wind::to_array).collect();
             self.write_at(place.wind, bytemuck::cast_slice(&wind))?;
         }
         if !block.joints.is_empty() {
@@ -194,7 +204,12 @@ impl<W: Write + Seek> Sink for Glb<'_, W> {
             self.write_at(place.skin, &bytes)?;
         }
         if !block.triangles.is_empty() {
-            self.write_at(place.indices, bytemuck::cast_slice(&block.triangles))?;
+            if is_short {
+                let short: Vec<[u16; 3]> = block.triangles.iter().map(|t| t.map(|i| i as u16)).collect();
+                self.write_at(place.indices, bytemuck::cast_slice(&short))?;
+            } else {
+                self.write_at(place.indices, bytemuck::cast_slice(&block.triangles))?;
+            }
         }
         if !block.instances.is_empty() {
             for (offset, numbers) in place.placements.runs(&block.instances) {
@@ -220,7 +235,8 @@ fn turn_upright(block: &mut Block) {
         (vertex.position, vertex.normal) = (upright(vertex.position), upright(vertex.normal));
     }
     for wind in &mut block.wind {
-        wind.pivot = upright(wind.pivot);
+        (wind.pivot, wind.bend) = (upright(wind.pivot), upright(wind.bend));
+        (wind.parent_pivot, wind.parent_bend) = (upright(wind.parent_pivot), upright(wind.parent_bend));
     }
     for placement in &mut block.instances {
         let [x, y, z, w] = placement.rotation.to_array();
