@@ -25,6 +25,7 @@ use pleach_silhouette::score::fast::{PreparedGoal, Scratch};
 use pleach_silhouette::{Bitmap, Detail, Frame, Projection, Rasterizer, View};
 use pleach_tree::{Foliage, Tree};
 use rayon::prelude::*;
+use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
 /// Steps of a registration in pixels: the first is halved until it is less than the last.
@@ -197,31 +198,33 @@ impl Registered<'_> {
     }
 
     /// The best place of the tree, and its intersection over union there.
-    fn found(&self, closeness: Closeness) -> (Moved, f64) {
-        let moved = if self.view.projection == Projection::Orthographic { self.far() } else { [0.0; 3] };
+    fn found(&self, closeness: Closeness, pictures: &Pictures<'_>) -> (Moved, f64) {
+        let moved = pictures.far.as_ref().map_or([0.0; 3], |far| self.far(far));
+        let near = |from, steps| self.search(from, steps, &pictures.near);
         let moved = match closeness {
             Closeness::Search => moved,
-            Closeness::Result if self.tree.leaves.len() > HEAVY => self.near(moved, Steps::NEAR_HEAVY).0,
+            Closeness::Result if self.tree.leaves.len() > HEAVY => near(moved, Steps::NEAR_HEAVY).0,
             Closeness::Result => {
                 // Ground and height compensate each other: try also the present top with the ground as read.
                 let [right, down, higher] = moved;
                 let beginnings = [moved, [right, 0.0, higher - down]];
-                let [one, other] = beginnings.map(|from| self.near(from, Steps::NEAR));
-                self.near(if other.1 > one.1 { other.0 } else { one.0 }, Steps::AGAIN).0
+                let [one, other] = beginnings.map(|from| near(from, Steps::NEAR));
+                near(if other.1 > one.1 { other.0 } else { one.0 }, Steps::AGAIN).0
             }
         };
-        let Drawing { mut rasterizer, mut bitmap, mut scratch } = Drawing::new();
-        rasterizer.draw(self.tree, &self.view, &self.frame_at(moved), self.foliage.into(), &mut bitmap);
-        (moved, self.goal.overlaps(&bitmap, &mut scratch).iou())
+        (moved, self.iou_at(moved))
     }
 
-    /// Far steps from where the frame was read, on one fine drawing of the tree.
-    fn far(&self) -> Moved {
+    /// The intersection over union at a place.
+    fn iou_at(&self, moved: Moved) -> f64 {
+        let Drawing { mut rasterizer, mut bitmap, mut scratch } = Drawing::new();
+        rasterizer.draw(self.tree, &self.view, &self.frame_at(moved), self.foliage.into(), &mut bitmap);
+        self.goal.overlaps(&bitmap, &mut scratch).iou()
+    }
+
+    /// Far steps from where the frame was read.
+    fn far(&self, overlaps: &Overlaps<'_>) -> Moved {
         let from = [0.0; 3];
-        let mut rasterizer = Rasterizer::with_detail(Detail::Draft);
-        let side = (FINENESS * self.frame.width.max(self.frame.height)).min(MAX_FINE_SIDE);
-        let fine = FineSilhouette::draw(self.tree, &self.view, self.foliage, side, &mut rasterizer);
-        let overlaps = Overlaps::new(|frame, drawing| fine.through(frame, 1.0, &mut drawing.bitmap));
         // Overlap of branches has many local maxima, most of them along the ground.
         let reach = (self.reach.by[0] / SCAN).floor() as i32;
         let places: Vec<Moved> = (-reach..=reach)
@@ -232,9 +235,9 @@ impl Registered<'_> {
         let mut ranked: Vec<(Moved, f64)> = places.iter().copied().zip(overlaps.all(self, &places)).collect();
         // Stable: the first of equals.
         ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let mut best = self.search(from, Steps::FAR, &overlaps);
+        let mut best = self.search(from, Steps::FAR, overlaps);
         for &(place, _) in ranked.iter().take(BEGINNINGS) {
-            let found = self.search(place, Steps::FAR, &overlaps);
+            let found = self.search(place, Steps::FAR, overlaps);
             if found.1 > best.1 {
                 best = found;
             }
@@ -242,34 +245,71 @@ impl Registered<'_> {
         best.0
     }
 
-    /// Near steps, on drawings of the tree.
-    fn near(&self, from: Moved, steps: Steps) -> (Moved, f64) {
-        let overlaps = Overlaps::new(|frame, Drawing { rasterizer, bitmap, .. }| {
-            rasterizer.draw(self.tree, &self.view, frame, self.foliage.into(), bitmap);
+}
+
+/// The pictures of one tree that a registration looks at.
+struct Pictures<'a> {
+    /// Through one fine drawing; none in perspective, where the tree looks otherwise from another place.
+    far: Option<Overlaps<'a>>,
+    /// Of the tree itself.
+    near: Overlaps<'a>,
+}
+
+impl<'a> Pictures<'a> {
+    fn new(of: &Registered<'a>) -> Self {
+        let far = (of.view.projection == Projection::Orthographic).then(|| {
+            let mut rasterizer = Rasterizer::with_detail(Detail::Draft);
+            let side = (FINENESS * of.frame.width.max(of.frame.height)).min(MAX_FINE_SIDE);
+            let fine = FineSilhouette::draw(of.tree, &of.view, of.foliage, side, &mut rasterizer);
+            Overlaps::new(move |frame, drawing| fine.through(frame, 1.0, &mut drawing.bitmap))
         });
-        self.search(from, steps, &overlaps)
+        Self { far, near: Self::near(of) }
+    }
+
+    fn near(of: &Registered<'a>) -> Overlaps<'a> {
+        let (tree, view, foliage) = (of.tree, of.view, of.foliage);
+        Overlaps::new(move |frame, Drawing { rasterizer, bitmap, .. }| {
+            rasterizer.draw(tree, &view, frame, foliage.into(), bitmap);
+        })
     }
 }
 
 /// Draws pictures and compares them, in pooled memory.
+///
+/// Steps are halves of each other, and searches begin where others ended or in a part of their reach, so many places
+/// come again: what a place has is kept.
 struct Overlaps<'a> {
     draw: Box<dyn Fn(&Frame, &mut Drawing) + Sync + 'a>,
     pool: Mutex<Vec<Drawing>>,
+    known: Mutex<HashMap<[u64; 3], f64>>,
 }
 
 impl<'a> Overlaps<'a> {
     fn new(draw: impl Fn(&Frame, &mut Drawing) + Sync + 'a) -> Self {
-        Self { draw: Box::new(draw), pool: Mutex::default() }
+        Self { draw: Box::new(draw), pool: Mutex::default(), known: Mutex::default() }
     }
 
+    /// The overlap less the price of the move.
     fn at(&self, goal: &Registered<'_>, moved: Moved) -> f64 {
+        let place = moved.map(f64::to_bits);
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let before = known().get(&place).copied();
+        let overlap = before.unwrap_or_else(|| {
+            let overlap = self.drawn_at(goal, moved);
+            let _ = known().insert(place, overlap);
+            overlap
+        });
+        overlap - PRICE * goal.moved_parts(moved).iter().sum::<f64>()
+    }
+
+    fn drawn_at(&self, goal: &Registered<'_>, moved: Moved) -> f64 {
         let pool = || self.pool.lock().unwrap_or_else(PoisonError::into_inner);
         let taken = pool().pop();
         let mut drawing = taken.unwrap_or_else(Drawing::new);
         (self.draw)(&goal.frame_at(moved), &mut drawing);
         let overlap = goal.overlap(&drawing.bitmap, &mut drawing.scratch);
         pool().push(drawing);
-        overlap - PRICE * goal.moved_parts(moved).iter().sum::<f64>()
+        overlap
     }
 
     fn all(&self, goal: &Registered<'_>, places: &[Moved]) -> Vec<f64> {
@@ -312,7 +352,7 @@ pub fn register(
     let mut registered = registered(tree, foliage, goal, view, frame, 1.0);
     let moved = registered.moved(from);
     registered.reach = Reach { from: moved, by: [AROUND * steps.first; 3] };
-    let (found, _) = registered.near(moved, steps);
+    let (found, _) = registered.search(moved, steps, &Pictures::near(&registered));
     Placement { azimuth: from.azimuth, ..registered.placement(found) }
 }
 
@@ -360,11 +400,12 @@ pub(crate) fn with_registered_frames(
                 continue;
             }
             let mut one = registered(tree, foliage, &goal.goal, view, &goal.frame, magnified);
+            let pictures = Pictures::new(&one);
             one.reach = one.wide();
-            let (mut moved, iou) = one.found(closeness);
+            let (mut moved, iou) = one.found(closeness, &pictures);
             if iou < SURE {
                 one.reach = one.narrow();
-                (moved, _) = one.found(closeness);
+                (moved, _) = one.found(closeness, &pictures);
             }
             goal.registered = one.placement(moved);
         }

@@ -60,8 +60,9 @@ impl TryFrom<Packed> for FineSilhouette {
 
 /// Minimum of its pixels per pixel of the goal.
 const FINENESS: u32 = 2;
-/// Smallest and largest side, in pixels.
-const SIDES: (u32, u32) = (128, 2048);
+/// Smallest and largest side, in pixels. The smallest is that of the drawings of known species that are kept: goals of
+/// up to 256 pixels are compared with these, and no tree has to be grown for them.
+const SIDES: (u32, u32) = (512, 2048);
 /// One of this many parts of the side is added below the ground.
 const BELOW: u32 = 8;
 
