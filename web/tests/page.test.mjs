@@ -4,6 +4,7 @@ import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { after, before, describe, test } from "node:test";
 import { colors, newPage, open } from "./browser.mjs";
+import { shortFit } from "./fit-room.mjs";
 
 const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"];
@@ -19,13 +20,7 @@ const SPECIES_STEPS = [
 
 /** A short fit, for its outcome. */
 const FIT_STEPS = [
-  async (page) => {
-    await page.getByRole("radio", { name: "10 s" }).check();
-    await page.getByTestId("start").click();
-    await page.waitForTimeout(3500);
-    await page.getByTestId("stop").click();
-    await page.getByTestId("score").waitFor();
-  },
+  shortFit,
   // Two kept fits, compared.
   async (page) => {
     await page.getByTestId("keep-fit").click();
