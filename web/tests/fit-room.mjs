@@ -21,37 +21,32 @@ export async function library() {
 
 export const inkOf = async (png) => (await library()).Goal.read("silhouette.png", png, "off").pixels();
 
-export const start = async (page) => {
-  await page.getByRole("radio", { name: "10 s" }).check();
+/** Begins a fit with these options of the library beside those of the page. */
+export async function start(page, options = {}) {
+  await page.evaluate((options) => window.studio.tell(options), options);
   await page.getByTestId("start").click();
-};
-
-/** Runs a fit to its score card; the likeness, and the tasks of the page's own thread above 50 ms. */
-export async function fitted(page) {
-  await page.evaluate(() => {
-    window.stalls = [];
-    const watch = (list) =>
-      window.stalls.push(
-        ...list
-          .getEntries()
-          .map((entry) => `${Math.round(entry.duration)} ms at ${Math.round(entry.startTime)}`),
-      );
-    new PerformanceObserver(watch).observe({ type: "longtask" });
-  });
-  await start(page);
-  await page.getByTestId("score").waitFor({ timeout: 120_000 });
-  const likeness = Number(await page.locator(".score .big").textContent());
-  return { likeness, stalls: await page.evaluate(() => window.stalls) };
 }
 
-/** A search that is ended soon. */
-export async function shortFit(page) {
-  await start(page);
-  await page.getByTestId("overlay").waitFor();
-  await page.waitForTimeout(2000);
-  await page.getByTestId("stop").click();
+/**
+ * A fit of so many trees. One of so many seconds would find more on one machine than on another.
+ */
+export const trees = (evaluations) => ({ evaluations, timeout: undefined });
+
+/** A search from this species that goes on until it is stopped; then this very tree is looked for in a moment. */
+export const endless = (from) => ({ ...trees(1e6), individual: "20trees", from });
+
+/** Runs a fit to its score card; its likeness. */
+export async function fitted(page, options) {
+  await start(page, options);
   await page.getByTestId("score").waitFor({ timeout: 120_000 });
+  return Number(await page.locator(".score .big").textContent());
 }
+
+/**
+ * A fit for those who look at something else than what it finds: from a known species, so that the goal is compared with
+ * none, of few trees, and judged in half a second.
+ */
+export const shortFit = (page, from = "palm") => fitted(page, { evaluations: 40, timeout: 5, from });
 
 export const modelView = (page, state) => page.locator(`[data-testid="model"][data-state="${state}"]`);
 
