@@ -15,7 +15,13 @@ export async function open(folder = dist) {
   const server = await serve(folder);
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    args: [
+      "--no-sandbox",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+      // Without a graphics card the page itself is put together faster without pretending to have one.
+      "--disable-gpu-compositing",
+    ],
   });
   return {
     address: server.address,
@@ -92,8 +98,8 @@ function noteWork() {
   };
 
   /** In words; empty when there is nothing. */
-  const work = () => [
-    ...[...calls.values()].flatMap((each) => [...each.values()].map((op) => `call ${op}`)),
+  const work = (workers) => [
+    ...(workers ? [...calls.values()].flatMap((each) => [...each.values()].map((op) => `call ${op}`)) : []),
     ...[...timers.values()].map((wait) => `timer of ${wait} ms`),
     ...(frames.size > 0 ? ["a picture of the screen"] : []),
     ...(decoding > 0 ? ["a picture that is decoded"] : []),
@@ -103,12 +109,12 @@ function noteWork() {
       .map((each) => `animation of ${each.effect.target?.className}`),
   ];
   /** True after some pictures of the screen in which there was no work: observers and promises have had their turn. */
-  window.rest = (patience) =>
+  window.rest = (patience, workers) =>
     new Promise((resolve) => {
       const until = performance.now() + patience;
       let calm = 0;
       const look = () => {
-        const now = work();
+        const now = work(workers);
         calm = now.length === 0 ? calm + 1 : 0;
         if (calm > 5) resolve("");
         else if (performance.now() > until) resolve(now.join(", ") || "little");
@@ -118,9 +124,12 @@ function noteWork() {
     });
 }
 
-/** The page has done all that it had begun, and draws nothing more. */
-export async function atRest(page, patience = PATIENCE) {
-  const work = await page.evaluate((patience) => window.rest(patience), patience);
+/** The page has done all that it had begun, and draws nothing more; its workers may be left out. */
+export async function atRest(page, { workers = true } = {}) {
+  const work = await page.evaluate(
+    ([patience, workers]) => window.rest(patience, workers),
+    [PATIENCE, workers],
+  );
   assert.equal(work, "", "the page is not at rest");
 }
 
@@ -138,11 +147,9 @@ export async function newPage(studio, { first, ...options } = {}, hash = "") {
   });
   await context.grantPermissions(["clipboard-read", "clipboard-write"]);
   const problems = [];
-  const origin = new URL(studio.address).origin;
-  await context.route("**/*", (route) => {
-    const address = route.request().url();
-    if (address.startsWith(origin) || /^(blob|data):/.test(address)) return route.continue();
-    problems.push(`request to ${address}`);
+  const own = new URL(studio.address).origin.replaceAll(".", "\\.");
+  await context.route(new RegExp(`^(?!${own}/|blob:|data:)`), (route) => {
+    problems.push(`request to ${route.request().url()}`);
     return route.abort();
   });
   await context.addInitScript(noteWork);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { atRest, newPage, open, PATIENCE } from "./browser.mjs";
-import { drop, endless, fitRoom, ink, inkIs, shortFit, start } from "./fit-room.mjs";
+import { drop, endless, fitRoom, ink, inkIs, shortFit, start, tell } from "./fit-room.mjs";
 
 let studio;
 before(async () => {
@@ -199,6 +199,7 @@ test("keys undo the brush, and the focus stays with what is to be done next", as
   await page.locator(".facts", { hasText: "drawn" }).waitFor();
   await atRest(page);
   assert.equal(await page.evaluate(() => document.activeElement.tagName), "BODY");
+  await tell(page, endless("bamboo"));
   await page.getByTestId("start").focus();
   await page.keyboard.press("Enter");
   await page.getByTestId("pause").waitFor({ timeout: PATIENCE });

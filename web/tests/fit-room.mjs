@@ -21,19 +21,23 @@ export async function library() {
 
 export const inkOf = async (png) => (await library()).Goal.read("silhouette.png", png, "off").pixels();
 
-/** Begins a fit with these options of the library beside those of the page. */
+/** Options of the library for the fits that follow, beside those of the page. */
+export const tell = (page, options) => page.evaluate((options) => window.studio.tell(options), options);
+
+/** Begins a fit with these options. */
 export async function start(page, options = {}) {
-  await page.evaluate((options) => window.studio.tell(options), options);
+  await tell(page, options);
   await page.getByTestId("start").click();
 }
 
-/**
- * A fit of so many trees. One of so many seconds would find more on one machine than on another.
- */
+/** A fit of so many trees: one of so many seconds would find more on one machine than on another. */
 export const trees = (evaluations) => ({ evaluations, timeout: undefined });
 
-/** A search from this species that goes on until it is stopped; then this very tree is looked for in a moment. */
-export const endless = (from) => ({ ...trees(1e6), individual: "20trees", from });
+/** Comparing a goal with all known species takes seconds, unless a fit begins from one; then small trees do too. */
+const beginning = (from) => (from ? { from, size: 64 } : {});
+
+/** A search that goes on until it is stopped; then this very tree is looked for in a moment. */
+export const endless = (from) => ({ ...trees(1e6), individual: "20trees", ...beginning(from) });
 
 /** Runs a fit to its score card; its likeness. */
 export async function fitted(page, options) {
@@ -42,11 +46,8 @@ export async function fitted(page, options) {
   return Number(await page.locator(".score .big").textContent());
 }
 
-/**
- * A fit for those who look at something else than what it finds: from a known species, so that the goal is compared with
- * none, of few trees, and judged in half a second.
- */
-export const shortFit = (page, from = "palm") => fitted(page, { evaluations: 40, timeout: 5, from });
+/** A fit for those who look at something else than what it finds. */
+export const shortFit = (page, from = "palm") => fitted(page, { ...trees(40), ...beginning(from) });
 
 export const modelView = (page, state) => page.locator(`[data-testid="model"][data-state="${state}"]`);
 
