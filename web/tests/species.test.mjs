@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import validator from "gltf-validator";
-import { atRest, newPage, open, saved } from "./browser.mjs";
+import { atRest, newPage, open, PATIENCE, saved } from "./browser.mjs";
 
 let studio;
 before(async () => {
@@ -138,7 +138,7 @@ test("a file has the triangles that were chosen, and its bark and twigs have pic
   await page.getByLabel("Download", { exact: true }).first().check();
   const file = async (budget) => {
     await page.getByTestId("budget").selectOption(budget);
-    const waiting = page.waitForEvent("download");
+    const waiting = page.waitForEvent("download", { timeout: PATIENCE });
     await page.getByTestId("export-glb").click();
     const bytes = new Uint8Array(await readFile(await (await waiting).path()));
     return { bytes, report: await validator.validateBytes(bytes) };
