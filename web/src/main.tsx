@@ -11,9 +11,10 @@ import "./styles/gallery.css";
 import { App } from "./app";
 import { reportDeaths } from "./engine/client";
 import { wasmModule } from "./engine/module";
+import type { FitOptions } from "./engine/protocol";
 import { startOffline } from "./offline/offline";
 import { fitLink, restoreFit } from "./rooms/fit/autosave";
-import { elapsed, progress } from "./rooms/fit/fit-state";
+import { elapsed, progress, told } from "./rooms/fit/fit-state";
 import { masks } from "./rooms/fit/goal-state";
 import { mapLink, times } from "./rooms/map/map-state";
 import { say, sayError } from "./state/notes";
@@ -30,14 +31,17 @@ register(speciesLink);
 register(mapLink);
 register(fitLink);
 
-// For the console and the tests: what the graphics card holds, how fast the map answers, how far a search is, how
-// much undo holds.
+// For the console and the tests: what the graphics card holds, how fast the map answers, how far a search is, options of
+// the next one, how much undo holds.
 Object.assign(window, {
   studio: {
     memory: () => view()?.memory() ?? null,
     mapTimes: times,
     undoBytes: () => masks.bytes(),
     search: () => ({ seconds: elapsed.peek(), trees: progress.peek()?.evaluations ?? 0 }),
+    tell: (options: FitOptions) => {
+      told.options = options;
+    },
   },
 });
 

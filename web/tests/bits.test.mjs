@@ -11,10 +11,14 @@ import { runSteps } from "./steps.mjs";
 
 const at = (path) => fileURLToPath(new URL(path, import.meta.url));
 const expected = readFileSync(at("../../tests/data/bits.csv"), "utf8").trim().split("\n").slice(1);
+const drawings = readFileSync(at("../public/known.bin"));
 const palm = readFileSync(at("../../targets/palm.png"));
 
-/** Everything that is compared, by the functions of a loaded module; runs in Node and in the browser. */
-function bits(pleach, runSteps, names, goal) {
+/**
+ * Everything that is compared, by the functions of a loaded module; runs in Node and in the browser. With `drawings` of
+ * the known species, as in the page, the fit need not grow them all; in parity.test.mjs it does.
+ */
+function bits(pleach, runSteps, names, goal, drawings) {
   const fnv = (bytes) => {
     let hash = 0xcbf29ce484222325n;
     for (const byte of bytes) hash = ((hash ^ BigInt(byte)) * 0x100000001b3n) & 0xffffffffffffffffn;
@@ -28,6 +32,7 @@ function bits(pleach, runSteps, names, goal) {
     if (what === "fit") {
       const options = { height: 14, evaluations: 300, individual: "off" };
       const fit = new pleach.Fit(pleach.Goal.read("palm.png", goal, "auto"), JSON.stringify(options));
+      fit.use_drawings(drawings);
       runSteps(fit, pleach.Evaluator);
       return `${name},${text(JSON.parse(fit.finish(() => {})).toml)}`;
     }
@@ -43,13 +48,14 @@ const names = expected.map((line) => line.split(",")[0]);
 test("in Node", async () => {
   const pleach = await import("../src/wasm/pleach_web.js");
   await pleach.default({ module_or_path: readFileSync(at("../src/wasm/pleach_web_bg.wasm")) });
-  assert.deepEqual(bits(pleach, runSteps, names, palm), expected);
+  assert.deepEqual(bits(pleach, runSteps, names, palm, drawings), expected);
 });
 
 test("in Chromium", async () => {
   const types = { js: "text/javascript", wasm: "application/wasm" };
   const server = createServer((request, response) => {
     const name = request.url.slice(1);
+    if (name === "known.bin") return response.end(drawings);
     if (!/^pleach_web(_bg)?\.(js|wasm)$/.test(name)) return response.end("<!doctype html>");
     response.setHeader("content-type", types[name.split(".").pop()]);
     return response.end(readFileSync(at(`../src/wasm/${name}`)));
@@ -66,8 +72,9 @@ test("in Chromium", async () => {
       async ([source, steps, names, goal]) => {
         const pleach = await import("/pleach_web.js");
         await pleach.default({ module_or_path: fetch("/pleach_web_bg.wasm") });
+        const drawings = new Uint8Array(await (await fetch("/known.bin")).arrayBuffer());
         const [of, runSteps] = [source, steps].map((text) => new Function(`return ${text}`)());
-        return of(pleach, runSteps, names, Uint8Array.from(goal));
+        return of(pleach, runSteps, names, Uint8Array.from(goal), drawings);
       },
       [bits.toString(), runSteps.toString(), names, [...palm]],
     );

@@ -1,4 +1,5 @@
 // A browser on the built page, which lets no request leave the page's own origin.
+import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
@@ -14,7 +15,13 @@ export async function open(folder = dist) {
   const server = await serve(folder);
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    args: [
+      "--no-sandbox",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+      // Without a graphics card the page itself is put together faster without pretending to have one.
+      "--disable-gpu-compositing",
+    ],
   });
   return {
     address: server.address,
@@ -28,8 +35,109 @@ export async function open(folder = dist) {
   };
 }
 
-/** A new page; `problems` fills with foreign requests, console errors and refusals of the policy. */
-export async function newPage(studio, options = {}, hash = "") {
+/**
+ * Runs in the page before its own scripts. It notes what the page has begun and not ended: calls to workers, timers,
+ * pictures of the screen that it has asked for, pictures that are decoded. Then [atRest] need not guess how long that takes.
+ */
+function noteWork() {
+  /** Longer ones are not waited for: messages that go away by themselves. */
+  const SOON = 2000;
+  const calls = new Map();
+  const timers = new Map();
+  const frames = new Set();
+  let decoding = 0;
+  const { setTimeout, clearTimeout, requestAnimationFrame, cancelAnimationFrame, createImageBitmap } = window;
+
+  window.Worker = class extends Worker {
+    constructor(...how) {
+      super(...how);
+      calls.set(this, new Map());
+      this.addEventListener("message", ({ data }) => {
+        if (data.kind !== "progress") calls.get(this)?.delete(data.id);
+      });
+      this.addEventListener("error", () => calls.delete(this));
+    }
+
+    postMessage(message, ...rest) {
+      if (message.op) calls.get(this)?.set(message.id, message.op);
+      super.postMessage(message, ...rest);
+    }
+
+    terminate() {
+      calls.delete(this);
+      super.terminate();
+    }
+  };
+  window.setTimeout = (run, wait = 0, ...rest) => {
+    const id = setTimeout(() => {
+      timers.delete(id);
+      run(...rest);
+    }, wait);
+    if (wait <= SOON) timers.set(id, wait);
+    return id;
+  };
+  window.clearTimeout = (id) => {
+    timers.delete(id);
+    clearTimeout(id);
+  };
+  window.requestAnimationFrame = (run) => {
+    const id = requestAnimationFrame((time) => {
+      frames.delete(id);
+      run(time);
+    });
+    frames.add(id);
+    return id;
+  };
+  window.cancelAnimationFrame = (id) => {
+    frames.delete(id);
+    cancelAnimationFrame(id);
+  };
+  window.createImageBitmap = (...what) => {
+    decoding++;
+    return createImageBitmap(...what).finally(() => decoding--);
+  };
+
+  /** In words; empty when there is nothing. */
+  const work = (workers) => [
+    ...(workers ? [...calls.values()].flatMap((each) => [...each.values()].map((op) => `call ${op}`)) : []),
+    ...[...timers.values()].map((wait) => `timer of ${wait} ms`),
+    ...(frames.size > 0 ? ["a picture of the screen"] : []),
+    ...(decoding > 0 ? ["a picture that is decoded"] : []),
+    ...document
+      .getAnimations()
+      .filter((each) => each.playState === "running" && each.effect.getTiming().iterations !== Infinity)
+      .map((each) => `animation of ${each.effect.target?.className}`),
+  ];
+  /** True after some pictures of the screen in which there was no work: observers and promises have had their turn. */
+  window.rest = (patience, workers) =>
+    new Promise((resolve) => {
+      const until = performance.now() + patience;
+      let calm = 0;
+      const look = () => {
+        const now = work(workers);
+        calm = now.length === 0 ? calm + 1 : 0;
+        if (calm > 5) resolve("");
+        else if (performance.now() > until) resolve(now.join(", ") || "little");
+        else requestAnimationFrame(look);
+      };
+      look();
+    });
+}
+
+/** The page has done all that it had begun, and draws nothing more; its workers may be left out. */
+export async function atRest(page, { workers = true } = {}) {
+  const work = await page.evaluate(
+    ([patience, workers]) => window.rest(patience, workers),
+    [PATIENCE, workers],
+  );
+  assert.equal(work, "", "the page is not at rest");
+}
+
+/**
+ * A new page; `problems` fills with foreign requests, console errors and refusals of the policy. `first` runs in the page
+ * before its scripts: a function, or one and what it gets.
+ */
+export async function newPage(studio, { first, ...options } = {}, hash = "") {
   const context = await studio.browser.newContext({
     viewport: { width: 1280, height: 800 },
     acceptDownloads: true,
@@ -39,13 +147,13 @@ export async function newPage(studio, options = {}, hash = "") {
   });
   await context.grantPermissions(["clipboard-read", "clipboard-write"]);
   const problems = [];
-  const origin = new URL(studio.address).origin;
-  await context.route("**/*", (route) => {
-    const address = route.request().url();
-    if (address.startsWith(origin) || /^(blob|data):/.test(address)) return route.continue();
-    problems.push(`request to ${address}`);
+  const own = new URL(studio.address).origin.replaceAll(".", "\\.");
+  await context.route(new RegExp(`^(?!${own}/|blob:|data:)`), (route) => {
+    problems.push(`request to ${route.request().url()}`);
     return route.abort();
   });
+  await context.addInitScript(noteWork);
+  if (first) await context.addInitScript(...[first].flat());
   const page = await context.newPage();
   page.setDefaultTimeout(20_000);
   page.on("console", (message) => {

@@ -1,7 +1,7 @@
 // Cards of the species room show leaves.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { newPage, open, PATIENCE } from "./browser.mjs";
+import { atRest, newPage, open } from "./browser.mjs";
 
 let studio;
 before(async () => {
@@ -12,9 +12,8 @@ after(() => studio?.close());
 /** How many pixels of the view are green, once the tree is drawn. */
 async function green(page, leaves) {
   await page.locator(".stagebar select").selectOption(leaves);
-  await page.waitForTimeout(3000);
-  await page.waitForFunction(() => !document.querySelector(".busy.on"), null, { timeout: PATIENCE });
-  await page.waitForTimeout(1000);
+  await atRest(page);
+  assert.equal(await page.locator(".busy.on").count(), 0);
   const png = await page.getByTestId("tree").screenshot();
   return page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
@@ -57,11 +56,11 @@ test("cards cover what leaves cover, and are no rectangles", async () => {
   const before = await textures();
   await page.locator('input[type="number"][aria-label^="g_scale"]').first().fill("15");
   await page.locator('input[type="number"][aria-label^="g_scale"]').first().press("Enter");
-  await page.waitForTimeout(4000);
+  await atRest(page);
   assert.equal((await leafTriangles(page)) > triangles, true);
   assert.equal(await textures(), before);
   await page.getByLabel("Start from").selectOption("built:palm");
-  await page.waitForTimeout(5000);
+  await atRest(page);
   assert.equal(await textures(), before);
   assert.deepEqual(problems, []);
   await context.close();
@@ -81,7 +80,7 @@ test("a tree is shown without pictures of leaves where they cannot be read", asy
       window.reads ? read(...what) : Promise.reject(new Error("damaged"));
   });
   await page.locator(".stagebar select").selectOption("cards");
-  await page.waitForTimeout(4000);
+  await atRest(page);
   await page.evaluate(() => {
     window.reads = true;
   });

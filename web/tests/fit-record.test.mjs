@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { newPage, open } from "./browser.mjs";
-import { drop, fitRoom, ink, inkIs, shortFit, start } from "./fit-room.mjs";
+import { atRest, newPage, open, PATIENCE } from "./browser.mjs";
+import { drop, endless, fitRoom, ink, inkIs, shortFit, start, tell } from "./fit-room.mjs";
 
 let studio;
 before(async () => {
@@ -21,13 +21,13 @@ test("a result goes with its goal, in the page and in what is stored", async () 
   await page.getByLabel("Goals of the page").selectOption("acer.png");
   await facts("acer");
   assert.equal(await results(), 0);
-  await page.waitForTimeout(1200);
+  await atRest(page);
   await page.reload();
   await facts("acer");
   assert.equal(await results(), 0);
   assert.equal(await page.getByTestId("start").textContent(), "Fit");
   // Another goal ends a search.
-  await start(page);
+  await start(page, endless("acer"));
   await page.getByTestId("overlay").waitFor();
   await drop(page, "drawn.png", readFileSync(new URL("../public/targets/bamboo.png", import.meta.url)));
   await facts("drawn");
@@ -54,8 +54,10 @@ test("the last choice is the goal, however long each of them takes", async () =>
   assert.ok(await page.getByTestId("start").isDisabled());
   await drop(page, "drawn.png", readFileSync(new URL("../public/targets/bamboo.png", import.meta.url)));
   await page.locator(".facts", { hasText: "drawn" }).waitFor();
+  const came = page.waitForResponse("**/targets/acer.png");
   arrive();
-  await page.waitForTimeout(1500);
+  await (await came).finished();
+  await atRest(page);
   assert.match(await page.locator(".facts").textContent(), /^drawn/);
   assert.equal(await page.getByLabel("Height, m").inputValue(), "12");
   assert.deepEqual(problems, []);
@@ -116,18 +118,20 @@ test("a search that is given up before it begins writes to no goal", async () =>
   await drop(page, "drawn.png", readFileSync(new URL("../public/targets/bamboo.png", import.meta.url)));
   await page.getByText("The search for palm has ended: drawn is the goal now.").waitFor();
   await page.getByTestId("start").waitFor();
+  const came = page.waitForResponse("**/known.bin");
   arrive();
-  await page.waitForTimeout(3000);
+  await (await came).finished();
+  await atRest(page);
   assert.equal(await page.locator('[data-testid="score"], [data-testid="overlay"]').count(), 0);
   assert.equal(await page.getByTestId("start").textContent(), "Fit");
   // A pause is left only to end.
-  await start(page);
+  await start(page, endless("bamboo"));
   await page.getByTestId("overlay").waitFor();
   await page.getByTestId("pause").click();
   await page.getByText("Paused").waitFor();
   await drop(page, "other.png", readFileSync(new URL("../public/targets/acer.png", import.meta.url)));
   await page.getByText("The search for drawn has ended: other is the goal now.").waitFor();
-  await page.waitForTimeout(1500);
+  await atRest(page);
   assert.equal(await page.locator('.panelfoot .alert, [data-testid="overlay"]').count(), 0);
   assert.equal(await page.getByTestId("start").textContent(), "Fit");
   assert.deepEqual(problems, []);
@@ -139,12 +143,12 @@ test("a picture that was dropped by mistake does not cost the fit before it", as
   await shortFit(page);
   const likeness = await page.locator(".score .big").textContent();
   // Nor does a second fit that is cancelled.
-  await page.getByTestId("start").click();
+  await start(page);
   await page.getByRole("button", { name: "Cancel" }).click();
   await page.getByTestId("start").waitFor();
   assert.equal(await page.locator(".score .big").textContent(), likeness);
   // Nor one that the picture comes into.
-  await page.getByTestId("start").click();
+  await start(page, endless("palm"));
   await page.getByTestId("score").waitFor({ state: "detached" });
   await drop(page, "drawn.png", readFileSync(new URL("../public/targets/bamboo.png", import.meta.url)));
   await page.getByRole("button", { name: "Back to palm and its tree" }).click();
@@ -193,11 +197,12 @@ test("keys undo the brush, and the focus stays with what is to be done next", as
   await page.evaluate(() => document.activeElement.blur());
   await drop(page, "drawn.png", readFileSync(new URL("../public/targets/bamboo.png", import.meta.url)));
   await page.locator(".facts", { hasText: "drawn" }).waitFor();
-  await page.waitForTimeout(300);
+  await atRest(page);
   assert.equal(await page.evaluate(() => document.activeElement.tagName), "BODY");
+  await tell(page, endless("bamboo"));
   await page.getByTestId("start").focus();
   await page.keyboard.press("Enter");
-  await page.getByTestId("pause").waitFor();
+  await page.getByTestId("pause").waitFor({ timeout: PATIENCE });
   assert.equal(await page.evaluate(() => document.activeElement.tagName), "BUTTON");
   await context.close();
 });

@@ -21,37 +21,33 @@ export async function library() {
 
 export const inkOf = async (png) => (await library()).Goal.read("silhouette.png", png, "off").pixels();
 
-export const start = async (page) => {
-  await page.getByRole("radio", { name: "10 s" }).check();
+/** Options of the library for the fits that follow, beside those of the page. */
+export const tell = (page, options) => page.evaluate((options) => window.studio.tell(options), options);
+
+/** Begins a fit with these options. */
+export async function start(page, options = {}) {
+  await tell(page, options);
   await page.getByTestId("start").click();
-};
-
-/** Runs a fit to its score card; the likeness, and the tasks of the page's own thread above 50 ms. */
-export async function fitted(page) {
-  await page.evaluate(() => {
-    window.stalls = [];
-    const watch = (list) =>
-      window.stalls.push(
-        ...list
-          .getEntries()
-          .map((entry) => `${Math.round(entry.duration)} ms at ${Math.round(entry.startTime)}`),
-      );
-    new PerformanceObserver(watch).observe({ type: "longtask" });
-  });
-  await start(page);
-  await page.getByTestId("score").waitFor({ timeout: 120_000 });
-  const likeness = Number(await page.locator(".score .big").textContent());
-  return { likeness, stalls: await page.evaluate(() => window.stalls) };
 }
 
-/** A search that is ended soon. */
-export async function shortFit(page) {
-  await start(page);
-  await page.getByTestId("overlay").waitFor();
-  await page.waitForTimeout(2000);
-  await page.getByTestId("stop").click();
+/** A fit of so many trees: one of so many seconds would find more on one machine than on another. */
+export const trees = (evaluations) => ({ evaluations, timeout: undefined });
+
+/** Comparing a goal with all known species takes seconds, unless a fit begins from one; then small trees do too. */
+const beginning = (from) => (from ? { from, size: 64 } : {});
+
+/** A search that goes on until it is stopped; then this very tree is looked for in a moment. */
+export const endless = (from) => ({ ...trees(1e6), individual: "20trees", ...beginning(from) });
+
+/** Runs a fit to its score card; its likeness. */
+export async function fitted(page, options) {
+  await start(page, options);
   await page.getByTestId("score").waitFor({ timeout: 120_000 });
+  return Number(await page.locator(".score .big").textContent());
 }
+
+/** A fit for those who look at something else than what it finds. */
+export const shortFit = (page, from = "palm") => fitted(page, { ...trees(40), ...beginning(from) });
 
 export const modelView = (page, state) => page.locator(`[data-testid="model"][data-state="${state}"]`);
 

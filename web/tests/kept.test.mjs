@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { deflateRawSync } from "node:zlib";
-import { newPage, open, PATIENCE } from "./browser.mjs";
+import { atRest, newPage, open, PATIENCE } from "./browser.mjs";
 import { fitRoom, library, shortFit } from "./fit-room.mjs";
 
 let studio;
@@ -19,7 +19,7 @@ const press = (page, name) => page.getByRole("button", { name, exact: true }).cl
 async function keep(page, goal) {
   await page.getByLabel("Goals of the page").selectOption(`${goal}.png`);
   await page.getByTestId("score").waitFor({ state: "detached" });
-  await shortFit(page);
+  await shortFit(page, goal);
   await page.getByTestId("keep-fit").click();
   await entries(page).nth(1).waitFor();
 }
@@ -89,7 +89,7 @@ test("kept fits are opened again, renamed, duplicated, compared, and deleted wit
   await page.keyboard.press("Enter");
   await comparison.locator("h4", { hasText: "my palm" }).waitFor();
   await comparison.locator("th", { hasText: "my palm" }).waitFor();
-  await page.waitForTimeout(1000);
+  await atRest(page);
   assert.equal(await page.evaluate(() => window.scrolls), 0);
   await press(page, "Duplicate my palm");
   assert.deepEqual(await names(page), ["quaking aspen", "my palm", "my palm, copy"]);
@@ -117,19 +117,15 @@ test("kept fits are opened again, renamed, duplicated, compared, and deleted wit
 });
 
 /** The page with this in its store. */
-async function stored(values) {
-  const { page, problems, context } = await newPage(studio, {}, "#fit");
-  await page.locator(".targets img").first().waitFor();
-  await page.goto("about:blank");
-  await context.addInitScript((values) => {
+function stored(values) {
+  const store = (values) => {
     if (sessionStorage.getItem("once")) return;
     sessionStorage.setItem("once", "1");
     for (const [key, value] of Object.entries(values)) {
       localStorage.setItem(`pleach-studio.${key}`, JSON.stringify(value));
     }
-  }, values);
-  await page.goto(`${studio.address}#fit`);
-  return { page, problems, context };
+  };
+  return newPage(studio, { first: [store, values] }, "#fit");
 }
 
 const THUMB = { width: 8, height: 1, ink: "_w" };
@@ -252,7 +248,7 @@ test("lists that are no lists are empty ones, and those of a newer page stay as 
   const newer = { version: 9, fits: "otherwise" };
   const { page, problems, context } = await stored({ species: { version: 1, species: {} }, fits: newer });
   await page.locator(".welcome").waitFor();
-  await page.waitForTimeout(1000);
+  await atRest(page);
   assert.equal(await entries(page).count(), 0);
   const kept = await page.evaluate(() => localStorage.getItem("pleach-studio.fits"));
   assert.deepEqual(JSON.parse(kept), newer);

@@ -38,22 +38,6 @@ test("a dragged point gives the species that `pleach blend --point` writes", asy
   await context.close();
 });
 
-test("the tree follows the pointer", async () => {
-  const { page, box, context } = await map();
-  // The thumbnails first: they share the cores.
-  await page.waitForTimeout(3000);
-  for (let step = 0; step < 40; step++) {
-    await page.mouse.move(box.x + box.width * (0.3 + 0.01 * step), box.y + box.height * 0.6);
-    await page.waitForTimeout(60);
-  }
-  await page.waitForTimeout(500);
-  const middle = (list) => list.toSorted((a, b) => a - b)[list.length >> 1];
-  const { coarse, full } = await page.evaluate(() => window.studio.mapTimes);
-  console.log(`coarse ${middle(coarse).toFixed(1)} ms, full ${middle(full).toFixed(1)} ms, by the median`);
-  assert.ok(middle(full) < 400);
-  await context.close();
-});
-
 test("keys move the point, Enter opens its species", async () => {
   const { page, context } = await map("#map?at=0,0.5");
   await page.locator(".plane").focus();

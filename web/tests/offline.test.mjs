@@ -5,8 +5,8 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { buildOf, writeBuild } from "../tools/offline.mjs";
-import { dist, newPage, open, PATIENCE } from "./browser.mjs";
-import { start } from "./fit-room.mjs";
+import { atRest, dist, newPage, open, PATIENCE } from "./browser.mjs";
+import { shortFit } from "./fit-room.mjs";
 
 const WORKERS = { serviceWorkers: "allow" };
 
@@ -36,8 +36,7 @@ test("after the first visit the page opens, grows a species and fits a goal with
   await page.getByRole("link", { name: "Fit" }).click();
   await page.getByRole("button", { name: "palm", exact: true }).click();
   await page.getByTestId("goal").waitFor();
-  await start(page);
-  await page.getByTestId("score").waitFor({ timeout: 120_000 });
+  await shortFit(page);
   await page.locator('[data-testid="model"][data-state="shown"]').waitFor({ timeout: PATIENCE });
   const other = await context.newPage();
   await other.goto(`${studio.address}index.html#gallery`);
@@ -50,7 +49,16 @@ test("after the first visit the page opens, grows a species and fits a goal with
 
 test("nothing is said of working offline where the copy is incomplete or there is none", async (t) => {
   const studio = await opened(t);
-  const { page, context } = await newPage(studio, WORKERS, "#fit");
+  const first = () => {
+    window.answers = 0;
+    window.MessageChannel = class extends MessageChannel {
+      constructor() {
+        super();
+        this.port1.addEventListener("message", () => window.answers++);
+      }
+    };
+  };
+  const { page, context } = await newPage(studio, { ...WORKERS, first }, "#fit");
   await ready(page);
   await page.evaluate(async () => {
     const [name] = await caches.keys();
@@ -59,12 +67,15 @@ test("nothing is said of working offline where the copy is incomplete or there i
   });
   await page.reload();
   await page.locator(".targets img").first().waitFor();
-  await page.waitForTimeout(2000);
+  // The service worker has said whether it has all.
+  await page.waitForFunction(() => window.answers === 1);
+  await atRest(page);
   assert.equal(await page.getByTestId("works-offline").count(), 0);
   await context.close();
   const blocked = await newPage(studio, {}, "#fit");
   await blocked.page.locator(".targets img").first().waitFor();
-  await blocked.page.waitForTimeout(2000);
+  await blocked.page.waitForLoadState();
+  await atRest(blocked.page);
   assert.equal(await blocked.page.getByTestId("works-offline").count(), 0);
 });
 
@@ -191,13 +202,25 @@ test("another copy of the page below this one's path does not keep a newer build
 test("a host in the middle of an update does not break the page", async (t) => {
   const copy = copyOfPage();
   const studio = await opened(t, copy);
-  const { page } = await newPage(studio, WORKERS, "#fit");
+  // What becomes of each newer service worker.
+  const first = async () => {
+    window.ends = [];
+    const registration = await navigator.serviceWorker.getRegistration();
+    const follow = () => {
+      const worker = registration.installing;
+      worker?.addEventListener("statechange", () => window.ends.push(worker.state));
+    };
+    registration?.addEventListener("updatefound", follow);
+    if (registration) follow();
+  };
+  const { page } = await newPage(studio, { ...WORKERS, first }, "#fit");
   await ready(page);
   copy.update("second00");
   // One file is not the one that the new list names.
   copy.change("targets/list.json", (text) => `${text} `);
   await page.reload();
-  await page.waitForTimeout(4000);
+  await page.waitForFunction(() => window.ends.includes("redundant"), null, { timeout: PATIENCE });
+  await atRest(page);
   assert.equal(await offered(page).count(), 0);
   await grown(page);
   assert.equal(await buildShown(page), "first");

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import validator from "gltf-validator";
-import { newPage, open, saved } from "./browser.mjs";
+import { atRest, newPage, open, PATIENCE, saved } from "./browser.mjs";
 
 let studio;
 before(async () => {
@@ -138,7 +138,7 @@ test("a file has the triangles that were chosen, and its bark and twigs have pic
   await page.getByLabel("Download", { exact: true }).first().check();
   const file = async (budget) => {
     await page.getByTestId("budget").selectOption(budget);
-    const waiting = page.waitForEvent("download");
+    const waiting = page.waitForEvent("download", { timeout: PATIENCE });
     await page.getByTestId("export-glb").click();
     const bytes = new Uint8Array(await readFile(await (await waiting).path()));
     return { bytes, report: await validator.validateBytes(bytes) };
@@ -169,8 +169,7 @@ test("a file as the view shows it has its triangles, and the page says how large
   ]) {
     await page.getByRole("radio", { name: level }).check();
     await page.locator(".stagebar select").selectOption(leaves);
-    await page.waitForFunction(() => !document.querySelector(".busy.on"));
-    await page.waitForTimeout(500);
+    await atRest(page);
     const shown = (await number("Bark triangles")) + (await number("Leaf triangles"));
     const waiting = page.waitForEvent("download");
     await page.getByTestId("export-glb").click();
@@ -185,28 +184,23 @@ test("a file as the view shows it has its triangles, and the page says how large
 });
 
 test("a step of a slider compiles no shader", async () => {
-  const { page, context } = await newPage(studio);
-  await context.addInitScript(() => {
+  const first = () => {
     window.links = 0;
-    for (const kind of [WebGL2RenderingContext]) {
-      const link = kind.prototype.linkProgram;
-      kind.prototype.linkProgram = function (program) {
-        window.links++;
-        link.call(this, program);
-      };
-    }
-  });
-  await page.goto(`${studio.address}#species?s=acer`);
-  await page.reload();
+    const link = WebGL2RenderingContext.prototype.linkProgram;
+    WebGL2RenderingContext.prototype.linkProgram = function (program) {
+      window.links++;
+      link.call(this, program);
+    };
+  };
+  const { page, context } = await newPage(studio, { first }, "#species?s=acer");
   await page.locator('[data-testid="counts"] dd').first().waitFor();
   await page.getByRole("radio", { name: "LOD 2" }).check();
-  await page.waitForTimeout(3000);
+  await atRest(page);
   const before = await page.evaluate(() => window.links);
   assert.ok(before > 0);
   for (const height of [14, 15, 16, 17]) {
     await set(page, "g_scale", height);
-    await page.locator(`[data-testid="tree"]`).waitFor();
-    await page.waitForTimeout(600);
+    await atRest(page);
   }
   assert.equal(await page.evaluate(() => window.links), before);
   await context.close();

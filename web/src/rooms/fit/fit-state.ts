@@ -23,6 +23,9 @@ export const leafiness = signal<NonNullable<FitOptions["leaves"]>>("auto");
 /** Whether this very tree is looked for after its kind. */
 export const individual = signal(true);
 
+/** Options that no control of the page sets: see `studio` in main.tsx. */
+export const told: { options: FitOptions } = { options: {} };
+
 export const running = computed(() => phase.value !== "idle");
 export const rate = computed(() => {
   const count = progress.value?.evaluations ?? 0;
@@ -50,6 +53,7 @@ function optionsNow(): FitOptions {
     leaves: leafiness.peek(),
     individual: individual.peek() ? "share" : "off",
     reading: corrections.peek(),
+    ...told.options,
   };
 }
 
