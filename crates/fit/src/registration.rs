@@ -244,7 +244,6 @@ impl Registered<'_> {
         }
         best.0
     }
-
 }
 
 /// The pictures of one tree that a registration looks at.

@@ -16,6 +16,7 @@ mod json;
 mod mesh;
 mod numbers;
 mod params;
+mod pictures;
 mod pool;
 mod prior;
 mod problem;

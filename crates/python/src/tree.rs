@@ -1,16 +1,15 @@
 //! Grown trees: their parts as arrays, their pictures and meshes.
 
-use crate::arrays::{self, column, of_ink, triples};
+use crate::arrays::{self, column, triples};
 use crate::error::{PleachError, of_export, of_growth};
 use crate::seed::Seed;
 use crate::species::Species;
-use crate::view::{self, Direction};
+use crate::pictures::{self, Painting};
+use crate::view::Direction;
 use crate::{foliage, json, mesh, pool, skeleton};
-use numpy::ndarray::Array3;
-use numpy::{IntoPyArray as _, PyArray1, PyArray2, PyArray3};
+use numpy::{PyArray1, PyArray2, PyArray3};
 use pleach::{
-    Bounds, Export, ExportedFile, MeshFormat, Palette, Parts, Preview, PreviewSettings, Skeleton,
-    SkeletonFormat, StemKind, TreeStats,
+    Bounds, Export, ExportedFile, MeshFormat, Palette, Parts, Skeleton, SkeletonFormat, StemKind, TreeStats,
 };
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
@@ -27,16 +26,6 @@ pub(crate) struct Tree {
     pub(crate) seed: u64,
     pub(crate) leaves: bool,
     pub(crate) inner: pleach::Tree,
-}
-
-/// Largest side of a picture that is drawn.
-const MAX_SIDE: u32 = 8192;
-
-fn check_side(size: u32) -> PyResult<()> {
-    if (1..=MAX_SIDE).contains(&size) {
-        return Ok(());
-    }
-    Err(PleachError::new_err(format!("the size is {size} pixels, expected from 1 to {MAX_SIDE}")))
 }
 
 #[pymethods]
@@ -273,24 +262,68 @@ impl Tree {
         size: u32,
         view: Option<Direction>,
     ) -> PyResult<Bound<'py, PyArray2<bool>>> {
-        check_side(size)?;
-        let view = view::view(view)?;
-        of_ink(py, &py.detach(|| pleach::silhouette(&self.inner, view, size)))
+        pictures::silhouette(py, &self.inner, size, view)
+    }
+
+    /// What of the silhouette is stems, bool of shape (size, size): the same frame, without leaves, blossoms and blobs.
+    ///
+    /// >>> import pleach
+    /// >>> tree = pleach.species("acer").grow()
+    /// >>> wood, all = tree.wood(128), tree.silhouette(128)
+    /// >>> bool((wood & ~all).any()), bool(wood.sum() < all.sum())
+    /// (False, True)
+    #[pyo3(signature = (size = 512, *, view = None))]
+    fn wood<'py>(
+        &self,
+        py: Python<'py>,
+        size: u32,
+        view: Option<Direction>,
+    ) -> PyResult<Bound<'py, PyArray2<bool>>> {
+        pictures::wood(py, &self.inner, size, view)
+    }
+
+    /// How far what the silhouette shows is from the viewer, float32 of shape (size, size): metres along the direction of view
+    /// from the plane through the trunk's foot, negative in front of it. NaN where there is no tree.
+    ///
+    /// >>> import numpy, pleach
+    /// >>> tree = pleach.species("acer").grow()
+    /// >>> bool((numpy.isfinite(tree.depth(128)) == tree.silhouette(128)).all())
+    /// True
+    #[pyo3(signature = (size = 512, *, view = None))]
+    fn depth<'py>(
+        &self,
+        py: Python<'py>,
+        size: u32,
+        view: Option<Direction>,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        pictures::depth(py, &self.inner, size, view)
     }
 
     /// A shaded picture, uint8 of shape (size, size, 4): red, green, blue, opacity.
-    #[pyo3(signature = (size = 512, *, view = None, threads = None))]
+    ///
+    /// `season` is spring, summer, autumn or winter, by default the species file's own; `background` is studio, transparent,
+    /// or a colour such as `#dde6ee`; `ground` is shadow, grass or none; `roots` are drawn where the species has some.
+    ///
+    /// >>> import pleach
+    /// >>> tree = pleach.species("acer").grow()
+    /// >>> picture = tree.render(96, season="autumn", background="transparent", ground="none")
+    /// >>> int(picture[0, 0, 3])
+    /// 0
+    #[pyo3(signature = (size = 512, *, view = None, season = None, roots = false, background = None, ground = None, threads = None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn render<'py>(
         &self,
         py: Python<'py>,
         size: u32,
         view: Option<Direction>,
+        season: Option<&str>,
+        roots: bool,
+        background: Option<&str>,
+        ground: Option<&str>,
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let rgba = self.painted(py, size, view, threads)?.rgba;
-        let side = size as usize;
-        let pixels = Array3::from_shape_vec((side, side, 4), rgba).map_err(of_growth)?;
-        Ok(pixels.into_pyarray(py))
+        let painting = Painting { view, season, roots, background, ground, threads };
+        pictures::array(py, pictures::painted(py, &self.species, &self.inner, size, painting)?)
     }
 
     /// Writes the tree to a file, and returns the files that were written: the mesh, and the materials and
@@ -387,7 +420,7 @@ impl Tree {
         /// Pixels a side.
         const SHOWN: u32 = 320;
         let mut png = Vec::new();
-        self.painted(py, SHOWN, None, None)?.write_png(&mut png)?;
+        pictures::painted(py, &self.species, &self.inner, SHOWN, Painting::default())?.write_png(&mut png)?;
         Ok(PyBytes::new(py, &png))
     }
 
@@ -418,29 +451,6 @@ impl Tree {
         let file = made.map_err(of_export)?;
         warn(py, file.note.as_deref())?;
         Ok(file)
-    }
-
-    fn painted(
-        &self,
-        py: Python<'_>,
-        size: u32,
-        view: Option<Direction>,
-        threads: Option<usize>,
-    ) -> PyResult<pleach::Picture> {
-        check_side(size)?;
-        let usual = PreviewSettings { width: size, height: size, ..PreviewSettings::default() };
-        let settings = match view {
-            Some(direction) => {
-                let view = direction.view()?;
-                PreviewSettings { azimuth: view.azimuth, elevation: view.elevation, ..usual }
-            }
-            None => usual,
-        };
-        pool::on(py, threads, || {
-            let palette = Palette::new(&self.species.inner.appearance, None);
-            let tree = palette.dressed(&self.inner);
-            Preview::new(&tree, &palette, size).picture(&settings)
-        })
     }
 }
 

@@ -69,6 +69,17 @@ def test_pictures() -> None:
     picture = tree.render(64, threads=1)
     assert picture.shape == (64, 64, 4) and picture.dtype == np.uint8 and picture.std() > 5
     assert np.array_equal(picture, tree.render(64, threads=3))
+    acer = pleach.species("acer").grow()
+    summer, winter = (acer.render(64, season=season, background="transparent") for season in ("summer", "winter"))
+    assert summer[..., 3].sum() > winter[..., 3].sum() and summer[0, 0, 3] == 0
+    assert tuple(acer.render(64, background="#102030", ground="none")[0, 0]) == (16, 32, 48, 255)
+    assert not np.array_equal(acer.render(64, ground="grass"), acer.render(64))
+    for wrong, words in (({"season": "fall"}, "autumn"), ({"ground": "sea"}, "grass"), ({"background": "sky"}, "dde6ee")):
+        with pytest.raises(pleach.PleachError, match=words):
+            acer.render(64, **wrong)
+    wood, depth, ink = acer.wood(96, view=40), acer.depth(96, view=40), acer.silhouette(96, view=40)
+    assert 0 < wood.sum() < ink.sum() and not (wood & ~ink).any() and wood.dtype == np.bool_
+    assert depth.dtype == np.float32 and (np.isfinite(depth) == ink).all() and np.nanmin(depth) < 0 < np.nanmax(depth)
     assert tree._repr_png_().startswith(b"\x89PNG") and pleach.species("palm")._repr_png_().startswith(b"\x89PNG")
     for wrong in (0, 100_000):
         with pytest.raises(pleach.PleachError):

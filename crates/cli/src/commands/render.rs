@@ -11,7 +11,7 @@ use pleach_mesh::Palette;
 use pleach_render::preview::{Background, Ground};
 use pleach_render::{Picture, Preview, PreviewSettings, png_file};
 use pleach_silhouette::View;
-use pleach_tree::{Color, Season};
+use pleach_tree::Season;
 use pleach_tree::{Growth, Parts, Species, Tree};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -75,7 +75,7 @@ pub(crate) struct Render {
     #[arg(long)]
     roots: bool,
     /// What is behind the tree: studio, transparent, or a colour such as #dde6ee
-    #[arg(long, value_name = "WHAT", default_value = "studio", value_parser = background)]
+    #[arg(long, value_name = "WHAT", default_value = "studio")]
     background: Background,
     /// What the tree stands on
     #[arg(long, value_parser = one_of(GROUNDS), default_value = "shadow")]
@@ -92,16 +92,6 @@ const GROUNDS: &[Choice<Ground>] = &[
     ("grass", "Grass", Ground::Grass),
     ("none", "Nothing", Ground::None),
 ];
-
-fn background(text: &str) -> Result<Background, String> {
-    match text {
-        "studio" => Ok(Background::Studio),
-        "transparent" => Ok(Background::Transparent),
-        color => Color::parse(color)
-            .map(Background::Plain)
-            .ok_or_else(|| "expected studio, transparent, or a colour such as #dde6ee".to_owned()),
-    }
-}
 
 impl Render {
     pub(crate) fn run(&self) -> anyhow::Result<()> {

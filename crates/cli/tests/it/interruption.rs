@@ -188,8 +188,10 @@ fn the_first_guess_can_be_interrupted() {
 fn judging_can_be_interrupted() {
     let dir = Dir::new();
     let goal = target("quaking_aspen.png");
+    // An aspen takes seconds to judge.
     let args = |out: &'static str| {
-        ["fit", &goal, "--out", out, "--size", "140", "--from", "black_tupelo", "--evaluations", "4"].to_vec()
+        let args = ["fit", &goal, "--out", out, "--size", "140", "--from", "quaking_aspen"];
+        [&args[..], &["--evaluations", "4", "--individual", "off"]].concat()
     };
     let mut stopped = spawn(&dir, &args("parts"));
     // With so few evaluations, the second checkpoint is the end of the search.

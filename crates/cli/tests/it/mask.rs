@@ -135,7 +135,7 @@ fn a_fit_makes_the_same_mask() {
     let _ = dir.run(["mask", "photo.png", "-o", "photo-mask.png"]).ok();
     let fit = |goal: &str, out: &str, more: &[&str]| {
         let args = ["fit", goal, "--out", out, "--size", "140", "--from", "acer", "--free", "crown", "-v"];
-        dir.run([&args[..], &["--evaluations", "20"], more].concat())
+        dir.run([&args[..], &["--evaluations", "20", "--individual", "off"], more].concat())
     };
     let auto = fit("photo.png", "auto", &["--mask", "auto"]);
     let _ = auto.ok();

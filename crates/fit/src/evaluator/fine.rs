@@ -192,8 +192,8 @@ mod tests {
 
     #[test]
     fn goals_of_about_one_size_share_plates() {
-        assert_eq!((side_for(256, 200), side_for(180, 256), side_for(64, 64)), (512, 512, 128));
-        assert_eq!((side_for(16, 16), side_for(2048, 9)), (128, 2048));
+        assert_eq!((side_for(256, 200), side_for(180, 256), side_for(64, 64)), (512, 512, 512));
+        assert_eq!((side_for(16, 16), side_for(2048, 9)), (512, 2048));
     }
 
     #[test]

@@ -165,7 +165,19 @@ class Tree:
     @property
     def stats(self) -> dict[str, Any]: ...
     def silhouette(self, size: int = 512, *, view: _View = None) -> npt.NDArray[np.bool_]: ...
-    def render(self, size: int = 512, *, view: _View = None, threads: Optional[int] = None) -> npt.NDArray[np.uint8]: ...
+    def wood(self, size: int = 512, *, view: _View = None) -> npt.NDArray[np.bool_]: ...
+    def depth(self, size: int = 512, *, view: _View = None) -> npt.NDArray[np.float32]: ...
+    def render(
+        self,
+        size: int = 512,
+        *,
+        view: _View = None,
+        season: Optional[_Season] = None,
+        roots: bool = False,
+        background: Optional[str] = None,
+        ground: Optional[Literal["shadow", "grass", "none"]] = None,
+        threads: Optional[int] = None,
+    ) -> npt.NDArray[np.uint8]: ...
     def export(
         self,
         path: Union[str, PathLike[str]],

@@ -1,6 +1,7 @@
 //! How a picture is taken.
 
 use pleach_plant::Color;
+use std::str::FromStr;
 
 /// The background.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,6 +15,23 @@ pub enum Background {
     Plain(Color),
 }
 
+impl FromStr for Background {
+    type Err = String;
+
+    /// `studio`, `transparent`, or a colour such as `#dde6ee`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "studio" => Ok(Self::Studio),
+            "transparent" => Ok(Self::Transparent),
+            color => Color::parse(color).map(Self::Plain).ok_or_else(|| {
+                format!(
+                    "the background is `{text}`, expected studio, transparent, or a colour such as #dde6ee"
+                )
+            }),
+        }
+    }
+}
+
 /// The ground.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ground {
@@ -24,6 +42,32 @@ pub enum Ground {
     Grass,
     /// Nothing.
     None,
+}
+
+impl Ground {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Shadow, Self::Grass, Self::None];
+
+    /// The name in flags.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Shadow => "shadow",
+            Self::Grass => "grass",
+            Self::None => "none",
+        }
+    }
+}
+
+impl FromStr for Ground {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL.into_iter().find(|ground| ground.name() == text).ok_or_else(|| {
+            let known = Self::ALL.map(Self::name).join(", ");
+            format!("there is no ground `{text}`, expected one of {known}")
+        })
+    }
 }
 
 /// How a picture is taken.

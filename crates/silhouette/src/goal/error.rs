@@ -37,6 +37,14 @@ pub enum GoalError {
         /// What converts it to PNG, and by which command.
         converter: &'static str,
     },
+    /// The file is a drawing in SVG that is not painted.
+    #[error("{path} is a drawing that cannot be read here: {detail}; save it as PNG", path = path.display())]
+    Drawing {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        detail: String,
+    },
     /// The file is a picture of a kind that its decoder does not know.
     #[error("{path} is a kind of picture that cannot be read here: {detail}; save it as an ordinary PNG", path = path.display())]
     Unsupported {

@@ -19,6 +19,8 @@ pub(super) const READ: [(ImageFormat, &str); 6] = [
 pub(super) fn known() -> String {
     let names: Vec<&str> =
         READ.iter().filter(|(read, _)| read.reading_enabled()).map(|(_, name)| *name).collect();
+    let drawings = cfg!(feature = "pictures").then_some("SVG");
+    let names: Vec<&str> = names.into_iter().chain(drawings).collect();
     let (last, others) = names.split_last().map_or(("", &names[..]), |(last, others)| (*last, others));
     format!("{} and {last}", others.join(", "))
 }
@@ -35,8 +37,6 @@ pub(super) fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
             _ => None,
         };
     }
-    // White space and a mark of the order of bytes may go before a tag.
-    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
     let begins = |with: &[u8]| head.starts_with(with);
     if begins(b"GIF8") {
         Some(("GIF", "ImageMagick does: magick IN[0] out.png"))
@@ -50,11 +50,18 @@ pub(super) fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
         Some(("Photoshop", "ImageMagick does: magick IN[0] out.png"))
     } else if begins(b"%PDF") {
         Some(("PDF", "poppler does: pdftoppm -png -singlefile IN out"))
-    } else if text.starts_with(b"<svg") || text.starts_with(b"<?xml") {
+    } else if is_svg(head) {
         Some(("SVG", "librsvg does: rsvg-convert IN -o out.png"))
     } else {
         None
     }
+}
+
+/// Whether a file begins as a drawing in SVG does.
+pub(super) fn is_svg(head: &[u8]) -> bool {
+    // White space and a mark of the order of bytes may go before a tag.
+    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
+    [&b"<svg"[..], b"<?xml", b"<!DOCTYPE svg"].iter().any(|tag| text.starts_with(tag))
 }
 
 /// Whether a file begins as a BMP does: two letters, its length, and nothing.

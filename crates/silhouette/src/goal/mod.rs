@@ -29,6 +29,8 @@ mod shrink;
 mod source;
 mod specks;
 mod structure;
+#[cfg(feature = "pictures")]
+mod svg;
 #[cfg(test)]
 mod tests;
 mod tiff;

@@ -3,6 +3,8 @@
 use super::error::GoalError;
 use super::formats::{self, HEAD};
 use super::limits::MAX_BYTES;
+#[cfg(feature = "pictures")]
+use super::svg;
 use image::ImageFormat;
 use std::fs::File;
 use std::io::Read;
@@ -31,7 +33,8 @@ impl Encoded {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`GoalError::Unreadable`], [`GoalError::NotAnImage`] and [`GoalError::TooManyBytes`].
+    /// [`GoalError::Unreadable`], [`GoalError::NotAnImage`], [`GoalError::TooManyBytes`], and [`GoalError::Drawing`] for an
+    /// SVG file that is not painted.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, GoalError> {
         let path = path.as_ref();
         let unreadable = |cause| GoalError::Unreadable { path: path.into(), cause };
@@ -54,7 +57,7 @@ impl Encoded {
         let (path, mut bytes) = (name.into(), Vec::new());
         let read = (|| {
             from.by_ref().take(HEAD as u64).read_to_end(&mut bytes)?;
-            if format(&bytes).is_none() {
+            if format(&bytes).is_none() && !is_drawing(&bytes) {
                 return Ok(false);
             }
             // One byte more, to notice that there is too much.
@@ -67,8 +70,25 @@ impl Encoded {
             Ok(true) if bytes.len() as u64 > MAX_BYTES => {
                 Err(GoalError::TooManyBytes { path, bytes: bytes.len() as u64, limit: MAX_BYTES })
             }
-            Ok(true) => Ok(Self { name: path, bytes, file: None }),
+            Ok(true) => Self { name: path, bytes, file: None }.painted(),
         }
+    }
+
+    /// A drawing as a picture; a picture as it is.
+    #[cfg(feature = "pictures")]
+    fn painted(self) -> Result<Self, GoalError> {
+        if !is_drawing(&self.bytes) {
+            return Ok(self);
+        }
+        match svg::painted(&self.bytes) {
+            Ok(png) => Ok(Self { name: self.name, bytes: png, file: Some(self.bytes) }),
+            Err(detail) => Err(GoalError::Drawing { path: self.name, detail }),
+        }
+    }
+
+    #[cfg(not(feature = "pictures"))]
+    fn painted(self) -> Result<Self, GoalError> {
+        Ok(self)
     }
 
     /// The same, as the conversion of a file of another format with these bytes.
@@ -107,6 +127,11 @@ pub(super) fn refused(path: PathBuf, bytes: &[u8]) -> GoalError {
         Some((format, converter)) => GoalError::OtherFormat { path, format, converter },
         None => GoalError::NotAnImage { path },
     }
+}
+
+/// Whether it is a drawing, and drawings are read.
+fn is_drawing(head: &[u8]) -> bool {
+    cfg!(feature = "pictures") && formats::is_svg(head)
 }
 
 fn format(bytes: &[u8]) -> Option<ImageFormat> {
