@@ -43,8 +43,7 @@ def remove(thing: Any) -> None:
         found = one.modifiers.get(WIND)
         if found is None:
             continue
-        for item in _inputs(found):
-            one.driver_remove(_path(item))
+        # Its drivers go with it.
         one.modifiers.remove(found)
         if one is not thing:
             drop_wind(one.data)

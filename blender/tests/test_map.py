@@ -78,8 +78,15 @@ class Maps(unittest.TestCase):
         self.assertEqual(species_of(oak).generator, "weber-penn")
         # Between species it is called after the two that it has most of.
         (ax, ay), (bx, by) = place_of("acer"), place_of("bamboo")
-        bpy.ops.pleach.map_go(x=(2 * ax + bx) / 3, y=(2 * ay + by) / 3)
+        x, y = (2 * ax + bx) / 3, (2 * ay + by) / 3
+        bpy.ops.pleach.map_go(x=x, y=y)
         self.assertEqual(oak.pleach.species_name, "acer_bamboo")
+        # Its own numbers belong elsewhere, since two axes hold a third of what makes a species.
+        self.assertGreater(abs(scene.module("plane").locate(species_of(oak))[0] - x), 0.001)
+        self.assertAlmostEqual(oak.pleach.map_x, x, places=5)
+        oak.pleach.map_y = y + 0.1
+        self.assertAlmostEqual(oak.pleach.map_x, x, places=5)
+        self.assertAlmostEqual(oak.pleach.map_y, y + 0.1, places=5)
 
     def test_sliders_of_the_place(self) -> None:
         thing = scene.grow("acer")
@@ -113,6 +120,30 @@ class Maps(unittest.TestCase):
         self.assertIsNone(click_at(area, 50, 60), "in another area")
         sidebar.width = 1
         self.assertEqual(click_at(area, 460, 200), (0.9, 0.5))
+
+    def test_each_click_is_a_tree_until_it_is_ended(self) -> None:
+        kind, plane = scene.module("map_operators").PLEACH_OT_map_click, scene.module("plane")
+        width, height = plane.image().size
+        view = types.SimpleNamespace(region_to_view=lambda x, y: (x / width, y / height))
+        window = types.SimpleNamespace(type="WINDOW", x=0, y=0, width=width, height=height, view2d=view)
+        said: list[str] = []
+        operator = types.SimpleNamespace(area=types.SimpleNamespace(regions=[window]), new=False, _is_open=lambda _: True,
+                                         cancel=lambda _: said.append("ended"), report=lambda _, words: said.append(words))
+
+        def event(kind_of: str, x: float = 0, y: float = 0) -> set[str]:
+            happened = types.SimpleNamespace(type=kind_of, value="PRESS", mouse_x=x, mouse_y=y)
+            return kind.modal(operator, bpy.context, happened)
+
+        for name in ("palm", "acer"):
+            column, row = plane.of_species().pixel_at(*place_of(name))
+            self.assertEqual(event("LEFTMOUSE", column, height - row), {"RUNNING_MODAL"})
+            self.assertIn(name, bpy.context.active_object.pleach.species_name)
+        self.assertEqual(len([one for one in bpy.data.objects if one.pleach.is_tree]), 1)
+        self.assertEqual(event("LEFTMOUSE", 5, 300), {"RUNNING_MODAL"})
+        self.assertEqual(said, ["Click inside the frame of the map"])
+        self.assertEqual(event("MIDDLEMOUSE", 500, 300), {"PASS_THROUGH"}, "one may move the view")
+        self.assertEqual(event("ESC"), {"FINISHED"})
+        self.assertEqual(said[1:], ["ended"])
 
     def test_panels(self) -> None:
         panel = scene.module("map_panel")
