@@ -131,6 +131,7 @@ class PLEACH_PT_wind(OfTree):
             key = nodes.key_of(modifier, name)
             if key is not None:
                 self.layout.prop(modifier, f'["{key}"]', text=name)
+        self.layout.operator("pleach.same_wind", icon="FORCE_WIND")
 
 
 class PLEACH_PT_blend(Panel):

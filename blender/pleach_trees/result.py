@@ -12,7 +12,7 @@ from typing import Any
 import bpy
 
 from . import curves, library, materials, meshes, nodes, plane, shapes, sliders, wind
-from .wind_data import put_wind
+from .wind_data import has_wind, put_wind
 
 BARK, LEAVES = "pleach bark", "pleach leaves"
 
@@ -199,6 +199,11 @@ def set_wind(thing: Any, on: bool) -> None:
         return
     state = thing.pleach
     tree = library.species_of(state.species_text).grow(state.seed)
+    if not has_wind(thing.data):
+        rows = curves.shown(tree, roots=state.roots)
+        if int(rows.sum()) != len(thing.data.curves):
+            raise library.pleach.PleachError("the curves do not know how they move: press Grow Again, then tick Wind")
+        put_wind(thing.data, [tree.wind()], "CURVE", rows)
     wind.add(thing)
     if state.bark == "MESH":
         _fill_bark(thing, tree)

@@ -188,7 +188,11 @@ CLASSES = (PLEACH_PG_lock, PLEACH_PG_tree, PLEACH_PG_panel)
 
 def tree_of(context: Any) -> Any:
     """The object of the tree that is active, or whose part is; None without any."""
-    thing = context.active_object
+    return tree_with(context.active_object)
+
+
+def tree_with(thing: Any) -> Any:
+    """The object of the tree that an object is, or is a part of; None if it is of no tree."""
     while thing is not None and not thing.pleach.is_tree:
         thing = thing.parent
     return thing

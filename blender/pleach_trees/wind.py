@@ -38,7 +38,10 @@ def remove(thing: Any) -> None:
     modifier = modifier_of(thing)
     if modifier is None:
         return
-    thing[KEPT] = [nodes.get_input(modifier, name) for name in SETTINGS]
+    values = [nodes.get_input(modifier, name) for name in SETTINGS]
+    # A group of the user's own may have no such inputs.
+    if None not in values:
+        thing[KEPT] = values
     for one in (*thing.children, thing):
         found = one.modifiers.get(WIND)
         if found is None:
@@ -89,10 +92,18 @@ def copy(thing: Any, mesh: Any) -> None:
     if leader is None:
         return
     modifier = _first(mesh, wind_nodes.meshes)
-    for item in _inputs(modifier):
-        value = nodes.get_input(leader, item.name)
+    copy_settings(leader, modifier)
+    height = nodes.get_input(leader, "Height")
+    if height is not None:
+        nodes.set_input(modifier, "Height", height)
+
+
+def copy_settings(leader: Any, modifier: Any) -> None:
+    """Sets one modifier as another one is."""
+    for name in SETTINGS:
+        value = nodes.get_input(leader, name)
         if value is not None:
-            nodes.set_input(modifier, item.name, value)
+            nodes.set_input(modifier, name, value)
 
 
 def _blob_of_vertex(tree: Any) -> Any:

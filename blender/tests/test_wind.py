@@ -287,6 +287,50 @@ class Settings(unittest.TestCase):
             addon_utils.enable(scene.MODULE, default_set=True)
         self.assertTrue(bpy.data.objects[name].pleach.wind)
 
+    def test_curves_without_numbers_get_them_unless_they_were_edited(self) -> None:
+        thing, state, data = scene.grow("acer"), scene.module("state"), scene.module("wind_data")
+        data.drop_wind(thing.data)
+        thing.data.remove_curves(indices=[len(thing.data.curves) - 1])
+        thing.pleach.wind = True
+        self.assertIn("press Grow Again", state.problems[thing.session_uid])
+        self.assertFalse(thing.pleach.wind)
+        bpy.ops.pleach.again()
+        self.assertNotIn(thing.session_uid, state.problems)
+        data.drop_wind(thing.data)
+        thing.pleach.wind = True
+        tree = pleach().species("acer").grow()
+        moved = Moved(tree, 40)
+        positions, owner, places = moved_curves(thing)
+        self.assertLess(np.abs(positions - moved(rest(tree, owner, places), owner)).max(), EXACT)
+
+    def test_a_copy_has_a_wind_of_its_own(self) -> None:
+        thing = scene.grow("acer")
+        thing.pleach.wind = True
+        for one in thing.children:
+            one.select_set(True)
+        bpy.ops.object.duplicate()
+        copy = next(one for one in bpy.data.objects if one.pleach.is_tree and one != thing)
+        settings(copy, 0.0, 0.0)
+        bpy.context.scene.frame_set(25)
+        tree = pleach().species("acer").grow()
+        self.assertLess(np.abs(instances(child(copy, "leaves"))[:, :3, 3] - tree.leaf_positions).max(), EXACT)
+        self.assertGreater(np.abs(instances(child(thing, "leaves"))[:, :3, 3] - tree.leaf_positions).max(), 0.01)
+
+    def test_one_wind_for_selected_trees(self) -> None:
+        trees = [scene.grow("acer") for _ in range(3)]
+        nodes = scene.module("nodes")
+        trees[2].pleach.wind = True
+        settings(trees[2], 1.4, 0.6)
+        self.assertEqual(bpy.ops.pleach.same_wind(), {"CANCELLED"}, "there is no other")
+        child(trees[0], "leaves").select_set(True)
+        bpy.ops.pleach.same_wind()
+        self.assertEqual([tree.pleach.wind for tree in trees], [True, False, True])
+        self.assertAlmostEqual(nodes.get_input(trees[0].modifiers["pleach wind"], "Direction"), 0.6, places=5)
+        self.assertAlmostEqual(nodes.get_input(trees[0].modifiers["pleach wind"], "Strength"), 1.4, places=5)
+        trees[2].pleach.wind = False
+        bpy.ops.pleach.same_wind()
+        self.assertFalse(trees[0].pleach.wind)
+
     def test_the_panel_has_the_settings_of_the_modifier(self) -> None:
         thing, panel = scene.grow("acer"), scene.module("panel").PLEACH_PT_wind
 
@@ -298,9 +342,9 @@ class Settings(unittest.TestCase):
 
         self.assertEqual(drawn(), ["wind", "The air is still"])
         thing.pleach.wind = True
-        self.assertEqual(drawn(), ["wind", "Strength", "Direction"])
+        self.assertEqual(drawn(), ["wind", "Strength", "Direction", "pleach.same_wind"])
         bpy.context.view_layer.objects.active = child(thing, "leaves")
-        self.assertEqual(drawn(), ["wind", "Strength", "Direction"])
+        self.assertEqual(drawn(), ["wind", "Strength", "Direction", "pleach.same_wind"])
 
     def test_undo_save_and_reload(self) -> None:
         thing = scene.grow("acer")
