@@ -115,7 +115,7 @@ def _shows_map(area: Any) -> bool:
 
 
 def click_at(area: Any, x: int, y: int) -> tuple[float, float] | None:
-    """Where on the picture of an Image Editor a pixel of the window is, 0 to 1 each; None beside it or over a sidebar."""
+    """Where on the picture of an Image Editor a pixel of the window is, 0 to 1 each; `None` beside it or over a sidebar."""
     def holds(region: Any) -> bool:
         return region.x <= x < region.x + region.width and region.y <= y < region.y + region.height
 

@@ -183,7 +183,7 @@ def _make_leaves(b: Builder) -> None:
 
 
 def key_of(modifier: Any, name: str) -> str | None:
-    """The key under which a modifier keeps an input of its group; None if the user's group has no such input."""
+    """The key under which a modifier keeps an input of its group; `None` where the user's group has no such input."""
     for item in modifier.node_group.interface.items_tree if modifier.node_group else ():
         if item.item_type == "SOCKET" and item.in_out == "INPUT" and item.name == name:
             return str(item.identifier)

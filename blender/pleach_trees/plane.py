@@ -36,7 +36,7 @@ def image() -> Any:
 
 
 def point_at(across: float, up: float) -> tuple[float, float] | None:
-    """The point of the map that its picture shows there: 0 to 1 from the left, and 0 to 1 from the foot; None outside its frame."""
+    """The point of the map that its picture shows there: 0 to 1 from the left, and 0 to 1 from the foot; `None` outside its frame."""
     width, height = image().size
     point = of_species().point_at(across * width, (1.0 - up) * height)
     low, high = of_species().extent
@@ -63,7 +63,7 @@ def at(x: float, y: float) -> Place:
 
 
 def locate(species: Any) -> tuple[float, float] | None:
-    """Where a species belongs; None if it does not grow as those of the map do."""
+    """Where a species belongs; `None` where it does not grow as those of the map do."""
     return of_species().locate(species) if species.generator == family() else None
 
 

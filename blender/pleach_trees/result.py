@@ -109,7 +109,7 @@ def replace_data(thing: Any, data: Any, blocks: Any) -> None:
 def _fill_curves(thing: Any, tree: Any, palette: dict[str, Any]) -> None:
     state = thing.pleach
     stems = curves.of_tree(thing.name, tree, roots=state.roots)
-    # So few numbers are always there: whoever wants wind later keeps edits of the curves.
+    # So few numbers are always there: edits stay when wind is switched on later.
     put_wind(stems, [tree.wind()], "CURVE", curves.shown(tree, roots=state.roots))
     replace_data(thing, stems, bpy.data.hair_curves)
     modifier = nodes.modifier_of(thing, BARK, nodes.bark)

@@ -192,7 +192,7 @@ def tree_of(context: Any) -> Any:
 
 
 def tree_with(thing: Any) -> Any:
-    """The object of the tree that an object is, or is a part of; None if it is of no tree."""
+    """The object of the tree that an object is, or is a part of; `None` where it is of no tree."""
     while thing is not None and not thing.pleach.is_tree:
         thing = thing.parent
     return thing

@@ -22,7 +22,7 @@ KEPT = "pleach_wind"
 
 
 def modifier_of(thing: Any) -> Any:
-    """The modifier that moves the tree of an object; None in still air."""
+    """The modifier that moves the tree of an object; `None` in still air."""
     return thing.modifiers.get(WIND)
 
 
