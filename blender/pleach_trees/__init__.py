@@ -7,9 +7,12 @@ from typing import Any
 
 import bpy
 
-from . import files, fit_operators, fitting, operators, panel, sliders, state, thumbnails
+from . import files, fit_operators, fitting, map_operators, map_panel, operators, panel, sliders, state, thumbnails, wind_operators
 
-CLASSES = (*operators.CLASSES, *fit_operators.CLASSES, *files.CLASSES, *panel.CLASSES)
+CLASSES = (
+    *operators.CLASSES, *fit_operators.CLASSES, *files.CLASSES, *wind_operators.CLASSES, *map_operators.CLASSES,
+    *panel.CLASSES, *map_panel.CLASSES,
+)
 
 
 def _menu(menu: Any, _context: Any) -> None:

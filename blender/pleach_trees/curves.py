@@ -11,9 +11,7 @@ import numpy as np
 def of_tree(name: str, tree: Any, *, roots: bool) -> Any:
     """The stems of a tree as a new block of curves: radius by point; level, parent and base_radius by curve."""
     counts = tree.knot_counts.astype(np.int32)
-    stems = np.ones(len(counts), bool)
-    if not roots:
-        stems = np.array([kind != "root" for kind in tree.kinds], bool)
+    stems = shown(tree, roots=roots)
     knots = np.repeat(stems, counts)
     # Parents by the numbers of the curves that are kept; a root of a root is left out with its parent.
     number = np.where(stems, np.cumsum(stems) - 1, -1)
@@ -34,6 +32,13 @@ def of_tree(name: str, tree: Any, *, roots: bool) -> Any:
     put(curves, "parent", "INT", "CURVE", parents)
     put(curves, "base_radius", "FLOAT", "CURVE", radii[tree.first_knots[stems]])
     return curves
+
+
+def shown(tree: Any, *, roots: bool) -> Any:
+    """Which stems of a tree are curves, bool of shape (stems,)."""
+    if roots:
+        return np.ones(len(tree.levels), bool)
+    return np.array([kind != "root" for kind in tree.kinds], bool)
 
 
 def put(data: Any, name: str, kind: str, domain: str, values: Any) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 from bpy.props import StringProperty
 
-from . import library, materials, meshes, result, state
+from . import library, materials, meshes, result, state, wind
 from .operators import AsksForFile, OfTree, Tool
 
 
@@ -52,7 +52,7 @@ class PLEACH_OT_bake(OfTree):
 
     def run(self, context: Any) -> None:
         thing, panel = state.tree_of(context), context.scene.pleach
-        options: dict[str, Any] = {"roots": thing.pleach.roots, "triangles": budgets(panel.budgets)}
+        options: dict[str, Any] = {"roots": thing.pleach.roots, "triangles": budgets(panel.budgets), "wind": thing.pleach.wind}
         season = result.SEASONS[thing.pleach.season]
         if season:
             options["season"] = season
@@ -75,6 +75,7 @@ class PLEACH_OT_bake(OfTree):
                 mesh.materials.append(kinds[kind])
             baked = bpy.data.objects.new(name, mesh)
             baked.matrix_world = thing.matrix_world.copy()
+            wind.copy(thing, baked)
             # All levels are in one place: only the finest is seen.
             baked.hide_render = number > 0
             collection.objects.link(baked)

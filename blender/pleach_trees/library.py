@@ -16,6 +16,7 @@ else:
 MAX_SEED = 2**31 - 1
 
 _species: dict[str, Any] = {}
+_families: dict[str, str] = {}
 
 
 def species_of(text: str) -> Any:
@@ -30,6 +31,15 @@ def species_of(text: str) -> Any:
     return found
 
 
+def family_of(name: str) -> str:
+    """The family of a species that is built in: what it grows by."""
+    found = _families.get(name)
+    if found is None:
+        found = _families[name] = pleach.species(name).generator
+    return found
+
+
 def forget() -> None:
     """Drops what is kept."""
     _species.clear()
+    _families.clear()

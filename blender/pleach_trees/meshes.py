@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from .curves import put
+from .wind_data import put_wind
 
 
 def points(name: str, positions: Any, along: Any, across: Any, shapes: Any) -> Any:
@@ -51,7 +52,7 @@ def polygons(name: str, corners: Any, faces: Sequence[Sequence[int]], uvs: Any) 
 
 def of_parts(name: str, parts: dict[str, Any]) -> tuple[Any, list[str]]:
     """One mesh of the parts of a level of ``pleach.Tree.mesh``, with normals, texture coordinates and a material number for
-    each part; and the names of the materials in that order."""
+    each part; the numbers of wind, if the parts have some; and the names of the materials in that order."""
     names = list(parts)
     first, positions, normals, uvs, faces, numbers = 0, [], [], [], [], []
     for number, part in enumerate(parts.values()):
@@ -67,5 +68,8 @@ def of_parts(name: str, parts: dict[str, Any]) -> tuple[Any, list[str]]:
     layer = mesh.uv_layers.new(name="UVMap")
     layer.data.foreach_set("uv", np.ascontiguousarray(np.concatenate(uvs)[order], np.float32).ravel())
     mesh.polygons.foreach_set("material_index", np.concatenate(numbers))
+    winds = [part.wind for part in parts.values()]
+    if all(wind is not None for wind in winds):
+        put_wind(mesh, winds)
     mesh.normals_split_custom_set_from_vertices(np.concatenate(normals).tolist())
     return mesh, names

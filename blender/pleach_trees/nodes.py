@@ -182,21 +182,26 @@ def _make_leaves(b: Builder) -> None:
     b.node("NodeGroupOutput", {"Geometry": placed})
 
 
+def key_of(modifier: Any, name: str) -> str | None:
+    """The key under which a modifier keeps an input of its group; `None` where the user's group has no such input."""
+    for item in modifier.node_group.interface.items_tree if modifier.node_group else ():
+        if item.item_type == "SOCKET" and item.in_out == "INPUT" and item.name == name:
+            return str(item.identifier)
+    return None
+
+
 def set_input(modifier: Any, name: str, value: Any) -> None:
     """Sets an input of the group of a modifier by its name. The only place that knows how a modifier keeps them."""
-    for item in modifier.node_group.interface.items_tree:
-        if item.item_type == "SOCKET" and item.in_out == "INPUT" and item.name == name:
-            modifier[item.identifier] = value
-            modifier.id_data.update_tag()
-            return
+    key = key_of(modifier, name)
+    if key is not None:
+        modifier[key] = value
+        modifier.id_data.update_tag()
 
 
 def get_input(modifier: Any, name: str) -> Any:
     """The value of an input of the group of a modifier, or None if the user's group has no such input."""
-    for item in modifier.node_group.interface.items_tree if modifier.node_group else ():
-        if item.item_type == "SOCKET" and item.in_out == "INPUT" and item.name == name:
-            return modifier.get(item.identifier)
-    return None
+    key = key_of(modifier, name)
+    return None if key is None else modifier.get(key)
 
 
 def modifier_of(thing: Any, name: str, make: Callable[[], Any]) -> Any:

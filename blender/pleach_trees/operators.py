@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 from bpy.props import StringProperty
 
-from . import library, result, sliders, state
+from . import library, result, sliders, state, thumbnails
 
 
 class Tool(bpy.types.Operator):
@@ -55,12 +55,15 @@ class OfTree(Tool):
         return context.mode == "OBJECT"
 
     def regrow(self, thing: Any, species: Any | None = None) -> set[str]:
-        if state.grow_again(thing, species):
-            return {"FINISHED"}
-        self.report({"ERROR"}, state.problems.get(thing.session_uid, "the tree does not grow"))
-        return {"CANCELLED"}
+        return regrow(self, thing, species)
 
 
+def regrow(operator: Any, thing: Any, species: Any | None = None) -> set[str]:
+    """Grows the tree of an object again, and reports what is wrong: what an operator returns."""
+    if state.grow_again(thing, species):
+        return {"FINISHED"}
+    operator.report({"ERROR"}, state.problems.get(thing.session_uid, "the tree does not grow"))
+    return {"CANCELLED"}
 
 class PLEACH_OT_grow(Tool):
     """Grow a tree of the chosen species at the cursor"""
@@ -166,17 +169,32 @@ class PLEACH_OT_reset(OfTree):
         return self.regrow(thing, library.pleach.species(name))
 
 
-class PLEACH_OT_blend(OfTree):
-    """Go from the species of the active tree towards the other one"""
+class PLEACH_OT_blend(Tool):
+    """Turn the active tree into one between two species; without an active tree one is grown"""
 
     bl_idname = "pleach.blend"
     bl_label = "Blend"
 
-    def run(self, context: Any) -> set[str]:
-        thing, panel = state.tree_of(context), context.scene.pleach
-        one, other = library.species_of(thing.pleach.species_text), library.pleach.species(panel.blend_with)
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        return context.mode == "OBJECT"
+
+    def run(self, context: Any) -> set[str] | None:
+        panel, thing = context.scene.pleach, state.tree_of(context)
+        other = library.pleach.species(panel.blend_with)
+        if panel.blend_from != thumbnails.ACTIVE:
+            one = library.pleach.species(panel.blend_from)
+        elif thing is not None:
+            one = library.species_of(thing.pleach.species_text)
+        else:
+            raise library.pleach.SpeciesError("there is no active tree: select one, or choose a species to start from")
+        if one.name == other.name and one != other:
+            one = one.named(f"{one.name[:50]}_here")
         mixed = library.pleach.blend({one: 1.0 - panel.blend, other: panel.blend}, name=f"{one.name}_{other.name}"[:60])
-        return self.regrow(thing, mixed)
+        if thing is None:
+            result.new(context, mixed)
+            return None
+        return regrow(self, thing, mixed)
 
 
 class PLEACH_OT_group(bpy.types.Operator):

@@ -6,7 +6,7 @@ from typing import Any
 
 import bpy
 
-from . import fit_operators, fitting, library, sliders, state
+from . import fit_operators, fitting, library, nodes, sliders, state, thumbnails, wind
 
 
 class Panel(bpy.types.Panel):
@@ -30,7 +30,7 @@ class PLEACH_PT_grow(Panel):
     def draw(self, context: Any) -> None:
         layout, panel = self.layout, context.scene.pleach
         if library.MISSING:
-            _words(layout, library.MISSING, "ERROR")
+            words(layout, library.MISSING, "ERROR")
             return
         layout.template_icon_view(panel, "species", show_labels=True, scale=6.0, scale_popup=5.0)
         layout.prop(panel, "species", text="")
@@ -51,7 +51,7 @@ class PLEACH_PT_tree(OfTree):
         tree = thing.pleach
         problem = state.problems.get(thing.session_uid)
         if problem:
-            _words(layout, problem, "ERROR")
+            words(layout, problem, "ERROR")
         layout.label(text=f"{tree.species_name}: {tree.stem_count:,} stems, {tree.leaf_count:,} leaves", icon="OUTLINER_OB_CURVES")
         row = layout.row(align=True)
         row.prop(tree, "seed")
@@ -81,7 +81,7 @@ class PLEACH_PT_sliders(OfTree):
         try:
             species = library.species_of(thing.pleach.species_text)
         except library.pleach.PleachError as error:
-            _words(layout, str(error), "ERROR")
+            words(layout, str(error), "ERROR")
             return
         space = sliders.known_space(species)
         if space is None:
@@ -114,16 +114,53 @@ def _slider(column: Any, group: Any, slider: sliders.Slider, locked: set[str], t
     row.operator("pleach.lock", text="", icon="LOCKED" if is_locked else "UNLOCKED", emboss=is_locked).key = slider.key
 
 
-class PLEACH_PT_blend(OfTree):
+class PLEACH_PT_wind(OfTree):
+    bl_label = "Wind"
+    bl_idname = "PLEACH_PT_wind"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context: Any) -> None:
+        self.layout.prop(state.tree_of(context).pleach, "wind", text="")
+
+    def draw(self, context: Any) -> None:
+        modifier = wind.modifier_of(state.tree_of(context))
+        if modifier is None:
+            self.layout.label(text="The air is still", icon="FORCE_WIND")
+            return
+        for name in wind.SETTINGS:
+            key = nodes.key_of(modifier, name)
+            if key is not None:
+                self.layout.prop(modifier, f'["{key}"]', text=name)
+        self.layout.operator("pleach.same_wind", icon="FORCE_WIND")
+
+
+class PLEACH_PT_blend(Panel):
     bl_label = "Blend"
     bl_idname = "PLEACH_PT_blend"
     bl_options = {"DEFAULT_CLOSED"}
 
+    @classmethod
+    def poll(cls, _context: Any) -> bool:
+        return library.pleach is not None
+
     def draw(self, context: Any) -> None:
-        panel = context.scene.pleach
-        self.layout.prop(panel, "blend_with")
-        self.layout.prop(panel, "blend", slider=True)
-        self.layout.operator("pleach.blend")
+        layout, panel = self.layout, context.scene.pleach
+        column = layout.column(align=True)
+        column.prop(panel, "blend_from", text="")
+        column.prop(panel, "blend_with", text="")
+        layout.prop(panel, "blend", slider=True)
+        tree = state.tree_of(context)
+        name, one = panel.blend_from, None
+        if name != thumbnails.ACTIVE:
+            one = library.family_of(name)
+        elif tree is not None:
+            name, one = tree.pleach.species_name, library.species_of(tree.pleach.species_text).generator
+        other = library.family_of(panel.blend_with)
+        if one is None:
+            words(layout, "Select a tree, or choose a species to start from", "INFO")
+        elif one != other:
+            words(layout, f"{name} is of the family {one}, {panel.blend_with} of {other}: only species of one family blend", "ERROR")
+        layout.operator("pleach.blend")
 
 
 class PLEACH_PT_fit(Panel):
@@ -144,10 +181,10 @@ class PLEACH_PT_fit(Panel):
         job = fitting.running()
         if job is not None:
             part = fit_operators.progress(job)
-            words = f"{job.stage}, {job.elapsed:.0f} of {job.seconds:.0f} s"
+            text = f"{job.stage}, {job.elapsed:.0f} of {job.seconds:.0f} s"
             if job.likeness is not None:
-                words += f", likeness {job.likeness:.2f}"
-            layout.progress(text=words, factor=part)
+                text += f", likeness {job.likeness:.2f}"
+            layout.progress(text=text, factor=part)
             row = layout.row(align=True)
             row.operator("pleach.stop", text="Take What There Is").keep = True
             row.operator("pleach.stop", text="Cancel", icon="CANCEL").keep = False
@@ -173,7 +210,7 @@ class PLEACH_PT_bake(OfTree):
         self.layout.operator("pleach.bake", icon="OUTLINER_OB_MESH")
 
 
-def _words(layout: Any, text: str, icon: str) -> None:
+def words(layout: Any, text: str, icon: str) -> None:
     """A text on as many lines as it needs."""
     line, lines = "", []
     for word in text.split():
@@ -185,4 +222,4 @@ def _words(layout: Any, text: str, icon: str) -> None:
         layout.label(text=one, icon=icon if number == 0 else "BLANK1")
 
 
-CLASSES = (PLEACH_PT_grow, PLEACH_PT_tree, PLEACH_PT_sliders, PLEACH_PT_blend, PLEACH_PT_fit, PLEACH_PT_bake)
+CLASSES = (PLEACH_PT_grow, PLEACH_PT_tree, PLEACH_PT_sliders, PLEACH_PT_wind, PLEACH_PT_blend, PLEACH_PT_fit, PLEACH_PT_bake)

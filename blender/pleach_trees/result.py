@@ -11,7 +11,8 @@ from typing import Any
 
 import bpy
 
-from . import curves, library, materials, meshes, nodes, shapes, sliders
+from . import curves, library, materials, meshes, nodes, plane, shapes, sliders, wind
+from .wind_data import has_wind, put_wind
 
 BARK, LEAVES = "pleach bark", "pleach leaves"
 
@@ -58,6 +59,7 @@ def fill(thing: Any, species: Any, tree: Any) -> None:
         state.species_text = species.to_toml()
         state.species_name = species.name
         state.format = 1
+        state.map_x, state.map_y = plane.locate(species) or (0.0, 0.0)
     sliders.show(thing, species)
     palette = species.palette(SEASONS[state.season])
     _fill_curves(thing, tree, palette)
@@ -69,6 +71,7 @@ def fill(thing: Any, species: Any, tree: Any) -> None:
         tree.blossom_positions[:blossoms], tree.blossom_along[:blossoms], tree.blossom_across[:blossoms],
         tree.blossom_shapes[:blossoms]))
     _fill_blobs(thing, tree, palette)
+    wind.fill(thing, tree)
     state.leaf_count, state.stem_count = leaves + blossoms, len(tree.levels)
 
 
@@ -105,7 +108,10 @@ def replace_data(thing: Any, data: Any, blocks: Any) -> None:
 
 def _fill_curves(thing: Any, tree: Any, palette: dict[str, Any]) -> None:
     state = thing.pleach
-    replace_data(thing, curves.of_tree(thing.name, tree, roots=state.roots), bpy.data.hair_curves)
+    stems = curves.of_tree(thing.name, tree, roots=state.roots)
+    # So few numbers are always there: edits stay when wind is switched on later.
+    put_wind(stems, [tree.wind()], "CURVE", curves.shown(tree, roots=state.roots))
+    replace_data(thing, stems, bpy.data.hair_curves)
     modifier = nodes.modifier_of(thing, BARK, nodes.bark)
     material = nodes.get_input(modifier, "Material")
     made = materials.ensure(material, f"{thing.name} bark", "bark", palette["bark"])
@@ -123,7 +129,7 @@ def _fill_curves(thing: Any, tree: Any, palette: dict[str, Any]) -> None:
 def _fill_bark(thing: Any, tree: Any) -> None:
     """Bark as a mesh, with the texture coordinates and, where they are asked for, the pictures of the library."""
     state = thing.pleach
-    options = {"leaves": "none", "tolerance": state.tolerance, "roots": state.roots}
+    options = {"leaves": "none", "tolerance": state.tolerance, "roots": state.roots, "wind": state.wind}
     has_pictures = state.textures != "NONE"
     made = tree.mesh(**options, **({"textures": int(state.textures)} if has_pictures else {}))
     parts = {name: part for name, part in made.levels[0].items() if name == "bark"}
@@ -184,3 +190,21 @@ def set_share(thing: Any) -> None:
         carrier = child(thing, kind)
         if carrier is not None and LEAVES in carrier.modifiers:
             nodes.set_input(carrier.modifiers[LEAVES], "Viewport Share", thing.pleach.leaf_share)
+
+
+def set_wind(thing: Any, on: bool) -> None:
+    """Wind for the tree of an object, or still air; its curves stay as they are. Raises ``pleach.PleachError``."""
+    if not on:
+        wind.remove(thing)
+        return
+    state = thing.pleach
+    tree = library.species_of(state.species_text).grow(state.seed)
+    if not has_wind(thing.data):
+        rows = curves.shown(tree, roots=state.roots)
+        if int(rows.sum()) != len(thing.data.curves):
+            raise library.pleach.PleachError("the curves do not know how they move: press Grow Again, then tick Wind")
+        put_wind(thing.data, [tree.wind()], "CURVE", rows)
+    wind.add(thing)
+    if state.bark == "MESH":
+        _fill_bark(thing, tree)
+    wind.fill(thing, tree)

@@ -15,7 +15,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from . import library, result, sliders, thumbnails
+from . import library, plane, result, sliders, thumbnails, wind
 
 #: What the last growth of each object said, by its session number: shown in the panel.
 problems: dict[int, str] = {}
@@ -41,6 +41,34 @@ def grow_again(thing: Any, species: Any | None = None) -> bool:
 def _changed(state: Any, _context: Any) -> None:
     if not sliders._silent[0] and state.is_tree:
         grow_again(state.id_data)
+
+
+def _has_wind(state: Any) -> bool:
+    return wind.modifier_of(state.id_data) is not None
+
+
+def _set_wind(state: Any, on: bool) -> None:
+    thing = state.id_data
+    if not library.pleach or not state.is_tree:
+        return
+    if thing.library or thing.mode != "OBJECT":
+        problems[thing.session_uid] = "leave edit mode, or make the object local, to change its wind"
+        return
+    try:
+        result.set_wind(thing, on)
+    except library.pleach.PleachError as error:
+        problems[thing.session_uid] = str(error)
+        return
+    problems.pop(thing.session_uid, None)
+
+
+def _placed(state: Any, _context: Any) -> None:
+    if sliders._silent[0] or not library.pleach or not state.is_tree:
+        return
+    x, y = state.map_x, state.map_y
+    if grow_again(state.id_data, plane.at(x, y).species):
+        with sliders.silently():
+            state.map_x, state.map_y = x, y
 
 
 def _shared(state: Any, _context: Any) -> None:
@@ -82,6 +110,14 @@ class PLEACH_PG_tree(bpy.types.PropertyGroup):
     )
     leaf_share: FloatProperty(name="Leaves in viewport", description="Part of the leaves that the viewport shows; renders show all",
                               default=1.0, min=0.0, max=1.0, subtype="FACTOR", update=_shared)
+    # The modifier says whether there is wind, so that one may take it away by hand.
+    wind: BoolProperty(name="Wind", description="Whether the tree moves as the time of the scene goes on", get=_has_wind, set=_set_wind)
+    map_x: FloatProperty(name="To the right", description="Where the tree is on the map of species; moving it makes it the tree of "
+                                                         "the map there", soft_min=plane.LOW[0], soft_max=plane.HIGH[0], step=5,
+                         precision=2, update=_placed)
+    map_y: FloatProperty(name="Upwards", description="Where the tree is on the map of species; moving it makes it the tree of the map "
+                                                    "there", soft_min=plane.LOW[1], soft_max=plane.HIGH[1], step=5, precision=2,
+                         update=_placed)
     roots: BoolProperty(name="Roots", description="Whether roots are there, where the species has some", update=_changed)
     bark: EnumProperty(
         name="Bark",
@@ -106,11 +142,16 @@ def _species_items(_self: Any, _context: Any) -> list[Any]:
     return thumbnails.items()
 
 
+def _start_items(_self: Any, _context: Any) -> list[Any]:
+    return thumbnails.items_to_start_from()
+
+
 class PLEACH_PG_panel(bpy.types.PropertyGroup):
     """What the panel is set to; kept in the scene."""
 
     species: EnumProperty(name="Species", description="The species to grow", items=_species_items)
-    blend_with: EnumProperty(name="Blend with", description="The species to go towards; one of the same family", items=_species_items)
+    blend_from: EnumProperty(name="Species", description="The species to start from", items=_start_items)
+    blend_with: EnumProperty(name="Other", description="The species to go towards; one of the same family", items=_species_items)
     blend: FloatProperty(name="Share", description="How much of the other species", default=0.5, min=0.0, max=1.0, subtype="FACTOR")
     spread: FloatProperty(name="Spread", description="How far the dice may move a slider, as a part of its usual range", default=0.2,
                           min=0.0, max=1.0, subtype="FACTOR")
@@ -147,7 +188,11 @@ CLASSES = (PLEACH_PG_lock, PLEACH_PG_tree, PLEACH_PG_panel)
 
 def tree_of(context: Any) -> Any:
     """The object of the tree that is active, or whose part is; None without any."""
-    thing = context.active_object
+    return tree_with(context.active_object)
+
+
+def tree_with(thing: Any) -> Any:
+    """The object of the tree that an object is, or is a part of; `None` where it is of no tree."""
     while thing is not None and not thing.pleach.is_tree:
         thing = thing.parent
     return thing
@@ -180,6 +225,7 @@ def register() -> None:
 def unregister() -> None:
     bpy.app.handlers.load_post.remove(on_load)
     sliders.unregister()
+    plane.forget()
     del bpy.types.Scene.pleach
     del bpy.types.Object.pleach
     for one in reversed(CLASSES):

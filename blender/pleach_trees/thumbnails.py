@@ -11,9 +11,13 @@ from . import library
 
 FOLDER = pathlib.Path(__file__).parent / "thumbnails"
 
+#: Stands for the species of the active tree.
+ACTIVE = "ACTIVE"
+
 _pictures: Any = None
 # Blender keeps no reference to the texts of dynamic items.
 _items: list[Any] = []
+_starts: list[Any] = []
 
 
 def items() -> list[Any]:
@@ -22,6 +26,14 @@ def items() -> list[Any]:
         for number, name in enumerate(library.pleach.species()):
             _items.append((name, name.replace("_", " ").capitalize(), "", icon(name), number))
     return _items or [("NONE", "No species", "", 0, 0)]
+
+
+def items_to_start_from() -> list[Any]:
+    """The same after the active tree."""
+    if not _starts:
+        active = (ACTIVE, "The active tree", "The species of the active tree, as its sliders say", "OBJECT_DATA", 0)
+        _starts.extend([active, *((*item[:4], item[4] + 1) for item in items() if item[0] != "NONE")])
+    return _starts
 
 
 def icon(name: str) -> int:
@@ -46,3 +58,4 @@ def unregister() -> None:
     bpy.utils.previews.remove(_pictures)
     _pictures = None
     _items.clear()
+    _starts.clear()

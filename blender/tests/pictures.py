@@ -1,4 +1,7 @@
-"""Makes the pictures of docs/blender.md with Cycles: `PLEACH_ZIP=… python pictures.py OUT`, in Blender 5."""
+"""Makes the pictures of docs/blender.md with Cycles: `PLEACH_ZIP=… python pictures.py OUT`, in Blender 5.
+
+With names after OUT, such as `wind`, it makes these alone.
+"""
 
 from __future__ import annotations
 
@@ -65,6 +68,23 @@ def levels() -> tuple[float, float]:
     return row([tree, *baked], [bounds] * 4), float(bounds[1, 2])
 
 
+def wind() -> tuple[float, float]:
+    """A birch in still air, in a fresh breeze and in one three times as strong."""
+    bounds = scene.module("library").pleach.species("silver_birch").grow().bounds
+    things = [scene.grow("silver_birch") for _ in range(3)]
+    for thing, strength in zip(things[1:], (1.0, 3.0)):
+        thing.pleach.wind = True
+        scene.module("nodes").set_input(thing.modifiers["pleach wind"], "Strength", strength)
+    bpy.context.scene.frame_set(42)
+    # They lean out of their own width.
+    return row(things, [bounds] * 3) + GAP, float(bounds[1, 2])
+
+
+def map_picture(path: pathlib.Path) -> None:
+    """The image of the map, as it is."""
+    path.write_bytes(scene.module("plane").of_species().picture())
+
+
 def material(name: str, color: tuple[float, float, float]) -> Any:
     made = bpy.data.materials.new(name)
     shader = made.node_tree.nodes["Principled BSDF"]
@@ -102,7 +122,11 @@ def render(path: pathlib.Path, wide: float, high: float) -> None:
 
 if __name__ == "__main__":
     scene.install()
-    for make in (species, acer, levels):
-        scene.empty()
-        size = make()
-        render(pathlib.Path(sys.argv[1]).resolve() / f"blender-{make.__name__}.png", *size)
+    out, names = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:]
+    for make in (species, acer, levels, wind):
+        if not names or make.__name__ in names:
+            scene.empty()
+            size = make()
+            render(out / f"blender-{make.__name__}.png", *size)
+    if not names or "map" in names:
+        map_picture(out / "blender-map.png")

@@ -27,8 +27,13 @@ class Layout:
     def __init__(self) -> None:
         self.shown: list[str] = []
 
-    def prop(self, data: Any, name: str, **_: Any) -> None:
-        assert name in data.bl_rna.properties, f"{data} has no {name}"
+    def prop(self, data: Any, name: str, text: str = "", **_: Any) -> None:
+        # An input of a modifier is shown under another name.
+        if name.startswith('["'):
+            assert name[2:-2] in data.keys(), f"{data} has no {name}"
+            name = text
+        else:
+            assert name in data.bl_rna.properties, f"{data} has no {name}"
         self.shown.append(name)
 
     def operator(self, name: str, **_: Any) -> Any:

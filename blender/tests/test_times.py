@@ -51,3 +51,18 @@ class Times(unittest.TestCase):
             group.g_scale = group.g_scale + 0.1
 
         self.assertLess(self.best(slide), 0.1)
+
+    def frame(self, name: str) -> float:
+        """A frame of a tree in wind, evaluated as the viewport shows it."""
+        scene.grow(name).pleach.wind = True
+
+        def play() -> None:
+            bpy.context.scene.frame_set(bpy.context.scene.frame_current + 1)
+
+        return self.best(play)
+
+    def test_a_frame_of_the_aspen_in_wind(self) -> None:
+        self.assertLess(self.frame("quaking_aspen"), 0.08)
+
+    def test_a_frame_of_the_willow_in_wind(self) -> None:
+        self.assertLess(self.frame("weeping_willow"), 1.0)

@@ -182,8 +182,8 @@ pub use export::{
 pub use pleach_mesh::write::{Feature as MeshFeature, Format as MeshFormat};
 #[cfg(feature = "mesh")]
 pub use pleach_mesh::{
-    LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Pictures, Sink, Source, send,
-    tangents, write::glb::Glb, write::glb::write as write_glb, write::obj::Obj, write::ply::Ply,
+    LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Pictures, Sink, Source, Wind, send,
+    tangents, wind, write::glb::Glb, write::glb::write as write_glb, write::obj::Obj, write::ply::Ply,
     write::stl::Stl, write::usda::Usda,
 };
 

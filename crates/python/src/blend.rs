@@ -1,10 +1,13 @@
 //! Species between species.
 
-use crate::error::of_species;
+use crate::error::{PleachError, of_growth, of_species};
+use crate::pool;
 use crate::species::Species;
 use numpy::PyArray2;
 use pleach::{BlendMap, MapSettings, Point};
+use pleach_blend::picture::{self, Extras};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 /// The blend of `species` by `shares`.
 #[pyfunction]
@@ -52,6 +55,31 @@ impl NativeMap {
 
     fn locate(&self, species: &Species) -> (f64, f64) {
         let Point { x, y } = self.map.locate(&species.inner);
+        (x, y)
+    }
+
+    /// The picture of the map as a PNG file, with silhouettes of the trees of `seed`.
+    fn picture<'py>(&self, py: Python<'py>, seed: u64) -> PyResult<Bound<'py, PyBytes>> {
+        let thumbnails = pool::on(py, None, || picture::thumbnails(&self.map, seed))?.map_err(of_growth)?;
+        let extras = Extras { thumbnails, ..Extras::default() };
+        let scene = picture::scene(&self.map, &extras).map_err(of_species)?;
+        let too_large = || PleachError::new_err("the picture of the map is too large for memory");
+        Ok(PyBytes::new(py, &scene.to_png().ok_or_else(too_large)?))
+    }
+
+    /// The least and the greatest coordinates that the picture shows.
+    fn extent<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        Ok(PyArray2::from_vec2(py, &picture::extent(&self.map).map(|point| vec![point.x, point.y]))?)
+    }
+
+    /// The pixel of the picture at which a point is.
+    fn pixel_at(&self, x: f64, y: f64) -> (f64, f64) {
+        picture::pixel_at(&self.map, Point { x, y })
+    }
+
+    /// The point that is at a pixel of the picture.
+    fn point_at(&self, column: f64, row: f64) -> (f64, f64) {
+        let Point { x, y } = picture::point_at(&self.map, (column, row));
         (x, y)
     }
 }

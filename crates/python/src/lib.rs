@@ -27,6 +27,7 @@ mod skeleton;
 mod species;
 mod tree;
 mod view;
+mod wind;
 
 use pyo3::prelude::*;
 
@@ -60,6 +61,8 @@ mod native {
     use crate::species::{Species, generators, species_named, species_names};
     #[pymodule_export]
     use crate::tree::Tree;
+    #[pymodule_export]
+    use crate::wind::Wind;
 
     /// The version, and: registers a species as a mapping.
     #[pymodule_init]

@@ -2,6 +2,7 @@
 
 use crate::arrays::rows;
 use crate::error::of_export;
+use crate::wind::Wind;
 use crate::{json, pool};
 use numpy::PyArray2;
 use pleach::{Export, Pictures, tangents};
@@ -23,6 +24,9 @@ pub(crate) struct MeshPart {
     tangents: Py<PyArray2<f32>>,
     /// Corner numbers, uint32 of shape (triangles, 3), counter-clockwise from outside.
     triangles: Py<PyArray2<u32>>,
+    /// How wind moves each corner, if that was asked for with `wind=True`; `None` otherwise, and of cards that show the whole
+    /// tree.
+    wind: Option<Py<Wind>>,
 }
 
 #[pymethods]
@@ -73,12 +77,14 @@ pub(crate) fn of_tree(
         let parts = PyDict::new(py);
         for ((part, block), tangents) in mesh.parts.into_iter().zip(tangents) {
             let vertices = &block.vertices;
+            let wind = (!block.wind.is_empty()).then(|| Py::new(py, Wind::new(block.wind))).transpose()?;
             let part_of = MeshPart {
                 positions: rows(py, vertices.iter().map(|vertex| vertex.position.to_array()))?,
                 normals: rows(py, vertices.iter().map(|vertex| vertex.normal.to_array()))?,
                 uvs: rows(py, vertices.iter().map(|vertex| vertex.uv.to_array()))?,
                 tangents: rows(py, tangents.into_iter())?,
                 triangles: rows(py, block.triangles.iter().copied())?,
+                wind,
             };
             parts.set_item(part.material.name(), Py::new(py, part_of)?)?;
         }

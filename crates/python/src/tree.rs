@@ -2,11 +2,11 @@
 
 use crate::arrays::{self, column, triples};
 use crate::error::{PleachError, of_export, of_growth};
+use crate::pictures::{self, Painting};
 use crate::seed::Seed;
 use crate::species::Species;
-use crate::pictures::{self, Painting};
 use crate::view::Direction;
-use crate::{foliage, json, mesh, pool, skeleton};
+use crate::{foliage, json, mesh, pool, skeleton, wind};
 use numpy::{PyArray1, PyArray2, PyArray3};
 use pleach::{
     Bounds, Export, ExportedFile, MeshFormat, Palette, Parts, Skeleton, SkeletonFormat, StemKind, TreeStats,
@@ -396,7 +396,7 @@ impl Tree {
     }
 
     /// The mesh as arrays, by level of detail and material, with the PNG files that materials show. Options are those of
-    /// `export`, but for `lod_extension`, `compress`, `wind`, `sway` and leaves as `"instances"`, which are for files. What they
+    /// `export`, but for `lod_extension`, `compress`, `sway` and leaves as `"instances"`, which are for files. What they
     /// leave open is not filled in: without `triangles` there are every leaf and twig, without `textures` no pictures.
     ///
     /// >>> import pleach
@@ -408,6 +408,19 @@ impl Tree {
     #[pyo3(signature = (**options))]
     fn mesh(&self, py: Python<'_>, options: Option<&Bound<'_, PyDict>>) -> PyResult<mesh::Mesh> {
         mesh::of_tree(py, &self.species.inner, &self.inner, options)
+    }
+
+    /// How wind moves the parts of the tree, a row for each of its stems, leaves, blossoms or blobs. All knots of a stem have
+    /// the numbers of the stem, and all vertices of a blob those of the blob.
+    ///
+    /// >>> import pleach
+    /// >>> tree = pleach.species("acer").grow()
+    /// >>> wind = tree.wind("leaves")
+    /// >>> len(wind) == len(tree.leaf_positions), wind.pivots.shape == wind.bends.shape == (len(wind), 3)
+    /// (True, True)
+    #[pyo3(signature = (parts = "stems"))]
+    fn wind(&self, py: Python<'_>, parts: &str) -> PyResult<wind::Wind> {
+        wind::of_parts(py, &self.inner, parts)
     }
 
     fn __repr__(&self) -> String {

@@ -99,7 +99,7 @@ def test_meshes_as_arrays() -> None:
     assert (bark.tangents[:, 3] == 1).mean() > 0.99
     low, high = tree.bounds
     assert (bark.positions >= low - 0.01).all() and (bark.positions <= high + 0.01).all(), "z is up"
-    for options, words in (({"wind": True}, "`wind` is for files"), ({"leaves": "instances"}, "`leaves` is for files"), ({"lodd": 1}, "unknown")):
+    for options, words in (({"sway": True}, "`sway` is for files"), ({"leaves": "instances"}, "`leaves` is for files"), ({"lodd": 1}, "unknown")):
         with pytest.raises(pleach.PleachError, match=words):
             tree.mesh(**options)
 
@@ -133,3 +133,66 @@ def test_everything_is_declared(name: str) -> None:
     # The few that are shown first, in order; the numbers of a grammar are its own.
     handles = sorted((slot["handle"] for slot in slots if slot["handle"]), key=lambda handle: handle["order"])
     assert [handle["name"] for handle in handles][:1] == ([] if name == "abop_plant_a" else ["height"])
+
+
+def test_wind_of_stems_is_that_of_their_bark() -> None:
+    tree = pleach.species("acer").grow(1)
+    bark = tree.mesh(wind=True).levels[0]["bark"]
+    assert bark.wind is not None and len(bark.wind) == len(bark.positions)
+    assert tree.mesh().levels[0]["bark"].wind is None
+    stems = tree.wind()
+    assert len(stems) == len(tree.levels) and set(np.unique(stems.levels)) == {0, 1, 2}
+
+    def bodies(wind: pleach.Wind) -> set[tuple[float, ...]]:
+        phases = np.column_stack([wind.phases, wind.parent_phases, wind.levels])
+        rows = np.hstack([wind.pivots, wind.bends, wind.parent_pivots, wind.parent_bends, phases])
+        return {tuple(row) for row in rows.tolist()}
+
+    assert bodies(stems) == bodies(bark.wind)
+    # A limb turns about its first knot, and the trunk only leans.
+    limb = int(np.flatnonzero(stems.levels == 1)[0])
+    assert np.allclose(stems.pivots[limb], tree.knots[tree.first_knots[limb]], atol=1e-5)
+    assert not stems.bends[stems.levels == 0].any() and (np.linalg.norm(stems.bends[stems.levels > 0], axis=1) > 0).all()
+    assert ((stems.phases >= 0) & (stems.phases < 1)).all() and not stems.flutters.any()
+
+
+def test_wind_of_what_stems_carry() -> None:
+    tree = pleach.species("hill_cherry").grow(1)
+    stems = tree.wind("stems")
+    for parts, carriers in (("leaves", tree.leaf_stems), ("blossoms", tree.blossom_stems)):
+        wind = tree.wind(parts)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+        assert np.array_equal(wind.pivots, stems.pivots[carriers]) and np.array_equal(wind.bends, stems.bends[carriers])
+        assert ((wind.flutters > 0) & (wind.flutters <= 0.03)).all()
+        assert np.array_equal(stems.take(carriers.astype(np.int64)).phases, wind.phases)
+    for wrong in (-1, len(stems)):
+        with pytest.raises(IndexError, match="expected from 0 to"):
+            stems.take(np.array([0, wrong]))
+    oak = pleach.species("stylised_oak").grow(1)
+    assert np.array_equal(oak.wind("blobs").phases, oak.wind().phases[oak.blob_stems])
+    with pytest.raises(pleach.PleachError, match="no `twigs`, expected one of stems, leaves, blossoms, blobs"):
+        oak.wind("twigs")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+
+
+def test_places_in_wind() -> None:
+    tree = pleach.species("acer").grow(1)
+    wind, height = tree.wind("leaves"), float(tree.bounds[1, 2])
+    still = wind.moved(tree.leaf_positions, wind=(0, 0, 0), time=3.0, height=height)
+    assert np.allclose(still, tree.leaf_positions, atol=1e-6)
+    moved = wind.moved(tree.leaf_positions, wind=(1, 0, 0), time=3.0, height=height)
+    assert 0.01 < np.linalg.norm(moved - still, axis=1).mean() < 1.0 and (moved - still)[:, 0].mean() > 0.01
+    upwards = np.tile(np.array([0, 0, 1], np.float32), (len(still), 1))
+    fluttered = wind.moved(tree.leaf_positions, wind=(1, 0, 0), time=3.0, height=height, normals=upwards)
+    assert 0.001 < np.abs(fluttered - moved).max() < 0.05
+    # The base of a limb stays where the trunk takes it.
+    stems = tree.wind()
+    first = tree.knots[tree.first_knots].astype(np.float32)
+    bases = stems.moved(first, wind=(0, 2, 0), time=1.0, height=height)
+    bark = tree.mesh(wind=True).levels[0]["bark"]
+    assert bark.wind is not None
+    assert bark.wind.moved(bark.positions, wind=(1, 0, 0), time=1.0, height=height).shape == bark.positions.shape
+    limbs = (stems.levels == 1) & np.isclose(stems.pivots, first, atol=1e-5).all(axis=1)
+    assert limbs.any()
+    lean = bases[limbs] - first[limbs]
+    assert np.abs(lean[:, 0]).max() < 1e-5 and (lean[:, 1] >= 0).all()
+    with pytest.raises(pleach.PleachError, match="one row for each"):
+        wind.moved(still[:5], wind=(1, 0, 0), time=0.0, height=height)

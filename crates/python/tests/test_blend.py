@@ -39,6 +39,25 @@ def test_a_map_has_a_tree_everywhere() -> None:
         pleach.Map(["acer"])
 
 
+def test_the_picture_of_a_map_shows_where_species_are() -> None:
+    plane = pleach.Map()
+    png = plane.picture()
+    assert png.startswith(b"\x89PNG") and png == pleach.Map().picture(1) != plane.picture(2)
+    width, height = (int.from_bytes(png[at : at + 4], "big") for at in (16, 20))
+    for x, y in plane.points:
+        column, row = plane.pixel_at(x, y)
+        assert 0 < column < width and 0 < row < height
+        assert plane.point_at(column, row) == pytest.approx((x, y))
+    low, high = plane.extent
+    assert (low < plane.points.min(axis=0)).all() and (high > plane.points.max(axis=0)).all()
+    left, bottom = plane.pixel_at(*low)
+    right, top = plane.pixel_at(*high)
+    assert 0 < left < right < width and 0 < top < bottom < height
+    # x grows to the right, and y upwards.
+    assert plane.point_at(500, 400)[0] < plane.point_at(600, 400)[0]
+    assert plane.point_at(500, 400)[1] > plane.point_at(500, 500)[1]
+
+
 def test_maps_can_be_pickled_and_copied() -> None:
     plane = pleach.Map(["acer", "palm", "quaking_aspen"])
     for again in (pickle.loads(pickle.dumps(plane)), copy.copy(plane), copy.deepcopy(plane)):

@@ -10,12 +10,13 @@ mod switches;
 use pleach_tree::math;
 pub use scene::{Anchor, Color, Scene, Shape};
 
+use crate::draw::{DrawError, Drawing, silhouettes};
 use crate::error::BlendError;
 use crate::map::BlendMap;
 use crate::measures::Measure;
 use crate::plane::Point;
 use contour::Grid;
-use pleach_silhouette::Bitmap;
+use pleach_silhouette::{Bitmap, Detail};
 use switches::switch_lines_on;
 pub use switches::{Switch, switch_lines};
 
@@ -42,6 +43,8 @@ pub struct TraitField {
 /// Size of the picture in pixels.
 const WIDTH: u32 = 1500;
 const HEIGHT: u32 = 1060;
+/// Height and width of a silhouette on the map, in pixels.
+const THUMBNAIL: u32 = 92;
 /// Room for what is written around the map.
 const MARGIN: f64 = 60.0;
 const HEAD: f64 = 76.0;
@@ -88,6 +91,13 @@ impl Sheet {
 
     fn at(&self, p: Point) -> (f64, f64) {
         (self.origin.0 + (p.x - self.low.x) * self.scale, self.origin.1 + (self.high.y - p.y) * self.scale)
+    }
+
+    fn place(&self, (x, y): (f64, f64)) -> Point {
+        Point {
+            x: self.low.x + (x - self.origin.0) / self.scale,
+            y: self.high.y - (y - self.origin.1) / self.scale,
+        }
     }
 
     /// Points of a grid of this many columns, row by row from the top, and the number of rows.
@@ -233,6 +243,26 @@ fn switches(map: &BlendMap, sheet: &Sheet, scene: &mut Scene) -> Result<(), Blen
         scene.add(Shape::Line { points, color, width: 1.3, dash: None });
     }
     Ok(())
+}
+
+/// Where the picture of the map shows a point of the plane, in pixels from its upper left corner.
+#[must_use]
+pub fn pixel_at(map: &BlendMap, point: Point) -> (f64, f64) {
+    Sheet::new(map).at(point)
+}
+
+/// The point of the plane that the picture of the map shows there, in pixels from its upper left corner.
+#[must_use]
+pub fn point_at(map: &BlendMap, pixel: (f64, f64)) -> Point {
+    Sheet::new(map).place(pixel)
+}
+
+/// The silhouettes of a map's species, for [`Extras::thumbnails`].
+///
+/// # Errors
+/// The first species that does not grow from `seed`.
+pub fn thumbnails(map: &BlendMap, seed: u64) -> Result<Vec<Bitmap>, DrawError> {
+    silhouettes(map.landmarks().species(), seed, Drawing { pixels: THUMBNAIL, detail: Detail::Full })
 }
 
 /// The corners of the rectangle that the picture of the map shows: the least and the greatest coordinates.
@@ -431,6 +461,22 @@ mod tests {
         let shown = 100.0 * map.pca().explained().iter().take(2).sum::<f64>();
         assert!(svg.contains(&format!("two axes that show {shown:.0} % of how they differ")));
         assert!(scene.to_png().is_some());
+    }
+
+    #[test]
+    fn pixels_of_the_picture_are_points_of_the_map() {
+        let map = BlendMap::new(fifteen(), Settings::default()).unwrap();
+        let [low, high] = extent(&map);
+        let (left, bottom) = pixel_at(&map, low);
+        let (right, top) = pixel_at(&map, high);
+        assert!((left, top) == (MARGIN, HEAD) && (right - f64::from(WIDTH) + MARGIN).abs() < 1e-9);
+        assert!((bottom - f64::from(HEIGHT) + MARGIN).abs() < 1e-9);
+        let dots: Vec<_> = scene(&map, &Extras::default()).unwrap().shapes().to_vec();
+        for dot in map.dots() {
+            let pixel = pixel_at(&map, *dot);
+            assert!(point_at(&map, pixel).distance(*dot) < 1e-9);
+            assert!(dots.iter().any(|shape| matches!(shape, Shape::Dot { at, .. } if *at == pixel)));
+        }
     }
 
     #[test]

@@ -78,8 +78,7 @@ fn trait_named(name: &str) -> Result<Measure, String> {
 /// With fewer species any trait correlates with an axis: two dots always lie on a line.
 const FEWEST_TO_CORRELATE: usize = 5;
 
-/// Height and width of a thumbnail on the map, and of a tree on a sheet, in pixels.
-const THUMBNAIL: u32 = 92;
+/// Height and width of a tree on a sheet, in pixels.
 const CELL: u32 = 128;
 
 impl Map {
@@ -87,8 +86,7 @@ impl Map {
         let map = self.map.map(&[])?;
         let mut extras = Extras::default();
         if !self.no_thumbnails {
-            let drawing = Drawing { pixels: THUMBNAIL, detail: Detail::Full };
-            extras.thumbnails = silhouettes(map.landmarks().species(), self.seed, drawing)?;
+            extras.thumbnails = picture::thumbnails(&map, self.seed)?;
         }
         if !self.traits.is_empty() {
             extras.traits = sample(&map, &self.traits, self.seed)?;

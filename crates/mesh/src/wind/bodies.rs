@@ -20,16 +20,19 @@ struct Body {
     parent: u32,
 }
 
-/// The bodies of a tree: trunks, limbs that grow from them, and twigs that grow from limbs.
+/// The bodies of a tree: trunks, limbs that grow from them, and twigs that grow from limbs. They give what moves in wind its
+/// numbers: all knots of a stem have those of the stem, and what it carries too.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Bodies {
+pub struct Bodies {
     bodies: Vec<Body>,
     /// The body of each stem.
     of_stem: Vec<u32>,
 }
 
 impl Bodies {
-    pub(crate) fn new(tree: &Tree) -> Self {
+    /// The bodies of `tree`.
+    #[must_use]
+    pub fn new(tree: &Tree) -> Self {
         let mut new = Self::default();
         for (i, stem) in tree.stems.iter().enumerate() {
             let carrier = stem.parent.map(|parent| new.of_stem[parent as usize]);
@@ -61,8 +64,12 @@ impl Bodies {
         number
     }
 
-    /// Wind data of the vertices of a stem.
-    pub(crate) fn of_stem(&self, stem: usize) -> Wind {
+    /// Wind data of the vertices of a stem, and of all that it carries and that does not flutter.
+    ///
+    /// # Panics
+    /// If the tree has no such stem.
+    #[must_use]
+    pub fn of_stem(&self, stem: usize) -> Wind {
         let body = &self.bodies[self.of_stem[stem] as usize];
         let parent = &self.bodies[body.parent as usize];
         Wind {
@@ -78,7 +85,11 @@ impl Bodies {
     }
 
     /// Wind data of a vertex of a leaf or a card, `place` of the way from its foot to its tip.
-    pub(crate) fn of_leaf(&self, leaf: &Leaf, place: f32) -> Wind {
+    ///
+    /// # Panics
+    /// If the tree has no such stem as the leaf's.
+    #[must_use]
+    pub fn of_leaf(&self, leaf: &Leaf, place: f32) -> Wind {
         let far = (FLUTTER * leaf.along.length()).min(MAX_FLUTTER);
         Wind { flutter: far * place.clamp(0.0, 1.0), ..self.of_stem(leaf.stem as usize) }
     }

@@ -32,7 +32,7 @@
 mod bodies;
 mod formula;
 
-pub(crate) use bodies::Bodies;
+pub use bodies::Bodies;
 pub use formula::{Breeze, moved};
 
 use pleach_plant::Tree;

@@ -22,14 +22,13 @@ impl Export {
     ///
     /// # Errors
     /// An [`ExportError`]: options that [`Export::check`] refuses, those that are about files alone (`lod_extension`,
-    /// `leaves` as instances, `compress`, `wind`, `sway`), and meshes that cannot be made.
+    /// `leaves` as instances, `compress`, `sway`), and meshes that cannot be made.
     pub fn meshes(&self, species: &Species, tree: &Tree) -> Result<ExportedMeshes, ExportError> {
         self.check(Format::Glb)?;
         let of_files = [
             ("lod_extension", self.lod_extension),
             ("leaves", self.leaf_form() == LeafForm::Instances),
             ("compress", self.compress.is_some()),
-            ("wind", self.wind),
             ("sway", self.sway),
         ];
         if let Some((option, _)) = of_files.into_iter().find(|(_, asked)| *asked) {
@@ -75,6 +74,15 @@ mod tests {
         for picture in made.pictures.iter().flat_map(|pictures| pictures.all()) {
             assert!(glb.windows(picture.1.len()).any(|bytes| bytes == picture.1), "{}", picture.0);
         }
+        // What wind needs comes along, but for cards that show the whole tree.
+        let windy = Export { wind: true, textures: None, ..export.clone() };
+        let levels = windy.meshes(&species, &tree).unwrap().levels;
+        for (number, (part, block)) in
+            levels.iter().enumerate().flat_map(|(i, mesh)| mesh.parts.iter().map(move |part| (i, part)))
+        {
+            let rows = if number < 2 { block.vertices.len() } else { 0 };
+            assert_eq!(block.wind.len(), rows, "level {number}, {:?}", part.material);
+        }
         let one = Export { level: Some(1), billboard: 0, textures: None, ..export };
         // Its cards show a picture of their own.
         let alone = one.meshes(&species, &tree).unwrap().levels;
@@ -87,7 +95,7 @@ mod tests {
         let species = pleach_generators::species("acer").unwrap();
         let tree = species.grow(1).unwrap();
         let error = |export: Export| export.meshes(&species, &tree).unwrap_err().to_string();
-        assert!(error(Export { wind: true, ..Export::default() }).starts_with("`wind` is for files"));
+        assert!(error(Export { sway: true, ..Export::default() }).starts_with("`sway` is for files"));
         assert!(
             error(Export { leaves: Some(LeafForm::Instances), ..Export::default() })
                 .starts_with("`leaves` is for")

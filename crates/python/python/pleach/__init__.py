@@ -27,6 +27,7 @@ from ._native import (
     Species,
     SpeciesError,
     Tree,
+    Wind,
     __version__,
     generators,
 )
@@ -60,6 +61,7 @@ __all__ = [
     "Species",
     "SpeciesError",
     "Tree",
+    "Wind",
     "__version__",
     "blend",
     "dataset",

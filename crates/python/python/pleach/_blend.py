@@ -78,3 +78,21 @@ class Map:
     def locate(self, kind: Kind) -> tuple[float, float]:
         """Where a species belongs."""
         return self._map.locate(one_species(kind))
+
+    def picture(self, seed: int = 1) -> bytes:
+        """The map as the bytes of a PNG file: species by name with silhouettes of the trees of ``seed``, coloured by the nearest
+        one, and a dashed line around the points that are between species."""
+        return self._map.picture(seed)
+
+    @property
+    def extent(self) -> npt.NDArray[np.float64]:
+        """Smallest and largest x, y that the picture shows, float64 of shape (2, 2)."""
+        return self._map.extent()
+
+    def pixel_at(self, x: float, y: float) -> tuple[float, float]:
+        """Where the picture shows a point: column and row from its upper left corner, in pixels."""
+        return self._map.pixel_at(x, y)
+
+    def point_at(self, column: float, row: float) -> tuple[float, float]:
+        """The point that the picture shows at a pixel: the way back from ``pixel_at``."""
+        return self._map.point_at(column, row)
