@@ -15,7 +15,26 @@ pub(crate) fn species(name: &str) -> Result<Species, RegistryError> {
     if name == "-" {
         return pleach_generators::read(std::io::stdin().lock(), "stdin");
     }
-    pleach_generators::species(name)
+    let species = pleach_generators::species(name)?;
+    note_untranslated(name);
+    Ok(species)
+}
+
+/// Notes that the file of another program has entries that its species here does not have.
+fn note_untranslated(name: &str) {
+    let path = Path::new(name);
+    if path.extension().is_none_or(|ending| ending == "toml") {
+        return;
+    }
+    let Ok(file) = std::fs::File::open(path) else { return };
+    if let Ok((_, foreign)) = pleach_generators::import(file, name)
+        && !foreign.without_counterpart.is_empty()
+    {
+        output::note(format!(
+            "{name} has entries without a counterpart here: {}; `pleach import` tells more",
+            foreign.without_counterpart.join(", ")
+        ));
+    }
 }
 
 /// Whether a path means standard input or standard output: `-`.

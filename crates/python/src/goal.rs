@@ -25,7 +25,7 @@ impl Source {
         if let Ok(bytes) = goal.extract::<Vec<u8>>()
             && goal.is_instance_of::<PyBytes>()
         {
-            return Ok(Self::Picture(Encoded::read("goal", &*bytes).map_err(of_goal)?));
+            return Ok(Self::Picture(Encoded::new("goal", bytes)));
         }
         if let Ok(array) = goal.cast::<PyUntypedArray>() {
             return of_array(array);

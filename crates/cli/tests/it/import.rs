@@ -71,6 +71,10 @@ fn what_has_no_counterpart_is_listed() {
     assert!(stderr("birch.xml", BIRCH).contains("Without a counterpart: Lobes."));
     assert!(stderr("ash.json", ASH).contains("The tree is the nearest one of Weber and Penn's model"));
     assert!(stderr("maple.py", MAPLE).contains("Without a counterpart: handleType."));
+    // Wherever such a file stands for a species.
+    let grown = dir.run(["grow", "maple.py", "--stats-only"]);
+    let _ = grown.ok();
+    assert!(grown.stderr().contains("maple.py has entries without a counterpart here: handleType"), "{grown}");
 }
 
 #[test]

@@ -184,6 +184,35 @@ fn gif_and_bmp_are_goals_like_any_other() {
 }
 
 #[test]
+fn a_drawing_is_a_goal_like_any_other() {
+    let dir = Dir::new();
+    let tree = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 200 200'>
+        <rect x='92' y='120' width='16' height='70'/><circle cx='100' cy='75' r='60' fill='darkgreen'/></svg>";
+    let _ = dir.file("tree.svg", tree);
+    image::GrayImage::from_fn(200, 200, |x, y| {
+        let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let trunk = (92.0..108.0).contains(&x) && (120.0..190.0).contains(&y);
+        image::Luma([if trunk || (x - 100.0).hypot(y - 75.0) < 60.0 { 0 } else { 255 }])
+    })
+    .save(dir.path("tree.png"))
+    .unwrap();
+    let scores = dir.run(["score", "tree.svg", "tree.png", "--json"]).json();
+    assert!(scores["iou"].as_f64().unwrap() > 0.98, "{scores}");
+    assert_eq!(piped(&dir, &["score", "-", "tree.svg", "--json"], tree.as_bytes()).json()["iou"], 1.0);
+    let _ = dir.run([&["fit", "tree.svg", "--out", "run"][..], &QUICK].concat()).ok();
+    // It goes on only with the same drawing.
+    let _ = dir.file("tree.svg", tree.replace("'60'", "'50'"));
+    dir.run([&["fit", "tree.svg", "--out", "run", "--resume"][..], &QUICK].concat()).fails(1, &["tree.svg"]);
+    let _ = dir.file(
+        "blur.svg",
+        tree.replace("<rect", "<filter id='f'><feGaussianBlur/></filter><rect filter='url(#f)'"),
+    );
+    dir.run(["score", "blur.svg", "tree.png"]).fails(1, &["blur.svg is a drawing", "filter", "PNG"]);
+    let _ = dir.file("half.svg", &tree[..60]);
+    dir.run(["score", "half.svg", "tree.png"]).fails(1, &["half.svg is a drawing"]);
+}
+
+#[test]
 fn pictures_that_claim_to_be_huge_are_refused_before_they_are_decoded() {
     let dir = Dir::new();
     let mut bmp = b"BM\x00\x00\x00\x00\0\0\0\0\x36\0\0\0\x28\0\0\0".to_vec();

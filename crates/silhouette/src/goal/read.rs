@@ -60,6 +60,9 @@ fn colors(picture: &DynamicImage, stride: usize) -> Vec<[u8; 3]> {
 /// Decodes a picture and turns it upright; of several in a file, the first. The sizes of
 /// the file and of its header are checked before any pixel is decoded. Also whether there are several.
 pub(crate) fn picture(source: &Encoded) -> Result<(DynamicImage, bool), GoalError> {
+    if let Some(painted) = source.painted()? {
+        return picture(&painted);
+    }
     let check_bytes = |bytes| match bytes > MAX_BYTES {
         true => Err(GoalError::TooManyBytes { path: source.name().into(), bytes, limit: MAX_BYTES }),
         false => Ok(()),
@@ -90,6 +93,9 @@ pub(crate) fn picture(source: &Encoded) -> Result<(DynamicImage, bool), GoalErro
 /// Width and height that the header of a picture claims, the note on orientation followed.
 pub(super) fn dimensions(source: &Encoded) -> Result<(u32, u32), GoalError> {
     use Orientation::{Rotate90, Rotate90FlipH, Rotate270, Rotate270FlipH};
+    if let Some(painted) = source.painted()? {
+        return dimensions(&painted);
+    }
     let ((width, height), orientation) = match uncommon(source)? {
         Some((found, _)) => (found.size, Ok(found.orientation)),
         None => {

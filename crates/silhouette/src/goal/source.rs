@@ -70,25 +70,33 @@ impl Encoded {
             Ok(true) if bytes.len() as u64 > MAX_BYTES => {
                 Err(GoalError::TooManyBytes { path, bytes: bytes.len() as u64, limit: MAX_BYTES })
             }
-            Ok(true) => Self { name: path, bytes, file: None }.painted(),
+            Ok(true) => {
+                let read = Self { name: path, bytes, file: None };
+                // Once, whatever is asked of it.
+                Ok(match read.painted()? {
+                    Some(painted) => painted,
+                    None => read,
+                })
+            }
         }
     }
 
-    /// A drawing as a picture; a picture as it is.
+    /// A drawing as a picture; nothing for what is a picture, or nothing that is read.
     #[cfg(feature = "pictures")]
-    fn painted(self) -> Result<Self, GoalError> {
+    pub(super) fn painted(&self) -> Result<Option<Self>, GoalError> {
         if !is_drawing(&self.bytes) {
-            return Ok(self);
+            return Ok(None);
         }
         match svg::painted(&self.bytes) {
-            Ok(png) => Ok(Self { name: self.name, bytes: png, file: Some(self.bytes) }),
-            Err(detail) => Err(GoalError::Drawing { path: self.name, detail }),
+            Ok(png) => Ok(Some(Self::new(&self.name, png).converted_from(self.bytes.clone()))),
+            Err(detail) => Err(GoalError::Drawing { path: self.name.clone(), detail }),
         }
     }
 
     #[cfg(not(feature = "pictures"))]
-    fn painted(self) -> Result<Self, GoalError> {
-        Ok(self)
+    #[expect(clippy::unnecessary_wraps, clippy::unused_self, reason = "drawings are read by a feature")]
+    pub(super) fn painted(&self) -> Result<Option<Self>, GoalError> {
+        Ok(None)
     }
 
     /// The same, as the conversion of a file of another format with these bytes.

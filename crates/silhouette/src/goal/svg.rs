@@ -140,8 +140,7 @@ impl Painter {
     /// Counts the pixels of a box.
     fn count(&mut self, of: usvg::Rect) -> Result<(), String> {
         let part = |length: f32, side: u32| f64::from((length * self.scale.sx).clamp(1.0, side as f32));
-        self.painted +=
-            part(of.width(), self.pixmap.width()) * part(of.height(), self.pixmap.height());
+        self.painted += part(of.width(), self.pixmap.width()) * part(of.height(), self.pixmap.height());
         if self.painted > MAX_PAINTED {
             return Err("its shapes lie on each other too often to be painted in a few seconds".to_owned());
         }
@@ -228,11 +227,14 @@ mod tests {
         assert!(!refused(&defs).is_empty());
         let twelve_thousand = "<rect width='10' height='10'/>".repeat(12_000);
         assert!(refused(&twelve_thousand).contains("too often"));
-        let nested = format!("{}<rect width='9' height='9'/>{}", "<g opacity='.99'>".repeat(900), "</g>".repeat(900));
+        let nested =
+            format!("{}<rect width='9' height='9'/>{}", "<g opacity='.99'>".repeat(900), "</g>".repeat(900));
         let svg = format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'>{nested}</svg>");
         assert!(painted(svg.as_bytes()).is_ok());
         let looped = "<g id='a'><use href='#b'/></g><g id='b'><use href='#a'/></g>";
-        let svg = format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'>{looped}<rect width='9' height='9'/></svg>");
+        let svg = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'>{looped}<rect width='9' height='9'/></svg>"
+        );
         assert!(painted(svg.as_bytes()).is_ok(), "a loop paints nothing");
     }
 

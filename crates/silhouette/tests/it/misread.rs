@@ -312,7 +312,10 @@ fn formats_that_are_not_read_name_what_converts_them() {
             b"BM\x36\x01\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0",
             if cfg!(feature = "pictures") { ["damaged"; 2] } else { ["BMP", "magick"] },
         ),
-        (b"<svg xmlns='http://www.w3.org/2000/svg'/>", ["SVG", "rsvg-convert"]),
+        (
+            b"<svg xmlns='http://www.w3.org/2000/svg'>",
+            if cfg!(feature = "pictures") { ["drawing", "as PNG"] } else { ["SVG", "rsvg-convert"] },
+        ),
     ] {
         let whole = Goal::from_bytes("picture", head.to_vec(), &GoalOptions::default()).unwrap_err();
         let piped = Goal::from_reader("picture", head, &GoalOptions::default()).unwrap_err();
