@@ -22,12 +22,17 @@ const PROGRAMS: [&[&str]; 4] = [
     &["magick", "{in}", "{out}"],
 ];
 
+/// Whether `error` is that a picture has to be converted first.
+pub(crate) fn is_for(error: &GoalError) -> bool {
+    matches!(error, GoalError::OtherFormat { format, .. } if *format == FORMAT)
+}
+
 /// The picture at `path` as PNG, if `error` is that it is HEIC and a program of the system converts it.
 ///
 /// # Errors
 /// `error`, if the picture is of another format or no program is there; otherwise what the program said.
 pub(crate) fn converted(path: &Path, error: GoalError) -> anyhow::Result<Encoded> {
-    if !matches!(&error, GoalError::OtherFormat { format, .. } if *format == FORMAT) {
+    if !is_for(&error) {
         return Err(error.into());
     }
     let folder = tempfile::tempdir().context("no temporary folder")?;

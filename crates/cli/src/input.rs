@@ -1,11 +1,13 @@
 //! What several commands read from their arguments.
 
 use crate::{converter, output};
+use pleach::{FitOptions, PictureSource};
 use pleach_fit::Prior;
 use pleach_generators::RegistryError;
 use pleach_silhouette::View;
 use pleach_silhouette::goal::Encoded;
 use pleach_tree::{Foliage, Limits, Species};
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::Path;
@@ -48,6 +50,20 @@ pub(crate) fn picture(path: &Path) -> anyhow::Result<Encoded> {
         return Ok(Encoded::read("standard input", std::io::stdin().lock())?);
     }
     Encoded::load(path).or_else(|error| converter::converted(path, error))
+}
+
+/// Those of the pictures that `options` name that have to be converted, by their names.
+pub(crate) fn converted_pictures(options: &FitOptions) -> anyhow::Result<BTreeMap<String, PictureSource>> {
+    let mut converted = BTreeMap::new();
+    for name in options.files() {
+        let path = Path::new(name);
+        if let Err(error) = Encoded::load(path)
+            && converter::is_for(&error)
+        {
+            let _ = converted.insert(name.to_owned(), converter::converted(path, error)?.into());
+        }
+    }
+    Ok(converted)
 }
 
 /// The name for results made from a picture: the file's name without its extension, or `stdin`. `None` if

@@ -3,11 +3,12 @@
 use crate::arrays::of_ink;
 use crate::error::{PleachError, of_growth};
 use crate::pool;
-use crate::species::{Species, read_season};
 use crate::view::{self, Direction};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray as _, PyArray2, PyArray3};
-use pleach::{Bitmap, Frame, Palette, Parts, Picture, Preview, PreviewSettings, Rasterizer, Tree};
+use pleach::{
+    Appearance, Bitmap, Frame, Palette, Parts, Picture, Preview, PreviewSettings, Rasterizer, Season, Tree,
+};
 use pyo3::prelude::*;
 
 /// Largest side of a picture that is drawn.
@@ -84,7 +85,7 @@ pub(crate) struct Painting<'a> {
 /// A shaded picture.
 pub(crate) fn painted(
     py: Python<'_>,
-    species: &Species,
+    looks: &Appearance,
     tree: &Tree,
     size: u32,
     painting: Painting<'_>,
@@ -104,7 +105,7 @@ pub(crate) fn painted(
     let season = painting.season.map(read_season).transpose()?;
     let parts = if painting.roots { Parts::ALL } else { Parts::LEAFY };
     pool::on(py, painting.threads, || {
-        let palette = Palette::new(&species.inner.appearance, season);
+        let palette = Palette::new(looks, season);
         let tree = palette.dressed(tree);
         Preview::with_parts(&tree, &palette, size, parts).picture(&settings)
     })
@@ -114,4 +115,12 @@ pub(crate) fn painted(
 pub(crate) fn array(py: Python<'_>, picture: Picture) -> PyResult<Bound<'_, PyArray3<u8>>> {
     let shape = (picture.height as usize, picture.width as usize, 4);
     Ok(Array3::from_shape_vec(shape, picture.rgba).map_err(of_growth)?.into_pyarray(py))
+}
+
+/// A season by its name.
+pub(crate) fn read_season(name: &str) -> PyResult<Season> {
+    Season::from_name(name).ok_or_else(|| {
+        let known = Season::NAMES.join(", ");
+        PleachError::new_err(format!("there is no season `{name}`, expected one of {known}"))
+    })
 }

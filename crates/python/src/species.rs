@@ -5,9 +5,9 @@ use crate::error::{PleachError, of_export, of_growth, of_species};
 use crate::params;
 use crate::seed::Seed;
 use crate::tree::{self, Tree};
-use crate::{json, pool};
+use crate::{json, pictures, pool};
 use numpy::{PyArray1, PyReadonlyArray1};
-use pleach::{Export, Foliage, Forest, Growth, Palette, ParamSpace, Season};
+use pleach::{Export, Foliage, Forest, Growth, Palette, ParamSpace};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
@@ -221,7 +221,7 @@ impl Species {
     /// (217, 214, 204)
     #[pyo3(signature = (season = None))]
     fn palette<'py>(&self, py: Python<'py>, season: Option<&str>) -> PyResult<Bound<'py, PyDict>> {
-        let palette = Palette::new(&self.inner.appearance, season.map(read_season).transpose()?);
+        let palette = Palette::new(&self.inner.appearance, season.map(pictures::read_season).transpose()?);
         let dict = PyDict::new(py);
         for (name, color) in [("bark", palette.bark), ("leaf", palette.leaf), ("blossom", palette.blossom)] {
             dict.set_item(name, <(u8, u8, u8)>::from(color.0))?;
@@ -372,12 +372,4 @@ impl Species {
         let from_toml = py.get_type::<Self>().getattr("from_toml")?;
         PyTuple::new(py, [from_toml, PyTuple::new(py, [self.to_toml()])?.into_any()])
     }
-}
-
-/// A season by its name.
-pub(crate) fn read_season(name: &str) -> PyResult<Season> {
-    Season::from_name(name).ok_or_else(|| {
-        let known = Season::NAMES.join(", ");
-        PleachError::new_err(format!("there is no season `{name}`, expected one of {known}"))
-    })
 }

@@ -9,7 +9,7 @@ use crate::view::Direction;
 use crate::{foliage, json, mesh, pool, skeleton, wind};
 use numpy::{PyArray1, PyArray2, PyArray3};
 use pleach::{
-    Bounds, Export, ExportedFile, MeshFormat, Palette, Parts, Skeleton, SkeletonFormat, StemKind, TreeStats,
+    Bounds, Export, ExportedFile, MeshFormat, Parts, Skeleton, SkeletonFormat, StemKind, TreeStats,
 };
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
@@ -323,7 +323,10 @@ impl Tree {
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let painting = Painting { view, season, roots, background, ground, threads };
-        pictures::array(py, pictures::painted(py, &self.species, &self.inner, size, painting)?)
+        pictures::array(
+            py,
+            pictures::painted(py, &self.species.inner.appearance, &self.inner, size, painting)?,
+        )
     }
 
     /// Writes the tree to a file, and returns the files that were written: the mesh, and the materials and
@@ -433,7 +436,8 @@ impl Tree {
         /// Pixels a side.
         const SHOWN: u32 = 320;
         let mut png = Vec::new();
-        pictures::painted(py, &self.species, &self.inner, SHOWN, Painting::default())?.write_png(&mut png)?;
+        pictures::painted(py, &self.species.inner.appearance, &self.inner, SHOWN, Painting::default())?
+            .write_png(&mut png)?;
         Ok(PyBytes::new(py, &png))
     }
 

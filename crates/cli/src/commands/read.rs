@@ -7,7 +7,7 @@ use super::hints::HintArgs;
 use crate::choice::one_of;
 use crate::segmenter::Segmenter;
 use crate::{files, input, output};
-use pleach::{Colors, FitOptions, GoalReading, MaskFrom, PictureReading, Tone, read_picture};
+use pleach::{Colors, FitOptions, FitSource, GoalReading, MaskFrom, PictureReading, Tone, read_picture};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
@@ -83,7 +83,8 @@ impl Read {
         let reading = self.corrections.corrections()?;
         let wood = self.wood.clone();
         let options = FitOptions { mask, hints, wood, reading, tree: self.tree, ..FitOptions::default() };
-        read_picture(picture, &options).map_err(flags::named)
+        let source = FitSource { pictures: input::converted_pictures(&options)?, ..picture.into() };
+        read_picture(source, &options).map_err(flags::named)
     }
 
     /// Writes the files of `--out`.

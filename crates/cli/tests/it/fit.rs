@@ -146,13 +146,13 @@ fn every_optimizer_is_the_same_on_any_number_of_threads() {
 fn the_first_guess_names_the_species_and_starts_the_fit() {
     let dir = Dir::new();
     // A tree of a seed that the fit does not use.
-    let _ = dir.run(["silhouette", "acer", "--seed", "21", "--size", "128", "-o", "acer.png"]).ok();
-    let args = ["fit", "acer.png", "--size", "140", "--evaluations", "60", "--individual", "off", "--json"];
+    let _ = dir.run(["silhouette", "palm", "--seed", "21", "--size", "128", "-o", "palm.png"]).ok();
+    let args = ["fit", "palm.png", "--size", "140", "--evaluations", "60", "--individual", "off", "--json"];
     let run = |more: &[&str]| dir.run([&args[..], more].concat());
     let auto = run(&["--out", "auto"]);
-    assert!(auto.stderr().contains("looks like acer"), "{}", auto.stderr());
+    assert!(auto.stderr().contains("looks like palm"), "{}", auto.stderr());
     let auto = auto.json();
-    assert_eq!((&auto["from"], &auto["looks_like"][0]["species"]), (&"auto".into(), &"acer".into()));
+    assert_eq!((&auto["from"], &auto["looks_like"][0]["species"]), (&"auto".into(), &"palm".into()));
     let random = run(&["--out", "random", "--from", "random"]).json();
     assert_eq!(random["looks_like"].as_array().unwrap().len(), 0);
     let iou = |summary: &serde_json::Value| summary["iou"].as_f64().unwrap();

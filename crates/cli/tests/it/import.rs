@@ -74,7 +74,10 @@ fn what_has_no_counterpart_is_listed() {
     // Wherever such a file stands for a species.
     let grown = dir.run(["grow", "maple.py", "--stats-only"]);
     let _ = grown.ok();
-    assert!(grown.stderr().contains("maple.py has entries without a counterpart here: handleType"), "{grown}");
+    assert!(
+        grown.stderr().contains("maple.py has entries without a counterpart here: handleType"),
+        "{grown}"
+    );
 }
 
 #[test]

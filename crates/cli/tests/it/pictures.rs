@@ -189,8 +189,9 @@ fn a_drawing_is_a_goal_like_any_other() {
     let tree = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 200 200'>
         <rect x='92' y='120' width='16' height='70'/><circle cx='100' cy='75' r='60' fill='darkgreen'/></svg>";
     let _ = dir.file("tree.svg", tree);
-    image::GrayImage::from_fn(200, 200, |x, y| {
-        let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+    // Drawings have a longer side of 1024 pixels.
+    image::GrayImage::from_fn(1024, 1024, |x, y| {
+        let [x, y] = [x, y].map(|place| (f64::from(place) + 0.5) * 200.0 / 1024.0);
         let trunk = (92.0..108.0).contains(&x) && (120.0..190.0).contains(&y);
         image::Luma([if trunk || (x - 100.0).hypot(y - 75.0) < 60.0 { 0 } else { 255 }])
     })
@@ -265,6 +266,10 @@ fn pictures_of_telephones_are_converted_by_a_program_of_the_system() {
     };
     let _ = fit(&[]).ok();
     let _ = fit(&["--resume"]).ok();
+    // So are further pictures and masks.
+    let view = fit(&["--view", "90=./-palm.heic", "--mask", "./-palm.heic", "--overwrite"]);
+    assert_eq!(view.code(), 0, "{view}");
+    assert!(dir.path("run/overlay-view-1.png").exists());
     std::fs::write(&tool, "#!/bin/sh\necho no codec >&2; exit 3\n").unwrap();
     score(&bin).fails(1, &["heif-convert does not convert", "no codec"]);
 }

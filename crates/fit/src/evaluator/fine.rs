@@ -60,9 +60,9 @@ impl TryFrom<Packed> for FineSilhouette {
 
 /// Minimum of its pixels per pixel of the goal.
 const FINENESS: u32 = 2;
-/// Smallest and largest side, in pixels. The smallest is that of the drawings of known species that are kept: goals of
-/// up to 256 pixels are compared with these, and no tree has to be grown for them.
-const SIDES: (u32, u32) = (512, 2048);
+/// Smallest and largest side, in pixels. A smaller goal is not compared with larger drawings, although those of known
+/// species are kept: thin branches are lost, and a bare acer of 64 pixels passes for a leafy one.
+const SIDES: (u32, u32) = (128, 2048);
 /// One of this many parts of the side is added below the ground.
 const BELOW: u32 = 8;
 
@@ -192,8 +192,8 @@ mod tests {
 
     #[test]
     fn goals_of_about_one_size_share_plates() {
-        assert_eq!((side_for(256, 200), side_for(180, 256), side_for(64, 64)), (512, 512, 512));
-        assert_eq!((side_for(16, 16), side_for(2048, 9)), (512, 2048));
+        assert_eq!((side_for(256, 200), side_for(180, 256), side_for(64, 64)), (512, 512, 128));
+        assert_eq!((side_for(16, 16), side_for(2048, 9)), (128, 2048));
     }
 
     #[test]

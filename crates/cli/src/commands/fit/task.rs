@@ -88,7 +88,8 @@ impl Task {
         };
         // Standard input is called so in errors, and `stdin` in what is made of it.
         let name = input::stem(&self.goal).map(|stem| stem.to_string_lossy().into_owned());
-        let source = FitSource { start: self.start.clone(), name, ..picture.into() };
+        let pictures = input::converted_pictures(&self.options)?;
+        let source = FitSource { start: self.start.clone(), name, pictures, ..picture.into() };
         let prepared = self.options.prepare_after(&source, &spent).map_err(flags::named)?;
         drop(source);
         goal::say(&self.goal, &prepared.goal, fit.verbose);
