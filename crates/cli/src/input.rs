@@ -57,7 +57,8 @@ pub(crate) fn converted_pictures(options: &FitOptions) -> anyhow::Result<BTreeMa
     let mut converted = BTreeMap::new();
     for name in options.files() {
         let path = Path::new(name);
-        if let Err(error) = Encoded::load(path)
+        if !converted.contains_key(name)
+            && let Err(error) = Encoded::load(path)
             && converter::is_for(&error)
         {
             let _ = converted.insert(name.to_owned(), converter::converted(path, error)?.into());

@@ -266,8 +266,8 @@ fn pictures_of_telephones_are_converted_by_a_program_of_the_system() {
     };
     let _ = fit(&[]).ok();
     let _ = fit(&["--resume"]).ok();
-    // So are further pictures and masks.
-    let view = fit(&["--view", "90=./-palm.heic", "--mask", "./-palm.heic", "--overwrite"]);
+    // So are further pictures.
+    let view = fit(&["--view", "90=./-palm.heic", "--overwrite"]);
     assert_eq!(view.code(), 0, "{view}");
     assert!(dir.path("run/overlay-view-1.png").exists());
     std::fs::write(&tool, "#!/bin/sh\necho no codec >&2; exit 3\n").unwrap();
