@@ -103,6 +103,16 @@ def thumbnails(folder: pathlib.Path, wheel: pathlib.Path) -> int:
         return len(names)
 
 
+def repack(wheel: pathlib.Path, out: pathlib.Path) -> None:
+    """The same wheel, packed with LZMA: a sixth smaller. Blender unpacks wheels with Python, which knows it; PyPI takes no
+    such wheels."""
+    with zipfile.ZipFile(wheel) as source, zipfile.ZipFile(out, "w", zipfile.ZIP_LZMA) as archive:
+        for info in source.infolist():
+            copy = zipfile.ZipInfo(info.filename, (1980, 1, 1, 0, 0, 0))
+            copy.external_attr = info.external_attr
+            archive.writestr(copy, source.read(info), zipfile.ZIP_LZMA)
+
+
 def pack(folder: pathlib.Path, out: pathlib.Path) -> None:
     """A zip of a folder: the same bytes for the same files."""
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
@@ -127,7 +137,7 @@ def build(wheel: pathlib.Path | None, out: pathlib.Path, most: int | None = MAX_
         shutil.copytree(SOURCE, stage, ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copy(HERE / "LICENSE", stage / "LICENSE")
         (stage / "wheels").mkdir()
-        shutil.copy(wheel, stage / "wheels" / wheel.name)
+        repack(wheel, stage / "wheels" / wheel.name)
         (stage / "blender_manifest.toml").write_text(manifest_of(wheel), encoding="utf-8")
         (stage / "thumbnails").mkdir()
         count = thumbnails(stage / "thumbnails", wheel)
