@@ -7,13 +7,17 @@
 
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder as _};
-use tiny_skia::{FillRule, Mask, Paint, Path, Pixmap, Transform};
+use tiny_skia::{FillRule, Mask, Paint, Path, Pixmap, Point, Transform};
 use usvg::{Group, ImageHrefResolver, Node, Options, Tree};
 
 /// The longer side of the picture, in pixels: four times that of goals by default.
 const SIDE: f32 = 1024.0;
 /// Pixels that the boxes of all paths may have together: some seconds of painting.
 const MAX_PAINTED: f64 = 1e10;
+/// Rows that the segments of one path may cross together, and those of all paths: all segments that cross a row are sorted.
+const MAX_CROSSED: [f64; 2] = [2e6, 1e8];
+/// Bytes of a drawing: reading takes a hundred times as much memory.
+const MAX_DRAWING: usize = 1 << 22;
 /// Memory for reading nested groups, of which there may be a thousand.
 const STACK: usize = 1 << 28;
 
@@ -22,6 +26,9 @@ const STACK: usize = 1 << 28;
 /// # Errors
 /// What is wrong with it, or why it is not painted.
 pub(super) fn painted(bytes: &[u8]) -> Result<Vec<u8>, String> {
+    if bytes.len() > MAX_DRAWING {
+        return Err(format!("it has {} bytes, and at most {MAX_DRAWING} are read", bytes.len()));
+    }
     std::thread::scope(|scope| {
         let painter = std::thread::Builder::new().stack_size(STACK);
         let painter = painter.spawn_scoped(scope, || paint(bytes)).map_err(|error| error.to_string())?;
@@ -43,7 +50,8 @@ fn paint(bytes: &[u8]) -> Result<Vec<u8>, String> {
     let side = |length: f32| (length * scale).round().max(1.0) as u32;
     let (width, height) = (side(size.width()), side(size.height()));
     let pixmap = Pixmap::new(width, height).ok_or("it has no size")?;
-    let mut painter = Painter { pixmap, scale: Transform::from_scale(scale, scale), painted: 0.0 };
+    let mut painter =
+        Painter { pixmap, scale: Transform::from_scale(scale, scale), painted: 0.0, crossed: 0.0 };
     painter.group(tree.root(), 1.0, None)?;
 
     let straight: Vec<u8> = painter
@@ -67,6 +75,8 @@ struct Painter {
     scale: Transform,
     /// Pixels of the boxes of all paths so far.
     painted: f64,
+    /// Rows that their segments cross.
+    crossed: f64,
 }
 
 impl Painter {
@@ -91,7 +101,7 @@ impl Painter {
     }
 
     fn path(&mut self, path: &usvg::Path, opacity: f32, clip: Option<&Mask>) -> Result<(), String> {
-        self.count(path.abs_stroke_bounding_box())?;
+        self.count(path)?;
         let transform = path.abs_transform().post_concat(self.scale);
         if let Some(fill) = path.fill() {
             let paint = paint_of(fill.paint(), opacity * fill.opacity().get())?;
@@ -127,7 +137,7 @@ impl Painter {
             match node {
                 Node::Group(group) => self.shapes(group, onto, transform)?,
                 Node::Path(path) => {
-                    self.count(path.abs_stroke_bounding_box())?;
+                    self.count(path)?;
                     let rule = path.fill().map_or(FillRule::Winding, |fill| rule_of(fill.rule()));
                     fill_black(onto, path.data(), rule, transform);
                 }
@@ -137,14 +147,35 @@ impl Painter {
         Ok(())
     }
 
-    /// Counts the pixels of a box.
-    fn count(&mut self, of: usvg::Rect) -> Result<(), String> {
+    /// Counts what it takes to paint a path.
+    fn count(&mut self, path: &usvg::Path) -> Result<(), String> {
+        let of = path.abs_stroke_bounding_box();
         let part = |length: f32, side: u32| f64::from((length * self.scale.sx).clamp(1.0, side as f32));
-        self.painted += part(of.width(), self.pixmap.width()) * part(of.height(), self.pixmap.height());
-        if self.painted > MAX_PAINTED {
+        let high = part(of.height(), self.pixmap.height());
+        self.painted += part(of.width(), self.pixmap.width()) * high;
+        let crossed = self.rows_crossed(path);
+        self.crossed += crossed;
+        let [of_one, of_all] = MAX_CROSSED;
+        if self.painted > MAX_PAINTED || self.crossed > of_all {
             return Err("its shapes lie on each other too often to be painted in a few seconds".to_owned());
         }
+        if crossed > of_one {
+            return Err(
+                "it has a path that goes up and down too often to be painted in a few seconds".to_owned()
+            );
+        }
         Ok(())
+    }
+
+    /// Rows that the segments of a path cross, by their control points.
+    fn rows_crossed(&self, path: &usvg::Path) -> f64 {
+        let mut points = path.data().points().to_vec();
+        path.abs_transform().post_concat(self.scale).map_points(&mut points);
+        // A point beyond the picture stands for the edge.
+        let row = |point: &Point| f64::from(point.y.clamp(0.0, self.pixmap.height() as f32));
+        let rows: f64 = points.windows(2).map(|two| (row(&two[0]) - row(&two[1])).abs()).sum();
+        // Both sides of a stroke, and its joins.
+        if path.stroke().is_some() { 3.0 * rows } else { rows }
     }
 }
 
@@ -225,6 +256,7 @@ mod tests {
             .collect();
         let defs = format!("<defs><rect id='a0' width='9' height='9'/>{laughs}</defs><use href='#a10'/>");
         assert!(!refused(&defs).is_empty());
+        assert!(painted(&vec![b' '; MAX_DRAWING + 1]).unwrap_err().contains("at most"));
         let twelve_thousand = "<rect width='10' height='10'/>".repeat(12_000);
         assert!(refused(&twelve_thousand).contains("too often"));
         let nested =
