@@ -81,7 +81,8 @@ def png_of(rgba) -> bytes:  # type: ignore[no-untyped-def]
 def thumbnails(folder: pathlib.Path, wheel: pathlib.Path) -> int:
     """Paints every species, with the wheel itself or, where it is for another platform, with the pleach that is installed;
     returns how many."""
-    with tempfile.TemporaryDirectory() as unpacked:
+    # Windows keeps the library, which stays loaded.
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as unpacked:
         zipfile.ZipFile(wheel).extractall(unpacked)
         sys.path.insert(0, unpacked)
         try:

@@ -53,7 +53,12 @@ def _place(layout: Any, context: Any) -> None:
     if thing is None:
         return
     tree = thing.pleach
-    if plane.locate(library.species_of(tree.species_text)) is None:
+    try:
+        place = plane.locate(library.species_of(tree.species_text))
+    except library.pleach.PleachError as error:
+        words(layout, str(error), "ERROR")
+        return
+    if place is None:
         text = f"{tree.species_name} is not of the family of the map, {plane.family()}: a click or a number makes it a tree of the map"
         words(layout, text, "INFO")
     column = layout.column(align=True)

@@ -190,7 +190,9 @@ class PLEACH_OT_blend(Tool):
             raise library.pleach.SpeciesError("there is no active tree: select one, or choose a species to start from")
         if one.name == other.name and one != other:
             one = one.named(f"{one.name[:50]}_here")
-        mixed = library.pleach.blend({one: 1.0 - panel.blend, other: panel.blend}, name=f"{one.name}_{other.name}"[:60])
+        shares = {one: 1.0 - panel.blend, other: panel.blend}
+        # Between a species and itself there is nothing else.
+        mixed = one if len(shares) == 1 else library.pleach.blend(shares, name=f"{one.name}_{other.name}"[:60])
         if thing is None:
             result.new(context, mixed)
             return None

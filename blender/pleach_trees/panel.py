@@ -154,7 +154,11 @@ class PLEACH_PT_blend(Panel):
         if name != thumbnails.ACTIVE:
             one = library.family_of(name)
         elif tree is not None:
-            name, one = tree.pleach.species_name, library.species_of(tree.pleach.species_text).generator
+            try:
+                name, one = tree.pleach.species_name, library.species_of(tree.pleach.species_text).generator
+            except library.pleach.PleachError as error:
+                words(layout, str(error), "ERROR")
+                return
         other = library.family_of(panel.blend_with)
         if one is None:
             words(layout, "Select a tree, or choose a species to start from", "INFO")

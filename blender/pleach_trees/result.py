@@ -199,10 +199,10 @@ def set_wind(thing: Any, on: bool) -> None:
         return
     state = thing.pleach
     tree = library.species_of(state.species_text).grow(state.seed)
+    rows = curves.shown(tree, roots=state.roots)
+    if not wind.fits(thing, tree) or not has_wind(thing.data) and int(rows.sum()) != len(thing.data.curves):
+        raise library.pleach.PleachError("edited parts do not know how they move: press Grow Again, then tick Wind")
     if not has_wind(thing.data):
-        rows = curves.shown(tree, roots=state.roots)
-        if int(rows.sum()) != len(thing.data.curves):
-            raise library.pleach.PleachError("the curves do not know how they move: press Grow Again, then tick Wind")
         put_wind(thing.data, [tree.wind()], "CURVE", rows)
     wind.add(thing)
     if state.bark == "MESH":

@@ -28,6 +28,8 @@ def modifier_of(thing: Any) -> Any:
 
 def add(thing: Any) -> None:
     """A modifier that moves the tree of an object, with the settings of the last one if there was one; ``fill`` has to follow."""
+    if modifier_of(thing) is not None:
+        return
     modifier = _first(thing, wind_nodes.stems)
     for name, value in zip(SETTINGS, thing.get(KEPT, ())):
         nodes.set_input(modifier, name, value)
@@ -48,8 +50,21 @@ def remove(thing: Any) -> None:
             continue
         # Its drivers go with it.
         one.modifiers.remove(found)
-        if one is not thing:
+        # A linked copy still reads them.
+        if one is not thing and one.data.users == 1:
             drop_wind(one.data)
+
+
+def fits(thing: Any, tree: Any) -> bool:
+    """Whether the parts of an object have the points of its tree, as they have unless they were edited."""
+    counts = {"leaves": len(tree.leaf_positions), "blossom": len(tree.blossom_positions)}
+    for one in thing.children:
+        kind = one.get("pleach_part")
+        if kind in counts and len(one.data.vertices) > counts[kind]:
+            return False
+        if kind == "foliage" and len(one.data.vertices) != len(tree.blob_vertices):
+            return False
+    return True
 
 
 def fill(thing: Any, tree: Any) -> None:

@@ -196,6 +196,21 @@ class Blends(unittest.TestCase):
         bpy.ops.pleach.blend()
         self.assertTrue(before + 1.5 < group.g_scale < before + 2.5)
 
+    def test_a_species_and_itself_are_the_species(self) -> None:
+        panel = bpy.context.scene.pleach
+        panel.blend_from = panel.blend_with = "acer"
+        panel.blend = 0.0
+        self.assertEqual(bpy.ops.pleach.blend(), {"FINISHED"})
+        self.assertEqual(species_of(bpy.context.active_object)["g_scale"], pleach().species("acer")["g_scale"])
+
+    def test_panels_say_that_a_text_cannot_be_read(self) -> None:
+        thing = scene.grow("acer")
+        thing.pleach.species_text = "levels = 99"
+        for module, kind in (("panel", "PLEACH_PT_blend"), ("map_panel", "PLEACH_PT_map")):
+            layout = Layout()
+            getattr(scene.module(module), kind).draw(types.SimpleNamespace(layout=layout), bpy.context)
+            self.assertIn("levels", " ".join(layout.shown), kind)
+
     def test_every_family_but_grammars_blends_within_itself(self) -> None:
         library, panel = pleach(), bpy.context.scene.pleach
         families: dict[str, list[str]] = {}

@@ -328,6 +328,37 @@ class Settings(unittest.TestCase):
         self.assertLess(np.abs(instances(child(copy, "leaves"))[:, :3, 3] - tree.leaf_positions).max(), EXACT)
         self.assertGreater(np.abs(instances(child(thing, "leaves"))[:, :3, 3] - tree.leaf_positions).max(), 0.01)
 
+    def test_a_linked_copy_keeps_its_wind_when_the_other_has_none(self) -> None:
+        thing = scene.grow("acer")
+        thing.pleach.wind = True
+        for one in thing.children:
+            one.select_set(True)
+        bpy.ops.object.duplicate(linked=True)
+        copy = next(one for one in bpy.data.objects if one.pleach.is_tree and one != thing)
+        thing.pleach.wind = False
+        bpy.context.scene.frame_set(25)
+        tree = pleach().species("acer").grow()
+        wanted = Moved(tree, 25)(tree.leaf_positions, tree.leaf_stems)
+        self.assertLess(np.abs(instances(child(copy, "leaves"))[:, :3, 3] - wanted).max(), EXACT)
+
+    def test_edited_leaves_say_so(self) -> None:
+        thing, state = scene.grow("acer"), scene.module("state")
+        child(thing, "leaves").data.vertices.add(3)
+        thing.pleach.wind = True
+        self.assertIn("press Grow Again", state.problems[thing.session_uid])
+        self.assertFalse(thing.pleach.wind)
+        self.assertTrue(all("pleach wind" not in one.modifiers for one in (thing, *thing.children)))
+
+    def test_wind_where_there_is_some_keeps_it(self) -> None:
+        thing = scene.grow("acer")
+        thing.pleach.wind = True
+        settings(thing, 2.0, 0.3)
+        thing.pleach.wind = False
+        thing.pleach.wind = True
+        settings(thing, 0.7, 0.1)
+        thing.pleach.wind = True
+        self.assertAlmostEqual(scene.module("nodes").get_input(thing.modifiers["pleach wind"], "Strength"), 0.7, places=5)
+
     def test_one_wind_for_selected_trees(self) -> None:
         trees = [scene.grow("acer") for _ in range(3)]
         nodes = scene.module("nodes")

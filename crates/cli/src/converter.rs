@@ -22,8 +22,15 @@ const PROGRAMS: [&[&str]; 4] = [
     &["magick", "{in}", "{out}"],
 ];
 
+/// That the file at `path` has to be converted first, by its first bytes.
+pub(crate) fn reason(path: &Path) -> Option<GoalError> {
+    let mut head = Vec::new();
+    let _ = File::open(path).ok()?.take(16).read_to_end(&mut head).ok()?;
+    Encoded::read(path, &*head).err().filter(is_for)
+}
+
 /// Whether `error` is that a picture has to be converted first.
-pub(crate) fn is_for(error: &GoalError) -> bool {
+fn is_for(error: &GoalError) -> bool {
     matches!(error, GoalError::OtherFormat { format, .. } if *format == FORMAT)
 }
 

@@ -23,7 +23,7 @@ pub(crate) fn species(name: &str) -> Result<Species, RegistryError> {
 }
 
 /// Notes that the file of another program has entries that its species here does not have.
-fn note_untranslated(name: &str) {
+pub(crate) fn note_untranslated(name: &str) {
     let path = Path::new(name);
     if path.extension().is_none_or(|ending| ending == "toml") {
         return;
@@ -55,11 +55,12 @@ pub(crate) fn picture(path: &Path) -> anyhow::Result<Encoded> {
 /// Those of the pictures that `options` name that have to be converted, by their names.
 pub(crate) fn converted_pictures(options: &FitOptions) -> anyhow::Result<BTreeMap<String, PictureSource>> {
     let mut converted = BTreeMap::new();
-    for name in options.files() {
+    for name in options.pictures() {
         let path = Path::new(name);
+        // A pipe is read once, by who wants its picture.
         if !converted.contains_key(name)
-            && let Err(error) = Encoded::load(path)
-            && converter::is_for(&error)
+            && path.is_file()
+            && let Some(error) = converter::reason(path)
         {
             let _ = converted.insert(name.to_owned(), converter::converted(path, error)?.into());
         }

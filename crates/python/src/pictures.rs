@@ -8,6 +8,7 @@ use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray as _, PyArray2, PyArray3};
 use pleach::{
     Appearance, Bitmap, Frame, Palette, Parts, Picture, Preview, PreviewSettings, Rasterizer, Season, Tree,
+    View,
 };
 use pyo3::prelude::*;
 
@@ -21,6 +22,12 @@ fn check_side(size: u32) -> PyResult<()> {
     Err(PleachError::new_err(format!("the size is {size} pixels, expected from 1 to {MAX_SIDE}")))
 }
 
+/// The view that is meant, once the size is checked.
+fn checked(size: u32, direction: Option<Direction>) -> PyResult<View> {
+    check_side(size)?;
+    view::view(direction)
+}
+
 /// The silhouette.
 pub(crate) fn silhouette<'py>(
     py: Python<'py>,
@@ -28,8 +35,7 @@ pub(crate) fn silhouette<'py>(
     size: u32,
     view: Option<Direction>,
 ) -> PyResult<Bound<'py, PyArray2<bool>>> {
-    check_side(size)?;
-    let view = view::view(view)?;
+    let view = checked(size, view)?;
     of_ink(py, &py.detach(|| pleach::silhouette(tree, view, size)))
 }
 
@@ -40,8 +46,7 @@ pub(crate) fn wood<'py>(
     size: u32,
     view: Option<Direction>,
 ) -> PyResult<Bound<'py, PyArray2<bool>>> {
-    check_side(size)?;
-    let view = view::view(view)?;
+    let view = checked(size, view)?;
     let stems = py.detach(|| {
         let frame = Frame::automatic(tree, &view, Parts::LEAFY, size, size);
         let [mut stems, mut all] = [Bitmap::default(), Bitmap::default()];
@@ -58,8 +63,7 @@ pub(crate) fn depth<'py>(
     size: u32,
     view: Option<Direction>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-    check_side(size)?;
-    let view = view::view(view)?;
+    let view = checked(size, view)?;
     let depth = py.detach(|| {
         let frame = Frame::automatic(tree, &view, Parts::LEAFY, size, size);
         let (mut rasterizer, mut picture, mut depth) = (Rasterizer::new(), Bitmap::default(), Vec::new());

@@ -3,7 +3,10 @@
 use crate::arrays::{numbers, rows};
 use crate::error::PleachError;
 use glam::Vec3;
-use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods as _};
+use numpy::{
+    AllowTypeChange, PyArray1, PyArray2, PyArrayLike2, PyReadonlyArray1, PyReadonlyArray2,
+    PyUntypedArrayMethods as _,
+};
 use pleach::wind::{Bodies, Breeze, moved};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -13,6 +16,15 @@ use pyo3::prelude::*;
 #[pyclass(frozen, module = "pleach._native")]
 pub(crate) struct Wind {
     rows: Vec<pleach::Wind>,
+}
+
+/// Numbers of rows.
+#[derive(FromPyObject)]
+enum Numbers<'py> {
+    #[pyo3(transparent, annotation = "int64")]
+    Signed(PyReadonlyArray1<'py, i64>),
+    #[pyo3(transparent, annotation = "uint32")]
+    Unsigned(PyReadonlyArray1<'py, u32>),
 }
 
 #[pymethods]
@@ -68,8 +80,12 @@ impl Wind {
     }
 
     /// These rows, by number, as often as they are named: `tree.wind().take(stem_of_knot)` are
-    /// those of the knots.
-    fn take(&self, numbers: PyReadonlyArray1<'_, i64>) -> PyResult<Self> {
+    /// those of the knots. The numbers are of int64, or of uint32 as those of stems are.
+    fn take(&self, numbers: Numbers<'_>) -> PyResult<Self> {
+        let numbers: Vec<i64> = match &numbers {
+            Numbers::Signed(numbers) => numbers.as_array().to_vec(),
+            Numbers::Unsigned(numbers) => numbers.as_array().iter().map(|&number| number.into()).collect(),
+        };
         let row = |number: &i64| {
             let found = usize::try_from(*number).ok().and_then(|number| self.rows.get(number)).copied();
             let words = || {
@@ -77,7 +93,7 @@ impl Wind {
             };
             found.ok_or_else(|| PyIndexError::new_err(words()))
         };
-        Ok(Self { rows: numbers.as_array().iter().map(row).collect::<PyResult<_>>()? })
+        Ok(Self { rows: numbers.iter().map(row).collect::<PyResult<_>>()? })
     }
 
     /// Where places that have these rows are in wind, float32 of shape (rows, 3), metres: `positions` is where they are at rest.
@@ -95,11 +111,11 @@ impl Wind {
     fn moved(
         &self,
         py: Python<'_>,
-        positions: PyReadonlyArray2<'_, f32>,
+        positions: PyArrayLike2<'_, f32, AllowTypeChange>,
         wind: [f32; 3],
         time: f32,
         height: f32,
-        normals: Option<PyReadonlyArray2<'_, f32>>,
+        normals: Option<PyArrayLike2<'_, f32, AllowTypeChange>>,
     ) -> PyResult<Py<PyArray2<f32>>> {
         let positions = self.triples(&positions, "positions")?;
         let normals = match normals {

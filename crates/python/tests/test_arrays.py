@@ -164,6 +164,7 @@ def test_wind_of_what_stems_carry() -> None:
         assert np.array_equal(wind.pivots, stems.pivots[carriers]) and np.array_equal(wind.bends, stems.bends[carriers])
         assert ((wind.flutters > 0) & (wind.flutters <= 0.03)).all()
         assert np.array_equal(stems.take(carriers.astype(np.int64)).phases, wind.phases)
+        assert np.array_equal(stems.take(carriers.astype(np.uint32)).phases, wind.phases)
     for wrong in (-1, len(stems)):
         with pytest.raises(IndexError, match="expected from 0 to"):
             stems.take(np.array([0, wrong]))
@@ -179,6 +180,8 @@ def test_places_in_wind() -> None:
     still = wind.moved(tree.leaf_positions, wind=(0, 0, 0), time=3.0, height=height)
     assert np.allclose(still, tree.leaf_positions, atol=1e-6)
     moved = wind.moved(tree.leaf_positions, wind=(1, 0, 0), time=3.0, height=height)
+    doubles = tree.leaf_positions.astype(np.float64)
+    assert np.array_equal(wind.moved(doubles, wind=(1, 0, 0), time=3.0, height=height), moved)
     assert 0.01 < np.linalg.norm(moved - still, axis=1).mean() < 1.0 and (moved - still)[:, 0].mean() > 0.01
     upwards = np.tile(np.array([0, 0, 1], np.float32), (len(still), 1))
     fluttered = wind.moved(tree.leaf_positions, wind=(1, 0, 0), time=3.0, height=height, normals=upwards)

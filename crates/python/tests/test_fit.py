@@ -151,6 +151,8 @@ def test_python_goes_on_while_a_fit_runs() -> None:
 
 def interrupted(script: str, tmp_path: pathlib.Path, after: str) -> tuple[int, str, float]:
     """Runs a script, interrupts it once it has said `after`, and returns its code, its words and the seconds to its end."""
+    if sys.platform == "win32":
+        pytest.skip("Windows sends no such signal to one process")
     file = tmp_path / "script.py"
     # A shell without job control has its background jobs ignore the signal, and what they start inherits that.
     heed = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
@@ -200,6 +202,7 @@ def test_ctrl_c_before_there_is_anything_is_a_keyboard_interrupt(tmp_path: pathl
     assert (code, said.splitlines()[-1]) == (0, "nothing yet"), said
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not fork, or not beside threads")
 def test_a_child_that_forks_after_a_fit_can_fit_too(found: pleach.Fit) -> None:
     import multiprocessing
 

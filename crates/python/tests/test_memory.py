@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import resource
 import sys
 
 import pytest
@@ -12,6 +11,8 @@ import pleach
 
 @pytest.mark.skipif(sys.platform != "linux", reason="ru_maxrss is in kilobytes on Linux")
 def test_ten_thousand_trees_take_no_more_than_one_at_a_time() -> None:
+    import resource
+
     palm = pleach.species("palm").replace({"levels": 1})
     total = 0
 

@@ -31,7 +31,7 @@ mask.png. A fit reads its goal in the same way, and takes the same corrections."
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Read {
-    /// The picture: PNG, JPEG, WebP, TIFF, GIF or BMP; - for standard input
+    /// The picture: PNG, JPEG, WebP, TIFF, GIF, BMP or SVG; - for standard input
     #[arg(value_name = "PICTURE")]
     picture: PathBuf,
     /// The folder for reading.json, reading.png and mask.png

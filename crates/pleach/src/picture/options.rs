@@ -225,22 +225,28 @@ impl FitOptions {
     /// The pictures and files that the options name and that are files: a fit reads them beside its goal.
     #[must_use]
     pub fn files(&self) -> Vec<&str> {
-        let views = self.views.iter().chain(&self.holdout_views).map(|view| view.picture.as_str());
         let mask = self.mask.iter().filter_map(|mask| match mask {
             MaskFrom::Auto => None,
             MaskFrom::File(file) => Some(file.as_str()),
-        });
-        let volume = self.volume_from.iter().filter_map(|volume| match volume {
-            VolumeFrom::Goal => None,
-            VolumeFrom::Picture(picture) => Some(picture.as_str()),
         });
         // A species may be one by name.
         let from = match &self.from {
             StartFrom::Species(name) if std::path::Path::new(name).is_file() => Some(name.as_str()),
             _ => None,
         };
+        self.pictures().into_iter().chain(mask).chain(from).collect()
+    }
+
+    /// The pictures that the options name and that [`super::FitSource::pictures`] may have: all but a mask.
+    #[must_use]
+    pub fn pictures(&self) -> Vec<&str> {
+        let views = self.views.iter().chain(&self.holdout_views).map(|view| view.picture.as_str());
         let shown = [&self.hints.strokes, &self.wood].into_iter().filter_map(Option::as_deref);
-        views.chain(mask).chain(shown).chain(volume).chain(from).collect()
+        let volume = self.volume_from.iter().filter_map(|volume| match volume {
+            VolumeFrom::Goal => None,
+            VolumeFrom::Picture(picture) => Some(picture.as_str()),
+        });
+        views.chain(shown).chain(volume).collect()
     }
 
     /// Tells whether each option has a value that can be, and whether they go together. What depends on a picture or on

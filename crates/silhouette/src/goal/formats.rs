@@ -61,7 +61,8 @@ pub(super) fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
 pub(super) fn is_svg(head: &[u8]) -> bool {
     // White space and a mark of the order of bytes may go before a tag.
     let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
-    [&b"<svg"[..], b"<?xml", b"<!DOCTYPE svg"].iter().any(|tag| text.starts_with(tag))
+    let begins = |tag: &&[u8]| text.get(..tag.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(tag));
+    [&b"<svg"[..], b"<?xml", b"<!--", b"<!doctype svg"].iter().any(begins)
 }
 
 /// Whether a file begins as a BMP does: two letters, its length, and nothing.
@@ -84,6 +85,8 @@ mod tests {
             (b"BMW and other cars", None),
             (b"\n <svg xmlns=", Some("SVG")),
             (b"\xef\xbb\xbf<?xml ", Some("SVG")),
+            (b"<!doctype svg>", Some("SVG")),
+            (b"<!-- drawn by", Some("SVG")),
             (b"plain text", None),
             (b"", None),
         ] {

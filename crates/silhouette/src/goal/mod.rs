@@ -31,6 +31,8 @@ mod specks;
 mod structure;
 #[cfg(feature = "pictures")]
 mod svg;
+#[cfg(feature = "pictures")]
+mod svg_bounds;
 #[cfg(test)]
 mod tests;
 mod tiff;
@@ -113,7 +115,7 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// Reads a goal image: PNG, JPEG, WebP or TIFF, with the feature `pictures` GIF or BMP, recognised by content, not by name.
+    /// Reads a goal image: PNG, JPEG, WebP or TIFF, with the feature `pictures` GIF, BMP or SVG, recognised by content, not by name.
     ///
     /// ```
     /// use pleach_silhouette::{Goal, GoalOptions};

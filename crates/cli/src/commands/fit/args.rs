@@ -21,7 +21,7 @@ use std::time::Duration;
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::EXAMPLES, args_override_self = true)]
 pub(crate) struct Fit {
-    /// The goal, or several: PNG, JPEG, WebP, TIFF, GIF or BMP; black on white, white on black, or by transparency;
+    /// The goal, or several: PNG, JPEG, WebP, TIFF, GIF, BMP or SVG; black on white, white on black, or by transparency;
     /// `-` is standard input
     #[arg(value_name = "GOAL", required_unless_present = "list")]
     pub(super) goals: Vec<PathBuf>,

@@ -62,6 +62,9 @@ impl Fit {
         // Before a folder is made.
         let source = FitSource { start: start.clone(), ..Path::new("").into() };
         let _ = options.start(&source).map_err(flags::named)?;
+        if let StartFrom::Species(name) = &options.from {
+            input::note_untranslated(name);
+        }
         match &self.goals[..] {
             [goal] if !self.is_batch() => self.single(goal, options, start),
             _ => batch::run(self, start.as_ref()),

@@ -40,7 +40,7 @@ named, and the others go on.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct MaskCommand {
-    /// The photographs: PNG, JPEG, WebP, TIFF, GIF or BMP; - for standard input
+    /// The photographs: PNG, JPEG, WebP, TIFF, GIF, BMP or SVG; - for standard input
     #[arg(value_name = "PHOTO", required = true)]
     photos: Vec<PathBuf>,
     /// The mask to write: a PNG of the photograph's size, black tree on white, one bit per pixel; - for
