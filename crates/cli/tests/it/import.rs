@@ -78,6 +78,11 @@ fn what_has_no_counterpart_is_listed() {
         grown.stderr().contains("maple.py has entries without a counterpart here: handleType"),
         "{grown}"
     );
+    let _ = dir.run(["silhouette", "maple.py", "--size", "64", "-o", "goal.png"]).ok();
+    let fit = ["fit", "goal.png", "--from", "maple.py", "--evaluations", "3", "--individual", "off"];
+    let fitted = dir.run(fit);
+    let _ = fitted.ok();
+    assert_eq!(fitted.stderr().matches("without a counterpart").count(), 1, "{fitted}");
 }
 
 #[test]
