@@ -9,11 +9,11 @@ use anyhow::Context;
 use pleach::plan::library;
 use pleach_console::output;
 use pleach_fit::{
-    Answer, FIT_LIMITS, FitProblem, Freedom, Gene, Genome, GoalView, HeldOut, Interval, Posterior,
-    PosteriorModel, PosteriorNumber, PosteriorSettings, Prior, Until,
+    Answer, FitProblem, Freedom, Gene, Genome, GoalView, HeldOut, Interval, Posterior, PosteriorModel,
+    PosteriorNumber, PosteriorSettings, Prior, Until,
 };
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Growth, Parts, Species, Tree};
+use pleach_tree::{Foliage, Parts, Species, Tree, Workspace};
 use rayon::prelude::*;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
@@ -111,17 +111,19 @@ impl PosteriorSpec {
         }
     }
 
+    /// The trees that are held out.
+    fn numbers(&self) -> impl IndexedParallelIterator<Item = u32> + use<> {
+        (0..u32::try_from(*self.held_out).unwrap_or(u32::MAX)).into_par_iter()
+    }
+
     fn judge_learnt(&self, species: &Species, prior: &Prior) -> anyhow::Result<Vec<Judged>> {
         let problem = problem(species)?;
         let (trees, samples) = (*self.learnt as usize, 0);
         let settings = PosteriorSettings { trees, seed: LEARNT, samples, ..PosteriorSettings::default() };
         let stop = AtomicBool::new(false);
         let model = PosteriorModel::learn(&problem, prior, settings, Until::from(&stop), |_| ())?;
-        let numbers: Vec<u64> = (0..*self.held_out).collect();
-        let held_out: Vec<HeldOut> = numbers
-            .into_par_iter()
-            .filter_map(|number| model.held_out(prior.draw(HELD_OUT, number)))
-            .collect();
+        let held_out: Vec<HeldOut> =
+            self.numbers().filter_map(|number| model.held_out(genome(prior, number)?.0)).collect();
         let trees = held_out.first().context("no tree that was held out grows")?.posterior.trees;
         let answers: Vec<Told> = held_out
             .iter()
@@ -139,17 +141,13 @@ impl PosteriorSpec {
     fn judge_built_in(&self, species: &Species, prior: &Prior) -> anyhow::Result<Vec<Judged>> {
         let library = library();
         let predictors = library.predictors().context("predictors are built in")?;
-        let numbers: Vec<u64> = (0..*self.held_out).collect();
         let answer = |number| {
-            let genome = prior.draw(HELD_OUT, number);
-            let params = species.params.space().check(genome.values.clone()).ok()?;
-            let growth = Growth { limits: FIT_LIMITS, ..Growth::seed(genome.tree_seed) };
-            let tree = Species { params, ..species.clone() }.grow_with(&growth).ok()?;
+            let (genome, tree) = genome(prior, number)?;
             let (goal, frame) = picture(&tree, GOAL_SIZE);
             let answer = predictors.answer(&goal, frame.meters_per_pixel, Foliage::All, species)?;
             Some((genome, answer))
         };
-        let held_out: Vec<(Genome, Answer)> = numbers.into_par_iter().filter_map(answer).collect();
+        let held_out: Vec<(Genome, Answer)> = self.numbers().filter_map(answer).collect();
         let first = &held_out.first().context("no tree that was held out grows")?.1;
         let genes: Vec<Gene> = (first.numbers.iter())
             .filter_map(|number| prior.genes().find(|gene| gene.slot() == Some(number.slot)).cloned())
@@ -164,6 +162,13 @@ impl PosteriorSpec {
             .map(|row| Judged { model: Model::BuiltIn, familiar, ..row })
             .collect())
     }
+}
+
+/// Tree `number` of those that are held out; `None` if none of its draws grows.
+fn genome(prior: &Prior, number: u32) -> Option<(Genome, Tree)> {
+    let mut tree = Tree::default();
+    let genome = prior.genome_into(HELD_OUT, number, &mut Workspace::default(), &mut tree).ok()?;
+    Some((genome, tree))
 }
 
 /// What the picture of a tree says of its numbers.

@@ -19,7 +19,7 @@ pub(super) struct Truth {
 impl Truth {
     /// Number `number` of the trees around `species`, and the tree.
     pub(super) fn new(species: &Species, number: u32) -> anyhow::Result<(Self, Tree)> {
-        let prior = Prior::new(species, &Freedom::default(), Prior::SPREAD)?;
+        let prior = Prior::new(species, &Freedom::default(), Prior::SPREAD)?.of_any_form();
         let (species, tree) = prior.sample(TREES, number).context("no tree around the species grows")?;
         let seed = species.tree_seed.context("samples have seeds")?;
         Ok((Self { prior, species, seed }, tree))

@@ -16,7 +16,9 @@ const EXAMPLES: &str = "Examples:
 
 Each free number is normal around that of the species, with a standard deviation of --spread of its plausible range \
 (`pleach params` has it), cut off at the ends of that range. Features that the species does not have stay absent. A \
-tree that is too large to be looked at is drawn again. `pleach fit --posterior` learns from the same trees.";
+tree that is too large to be looked at, or whose form is far from that of the species, is drawn again: it has a quarter \
+to four times as many branches and as much leaf area, and half to twice the width for its height. `pleach fit \
+--posterior` learns from the same trees.";
 
 /// Pixels a side of each tree on the sheet, and trees on it.
 const SIZE: u32 = 256;

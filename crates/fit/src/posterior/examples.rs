@@ -8,6 +8,7 @@ use crate::problem::{FitProblem, Genome, Objective};
 use crate::run::FIT_LIMITS;
 use pleach_silhouette::score::likeness::{Descriptor, Scratch};
 use pleach_silhouette::{Bitmap, Detail, Rasterizer};
+use pleach_tree::{Tree, Workspace};
 
 /// A tree at the height of its picture.
 #[derive(Clone, Debug)]
@@ -42,11 +43,11 @@ impl Drawer {
         until: Until<'_>,
         mut notify: impl FnMut(usize),
     ) -> Result<Vec<Example>, FitError> {
-        let numbers: Vec<u64> = (0..count as u64).collect();
+        let numbers: Vec<u32> = (0..u32::try_from(count).unwrap_or(u32::MAX)).collect();
         let mut all = Vec::with_capacity(count);
         let mut tried = 0;
         for some in numbers.chunks(BATCH) {
-            let grown = until.map(some, |&number| self.example(prior.draw(seed, number)))?;
+            let grown = until.map(some, |&number| self.example(genome(prior, seed, number)?))?;
             tried += grown.len();
             all.extend(grown.into_iter().flatten());
             notify(tried);
@@ -69,6 +70,11 @@ impl Drawer {
         })?;
         is_seen.then_some(Example { genome, shown })
     }
+}
+
+/// The numbers of tree `number` of `prior`; `None` if none of its draws grows.
+fn genome(prior: &Prior, seed: u64, number: u32) -> Option<Genome> {
+    prior.genome_into(seed, number, &mut Workspace::default(), &mut Tree::default()).ok()
 }
 
 /// Trees between two reports.

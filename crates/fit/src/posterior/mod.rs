@@ -4,6 +4,7 @@
 //! [`PosteriorModel`] learns from trees of it.
 
 mod examples;
+mod form;
 mod model;
 mod prior;
 mod ridge;

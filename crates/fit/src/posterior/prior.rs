@@ -1,11 +1,12 @@
 //! Trees around a species, as nature would vary them.
 
+use super::form::Form;
 use crate::problem::{FitProblem, Genome, Nuisance};
 use crate::run::FIT_LIMITS;
 use crate::space::{Freedom, Gene, Place, SearchSpace, SpaceError, Stream, TreeSeed};
 use pleach_tree::param::SlotError;
 use pleach_tree::{GrowError, Growth, Species, Tree, Workspace};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Purpose of the draws of a prior, for [`Stream::at`].
 const DRAWS: u32 = 0x7072;
@@ -19,11 +20,20 @@ const TRIES: usize = 16;
 /// ends of that range. A number whose sign is a switch keeps its sign, and a standard deviation of at most twice that
 /// part of itself. Features that the species does not have stay absent; choices, numbers that are not used, and variations
 /// of size that no single tree shows are those of the species too. Every seed of a tree is as likely as any other.
+///
+/// Numbers that are drawn each for itself may give a tree that nobody would take for one: of half of the aspens the
+/// leaves are so small or so few that they look dead. So trees have the form of the species as well, as a person sees
+/// it at first: at least a quarter and at most four times as many stems on each level, and as much area of leaves and
+/// blossoms for their height, and half to twice the width for it. With a larger spread these bounds are wider in
+/// proportion.
 #[derive(Clone, Debug)]
 pub struct Prior {
     species: Species,
     space: SearchSpace,
     spread: f64,
+    /// Whether trees have the form of the species.
+    keeps_form: bool,
+    form: OnceLock<Option<Form>>,
 }
 
 /// Why a number of a [`Prior`] has no tree: of the reasons of its draws the last.
@@ -39,7 +49,8 @@ pub enum NoSample {
 }
 
 impl Prior {
-    /// Draws of one number of [`Prior::try_sample`], of which the first that grows is its tree.
+    /// Draws for one tree of [`Prior::try_sample`]: it is the first that has the form of the species, or of those that
+    /// grow the one that is nearest to it.
     pub const DRAWS: u32 = 16;
     /// Default standard deviation of a number, as a part of its plausible range.
     pub const SPREAD: f64 = 0.15;
@@ -63,17 +74,29 @@ impl Prior {
     /// As [`Prior::new`].
     pub fn from_problem(problem: &FitProblem, freedom: &Freedom, spread: f64) -> Result<Self, SpaceError> {
         let space = SearchSpace::from_problem(problem, freedom, TreeSeed::Any)?;
-        Ok(Self::in_space(&problem.start, space, spread))
+        let species = Species { foliage: problem.foliage, ..problem.start.clone() };
+        Ok(Self::in_space(&species, space, spread))
     }
 
     fn in_space(species: &Species, space: SearchSpace, spread: f64) -> Self {
         let space = space.plausible(species.params.values()).settling(true);
         let spread = if spread.is_nan() { 0.0 } else { spread.clamp(0.0, Self::MAX_SPREAD) };
-        Self { species: species.clone(), space, spread }
+        Self { species: species.clone(), space, spread, keeps_form: true, form: OnceLock::new() }
     }
 
-    /// A tree that anyone could use: of some draws the first that grows within the limits of a search; `None` if none
-    /// does. Each `number` has draws of its own.
+    /// The same, also of trees whose form is far from that of the species: each number is drawn for itself.
+    #[must_use]
+    pub fn of_any_form(self) -> Self {
+        Self { keeps_form: false, ..self }
+    }
+
+    /// What the trees are around.
+    pub(crate) const fn species(&self) -> &Species {
+        &self.species
+    }
+
+    /// A tree that anyone could use: of [`Prior::DRAWS`] draws the first that grows within the limits of a search and
+    /// has the form of the species, or the nearest to it; `None` if none grows. Each `number` has draws of its own.
     #[must_use]
     pub fn sample(&self, seed: u64, number: u32) -> Option<(Species, Tree)> {
         self.try_sample(seed, number).ok()
@@ -100,15 +123,65 @@ impl Prior {
         workspace: &mut Workspace,
         tree: &mut Tree,
     ) -> Result<Species, NoSample> {
+        self.choose(seed, number, workspace, tree).map(|(_, species)| species)
+    }
+
+    /// The numbers of [`Prior::sample_into`] with what the views leave unknown.
+    ///
+    /// # Errors
+    /// As [`Prior::sample_into`].
+    pub fn genome_into(
+        &self,
+        seed: u64,
+        number: u32,
+        workspace: &mut Workspace,
+        tree: &mut Tree,
+    ) -> Result<Genome, NoSample> {
+        self.choose(seed, number, workspace, tree).map(|(genome, _)| genome)
+    }
+
+    fn choose(
+        &self,
+        seed: u64,
+        number: u32,
+        workspace: &mut Workspace,
+        tree: &mut Tree,
+    ) -> Result<(Genome, Species), NoSample> {
         let first = u64::from(number) * u64::from(Self::DRAWS);
-        let mut grown = self.grow(seed, first, workspace, tree);
-        for draw in 1..u64::from(Self::DRAWS) {
-            if grown.is_ok() {
-                break;
+        let bound = (self.spread / Self::SPREAD).max(1.0);
+        let (mut nearest, mut failure) = (None, None);
+        for draw in first..first + u64::from(Self::DRAWS) {
+            match self.grow(seed, draw, workspace, tree) {
+                Ok(grown) => {
+                    let distance = self.distance(tree);
+                    if distance <= bound {
+                        return Ok(grown);
+                    }
+                    if nearest.is_none_or(|(least, _)| distance < least) {
+                        nearest = Some((distance, draw));
+                    }
+                }
+                Err(reason) => failure = Some(reason),
             }
-            grown = self.grow(seed, first + draw, workspace, tree);
         }
-        grown
+        match nearest {
+            Some((_, draw)) => self.grow(seed, draw, workspace, tree),
+            None => Err(failure.expect("a draw grows or it does not")),
+        }
+    }
+
+    /// How far the form of `tree` is from that of the species.
+    fn distance(&self, tree: &Tree) -> f64 {
+        if !self.keeps_form {
+            return 0.0;
+        }
+        let growth = Growth { limits: FIT_LIMITS, foliage: self.species.foliage, ..Growth::default() };
+        let own = self.form.get_or_init(|| Form::of_species(&self.species, &growth));
+        match (own, Form::new(tree)) {
+            (Some(own), Some(form)) => own.distance(&form),
+            (Some(_), None) => f64::INFINITY,
+            (None, _) => 0.0,
+        }
     }
 
     fn grow(
@@ -117,17 +190,21 @@ impl Prior {
         draw: u64,
         workspace: &mut Workspace,
         tree: &mut Tree,
-    ) -> Result<Species, NoSample> {
+    ) -> Result<(Genome, Species), NoSample> {
         let genome = self.draw(seed, draw);
-        let params = self.species.params.space().check(genome.values).map_err(NoSample::Params)?;
+        let params = self.species.params.space().check(genome.values.clone()).map_err(NoSample::Params)?;
         let species = Species { params, tree_seed: Some(genome.tree_seed), ..self.species.clone() };
-        let growth =
-            Growth { limits: FIT_LIMITS, foliage: species.foliage, ..Growth::seed(genome.tree_seed) };
+        let growth = Growth {
+            limits: FIT_LIMITS,
+            foliage: species.foliage,
+            counts_ahead: true,
+            ..Growth::seed(genome.tree_seed)
+        };
         species.generator.grow(&species.params, &growth, workspace, tree).map_err(NoSample::Growth)?;
-        Ok(species)
+        Ok((genome, species))
     }
 
-    /// Tree number `number` of the prior with this `seed`.
+    /// Draw `number` of the numbers with this `seed`, whatever their tree is like.
     #[must_use]
     pub fn draw(&self, seed: u64, number: u64) -> Genome {
         let mut stream = Stream::at(seed, DRAWS, number, 0);
@@ -215,6 +292,46 @@ mod tests {
         let of = |name: &str| species.params.space().select(name).unwrap()[0].index();
         assert!(draws.iter().all(|genome| genome.values[of("leaf_blos_num")] > 0.0));
         assert!(draws.iter().all(|genome| genome.values[of("seg_splits")] == 0.0));
+    }
+
+    #[test]
+    fn trees_have_the_form_of_their_species() {
+        let mut odd = 0;
+        for name in ["palm", "quaking_aspen", "small_pine"] {
+            let (_, prior) = prior(name, Prior::SPREAD);
+            for number in 0..12 {
+                let (species, tree) = prior.try_sample(900, number).unwrap();
+                assert!(prior.distance(&tree) <= 1.0, "{name} {number}");
+                assert!(!tree.leaves.is_empty(), "{name} {number}");
+                let (mut memory, mut again) = (Workspace::default(), Tree::default());
+                let genome = prior.genome_into(900, number, &mut memory, &mut again).unwrap();
+                assert_eq!((&genome.values[..], &again), (species.params.values(), &tree));
+                // The same numbers whatever the form, if the first draw has it.
+                let (_, any) = prior.clone().of_any_form().try_sample(900, number).unwrap();
+                odd += u32::from(prior.distance(&any) > 1.0);
+            }
+        }
+        assert!((12..30).contains(&odd), "{odd} of 36 draws");
+    }
+
+    #[test]
+    fn where_no_draw_has_the_form_it_is_the_nearest() {
+        // Bounds are wider with the spread, but not as wide as numbers that are nearly uniform.
+        let (_, prior) = prior("quaking_aspen", 1.0);
+        for number in 0..4 {
+            let (_, tree) = prior.try_sample(1, number).unwrap();
+            let mut all = Vec::new();
+            for draw in 0..u64::from(Prior::DRAWS) {
+                let (mut memory, mut one) = (Workspace::default(), Tree::default());
+                let draw = u64::from(number) * u64::from(Prior::DRAWS) + draw;
+                if prior.grow(1, draw, &mut memory, &mut one).is_ok() {
+                    all.push(prior.distance(&one));
+                }
+            }
+            let within = all.iter().find(|distance| **distance <= 1.0 / 0.15);
+            let nearest = all.iter().copied().fold(f64::INFINITY, f64::min);
+            assert_eq!(prior.distance(&tree), *within.unwrap_or(&nearest));
+        }
     }
 
     #[test]

@@ -4,10 +4,9 @@ use crate::control::interrupt;
 use crate::error::FitError;
 use crate::posterior::{Prior, features as amounts};
 use crate::problem::Genome;
-use crate::run::FIT_LIMITS;
 use pleach_silhouette::score::likeness::{Descriptor, Scratch};
 use pleach_silhouette::{Bitmap, Detail, Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Growth, Species};
+use pleach_tree::{Tree, Workspace};
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
@@ -29,29 +28,25 @@ pub(super) struct Example {
 
 /// Trees `numbers` of `prior`, without those that do not grow.
 pub(super) fn examples(
-    species: &Species,
     prior: &Prior,
-    foliage: Foliage,
-    numbers: Range<u64>,
+    numbers: Range<u32>,
     stop: &AtomicBool,
 ) -> Result<Vec<Example>, FitError> {
-    let numbers: Vec<u64> = numbers.collect();
-    let grown =
-        interrupt::map(&numbers, stop, |&number| example(species, prior.draw(SEED, number), foliage))?;
+    let numbers: Vec<u32> = numbers.collect();
+    let grown = interrupt::map(&numbers, stop, |&number| example(prior, number))?;
     Ok(grown.into_iter().flatten().collect())
 }
 
-fn example(species: &Species, mut genome: Genome, foliage: Foliage) -> Option<Example> {
-    let growth = Growth { limits: FIT_LIMITS, foliage, counts_ahead: true, ..Growth::seed(genome.tree_seed) };
-    let params = species.params.space().check(genome.values.clone()).ok()?;
-    let tree = Species { params, ..species.clone() }.grow_with(&growth).ok()?;
-    let parts = foliage.into();
+fn example(prior: &Prior, number: u32) -> Option<Example> {
+    let mut tree = Tree::default();
+    let mut genome = prior.genome_into(SEED, number, &mut Workspace::default(), &mut tree).ok()?;
+    let parts = prior.species().foliage.into();
     let frame = Frame::automatic(&tree, &View::FRONT, parts, SIDE, SIDE);
     let mut picture = Bitmap::default();
     Rasterizer::for_searches(Detail::Half).draw(&tree, &View::FRONT, &frame, parts, &mut picture);
     let (_, top, _, bottom) = picture.ink_box()?;
     let height = f64::from(bottom + 1 - top) * frame.meters_per_pixel;
-    species.generator.resize(&mut genome.values, HEIGHT / height);
+    prior.species().generator.resize(&mut genome.values, HEIGHT / height);
     Some(Example { genome, features: features(&picture)? })
 }
 

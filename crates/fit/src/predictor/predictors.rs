@@ -17,7 +17,7 @@ use std::sync::atomic::AtomicBool;
 /// Directions in which pictures are compared: with twice as many hardly more of a number is explained.
 const DIRECTIONS: usize = 128;
 /// Trees of each species from which the directions are learnt.
-const FOR_DIRECTIONS: u64 = 300;
+const FOR_DIRECTIONS: u32 = 300;
 
 /// The numbers of trees from their pictures, for several species.
 ///
@@ -76,15 +76,16 @@ impl Predictors {
         stop: &AtomicBool,
         mut notify: impl FnMut(usize, usize),
     ) -> Result<Vec<u8>, FitError> {
-        let trees = trees.min(PosteriorSettings::MAX_TREES as u64);
+        let trees = u32::try_from(trees.min(PosteriorSettings::MAX_TREES as u64)).unwrap_or(u32::MAX);
         let mut kinds = Vec::new();
         let mut rows = Vec::new();
         for one in species {
-            let prior = Prior::new(one, &Freedom::default(), Prior::SPREAD)?;
             for foliage in FOLIAGE {
-                let some = examples(one, &prior, foliage, 0..trees.min(FOR_DIRECTIONS), stop)?;
+                let one = Species { foliage, ..one.clone() };
+                let prior = Prior::new(&one, &Freedom::default(), Prior::SPREAD)?;
+                let some = examples(&prior, 0..trees.min(FOR_DIRECTIONS), stop)?;
                 rows.extend(some.iter().map(|example| example.features.clone()));
-                kinds.push((one, prior.clone(), foliage, some));
+                kinds.push((one, prior, some));
             }
         }
         // What is stored is what coordinates are taken by, then and now.
@@ -94,9 +95,9 @@ impl Predictors {
         let basis = unpacked(&means, &directions);
         let all = kinds.len();
         let mut known = Vec::new();
-        for (done, (species, prior, foliage, mut some)) in kinds.into_iter().enumerate() {
-            some.extend(examples(species, &prior, foliage, FOR_DIRECTIONS.min(trees)..trees, stop)?);
-            known.push((key(species, foliage), Numbers::learn(&prior, &basis, &some)));
+        for (done, (species, prior, mut some)) in kinds.into_iter().enumerate() {
+            some.extend(examples(&prior, FOR_DIRECTIONS.min(trees)..trees, stop)?);
+            known.push((key(&species, species.foliage), Numbers::learn(&prior, &basis, &some)));
             notify(done + 1, all);
         }
         Ok(postcard::to_allocvec(&Stored { means, directions, known }).expect("numbers can be stored"))

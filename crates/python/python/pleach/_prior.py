@@ -13,8 +13,9 @@ class Prior:
     """Trees around a species, as nature would vary them.
 
     Each free number is normal around that of the species, with a standard deviation of ``spread`` of its plausible range,
-    and cut off at the ends of that range. Features that the species does not have stay absent, so that every tree can be
-    looked at: it has at most 60,000 stems and 500,000 leaves. ``free`` and ``fix`` are patterns as of ``pleach fit``. They
+    and cut off at the ends of that range. Features that the species does not have stay absent, and a tree whose form is
+    far from that of the species is drawn again: it has a quarter to four times as many stems on each level and as much
+    area of leaves for its height, half to twice the width, and at most 60,000 stems and 500,000 leaves. ``free`` and ``fix`` are patterns as of ``pleach fit``. They
     are the trees of ``pleach sample``.
 
     >>> import pleach
