@@ -161,7 +161,7 @@ impl<'a> Mesher<'a> {
 
     fn placed(&self, material: Material) -> Option<&Placed<'a>> {
         match material {
-            Material::Bark | Material::Card => None,
+            Material::Bark | Material::Card | Material::Collision => None,
             Material::Leaf => Some(&self.leaves),
             Material::Blossom => Some(&self.blossoms),
             Material::Twig => Some(&self.cards),

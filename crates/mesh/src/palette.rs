@@ -82,6 +82,7 @@ impl Palette {
             Material::Leaf | Material::Twig => self.leaf,
             Material::Blossom => self.blossom,
             Material::Card => Color([255; 3]),
+            Material::Collision => Color([128; 3]),
         }
     }
 }

@@ -32,6 +32,8 @@ pub enum Material {
     Twig,
     /// Upright cards that show a picture of the whole tree.
     Card,
+    /// What things bump into.
+    Collision,
 }
 
 impl Material {
@@ -47,6 +49,7 @@ impl Material {
             Self::Blossom => "blossom",
             Self::Twig => "twigs",
             Self::Card => "card",
+            Self::Collision => "collision",
         }
     }
 }

@@ -343,7 +343,7 @@ impl Tree {
     /// `textures` (pictures of bark and leaves, 512, 1024 or 2048 pixels a side, or 0 for none: colour and normals, of bark also
     /// roughness and occlusion),
     /// `compress` ("quantize": vertices of 16 and 8 bits), `season` (spring, summer, autumn, winter), `weld` (one surface on a grid with cells of this many millimetres) and
-    /// `fillet`, `roots`, `wind`, `sway`. A format that cannot hold an option refuses it with `PleachError`.
+    /// `fillet`, `roots`, `wind`, `sway`, `collision` (convex pieces that things bump into). A format that cannot hold an option refuses it with `PleachError`.
     ///
     /// >>> import pleach, tempfile, pathlib
     /// >>> folder = pathlib.Path(tempfile.mkdtemp())
@@ -399,7 +399,7 @@ impl Tree {
     }
 
     /// The mesh as arrays, by level of detail and material, with the PNG files that materials show. Options are those of
-    /// `export`, but for `lod_extension`, `compress`, `sway` and leaves as `"instances"`, which are for files. What they
+    /// `export`, but for `lod_extension`, `compress`, `sway`, `collision` and leaves as `"instances"`, which are for files. What they
     /// leave open is not filled in: without `triangles` there are every leaf and twig, without `textures` no pictures.
     ///
     /// >>> import pleach

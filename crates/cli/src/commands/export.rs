@@ -97,6 +97,10 @@ pub(crate) struct MeshArgs {
     /// Add joints and a looping animation of the tree in wind (.glb)
     #[arg(long, conflicts_with_all = ["lod", "forest", "billboard"])]
     pub(super) sway: bool,
+    /// Add up to 32 convex pieces around trunk and thick limbs that things bump into, as meshes UCX_NAME_00 and so on
+    /// (.glb)
+    #[arg(long, conflicts_with = "forest")]
+    pub(super) collision: bool,
     /// A forest on a field of this size in metres, such as 40x40m, instead of one tree (.glb)
     #[arg(long, value_name = "WxD", value_parser = field)]
     pub(super) forest: Option<(f64, f64)>,
@@ -185,6 +189,7 @@ impl MeshArgs {
             season: self.season,
             wind: self.wind,
             sway: self.sway,
+            collision: self.collision,
         }
     }
 

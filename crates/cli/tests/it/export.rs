@@ -170,6 +170,32 @@ fn billboards_are_the_last_level() {
 }
 
 #[test]
+fn what_things_bump_into_stands_beside_the_finest_level() {
+    let dir = Dir::new();
+    let levels = ["grow", "acer", "--triangles", "8000,2000", "--textures", "none", "--collision"];
+    let _ = dir.run([&levels[..], &["-o", "c.glb"]].concat()).ok();
+    let file = glb(&dir.path("c.glb"));
+    let roots = file["scenes"][0]["nodes"].as_array().unwrap();
+    let name = |node: &serde_json::Value| &file["nodes"][node.as_u64().unwrap() as usize]["name"];
+    assert_eq!(name(&roots[0]), "acer");
+    let pieces = names(&file["meshes"]);
+    assert_eq!(pieces[..3], ["acer_LOD0", "acer_LOD1", "UCX_acer_LOD0_00"]);
+    assert!((4..=34).contains(&pieces.len()), "{pieces:?}");
+    for (node, piece) in roots[1..].iter().zip(&pieces[2..]) {
+        assert_eq!(name(node), piece, "an object of its own");
+    }
+    assert_eq!(triangles(&file)[2..], vec![28; pieces.len() - 2]);
+    let small = ["grow", "acer", "--collision", "--compress", "quantize", "-o", "q.glb"];
+    let _ = dir.run(small).ok();
+    assert!(names(&glb(&dir.path("q.glb"))["meshes"]).contains(&"UCX_acer_00".to_owned()));
+    let _ = dir.run([&levels[..], &["--lod-files", "-o", "f.glb"]].concat()).ok();
+    let of_level = |level: u32| names(&glb(&dir.path(&format!("f_LOD{level}.glb")))["meshes"]);
+    assert_eq!(of_level(0), [&pieces[..1], &pieces[2..]].concat());
+    assert_eq!(of_level(1), ["acer_LOD1"]);
+    dir.run(["grow", "acer", "--collision", "-o", "c.obj"]).fails(1, &["--collision", ".glb"]);
+}
+
+#[test]
 fn nothing_is_written_of_nothing() {
     let dir = Dir::new();
     let _ = dir.file("nothing.toml", "generator = \"stylised\"\ntrunk_height = 0\n");

@@ -38,6 +38,8 @@ pub enum Feature {
     Forest,
     /// Vertices of whole numbers.
     Compression,
+    /// Convex pieces that things bump into.
+    Collision,
 }
 
 impl Format {

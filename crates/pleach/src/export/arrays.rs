@@ -22,7 +22,7 @@ impl Export {
     ///
     /// # Errors
     /// An [`ExportError`]: options that [`Export::check`] refuses, those that are about files alone (`lod_extension`,
-    /// `leaves` as instances, `compress`, `sway`), and meshes that cannot be made.
+    /// `leaves` as instances, `compress`, `sway`, `collision`), and meshes that cannot be made.
     pub fn meshes(&self, species: &Species, tree: &Tree) -> Result<ExportedMeshes, ExportError> {
         self.check(Format::Glb)?;
         let of_files = [
@@ -30,6 +30,7 @@ impl Export {
             ("leaves", self.leaf_form() == LeafForm::Instances),
             ("compress", self.compress.is_some()),
             ("sway", self.sway),
+            ("collision", self.collision),
         ];
         if let Some((option, _)) = of_files.into_iter().find(|(_, asked)| *asked) {
             return Err(OptionError::new(option, "is for files, and arrays do not hold it").into());

@@ -57,7 +57,12 @@ impl Export {
     /// The first option that is wrong.
     pub fn check_forest(&self, forest: &Forest) -> Result<(), OptionError> {
         self.check(Format::Glb)?;
-        let alone = [("weld", self.weld.is_some()), ("sway", self.sway), ("roots", self.roots)];
+        let alone = [
+            ("weld", self.weld.is_some()),
+            ("sway", self.sway),
+            ("roots", self.roots),
+            ("collision", self.collision),
+        ];
         if let Some((option, _)) = alone.into_iter().find(|(_, asked)| *asked) {
             return Err(OptionError::new(option, "is for one tree, and not for a forest"));
         }

@@ -149,6 +149,9 @@ pub struct Export {
     pub wind: bool,
     /// Whether there are joints, and a looping animation of the tree in wind.
     pub sway: bool,
+    /// Whether there are convex pieces around trunk and thick limbs that things bump into, as nodes and meshes of their
+    /// own called `UCX_NAME_00` and so on, NAME being that of the finest mesh.
+    pub collision: bool,
 }
 
 /// A season by name.
@@ -303,6 +306,7 @@ impl Export {
             ("billboard", (self.billboard > 0 && self.shows_billboard()).then_some(Feature::Billboard)),
             ("sway", self.sway.then_some(Feature::Sway)),
             ("compress", self.compress.map(|_| Feature::Compression)),
+            ("collision", self.collision.then_some(Feature::Collision)),
         ];
         asked.into_iter().filter_map(|(option, feature)| feature.map(|feature| (option, feature)))
     }
@@ -378,7 +382,7 @@ mod tests {
     #[test]
     fn options_read_back_from_json_and_unknown_ones_are_refused() {
         let other = r#"{ "finest": true, "lod": 2, "triangles": [900], "level": 0, "lod_extension": true, "billboard": 3, "tolerance": 5.0, "weld": 30.0, "fillet": 1.0, "roots": true,
-            "leaves": "cards", "textures": 512, "compress": "quantize", "season": "autumn", "wind": true, "sway": true }"#;
+            "leaves": "cards", "textures": 512, "compress": "quantize", "season": "autumn", "wind": true, "sway": true, "collision": true }"#;
         let other = Export::from_json(other).unwrap();
         let written = serde_json::to_value(&other).unwrap();
         assert_eq!(serde_json::from_value::<Export>(written.clone()).unwrap(), other);

@@ -5,10 +5,11 @@ use super::extras::extras;
 use super::options::{Compression, Export, LeafForm};
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::weld::{self, WeldSettings};
-use pleach_mesh::write::glb::{Glb, Grid, Placed, Scene, level_name};
+use pleach_mesh::write::glb::{Glb, Grid, Placed, Scene, Site, level_name};
 use pleach_mesh::write::{Format, obj, ply, stl, usda};
 use pleach_mesh::{
-    Block, Card, Cards, LeafStyle, Material, Mesher, Palette, Pictures, Rig, Source, Welded, send,
+    Block, Card, Cards, Collision, LeafStyle, Material, Mesher, Palette, Pictures, Prism, Rig, Source,
+    Welded, send,
 };
 use pleach_render::picture::Relief;
 use pleach_render::{Billboards, Picture, bark_picture, leaf_atlas, png_file, twig_sheet};
@@ -261,13 +262,26 @@ impl One<'_> {
         let Self { export, species, tree, levels, palette, .. } = *self;
         let rig = export.sway.then(|| Rig::new(tree));
         let billboards = export.billboards(&[tree], &palette);
+        // Engines look for them beside the finest mesh.
+        let prisms = if export.collision && export.level.is_none_or(|level| level == 0) {
+            Prism::around(tree)
+        } else {
+            Vec::new()
+        };
         let mut sources = export.sources(&levels[0], rig.as_ref(), self.bark);
         sources.extend(billboards.iter().map(|billboards| cards(&billboards.cards[0])));
+        let mut placed = vec![Placed::at_origin(&self.mesh_name(), sources.len())];
+        let finest = placed[0].level_name(0);
+        for (number, prism) in prisms.iter().enumerate() {
+            let name = format!("UCX_{finest}_{number:02}");
+            placed.push(Placed { name, meshes: vec![sources.len()], sites: vec![Site::ORIGIN] });
+            sources.push(Box::new(Collision(prism)));
+        }
         let scene = Scene {
             name: species.name.clone(),
             palette,
             extras: extras(species, json!(self.seed)),
-            placed: vec![Placed::at_origin(&self.mesh_name(), sources.len())],
+            placed,
             lod_extension: export.lod_extension,
             grid: export.grid(&sources)?,
             rig: rig.as_ref(),
@@ -318,7 +332,7 @@ impl One<'_> {
             let is_shown = match pictures.material {
                 Material::Blossom => !self.tree.blossoms.is_empty(),
                 Material::Leaf => !self.tree.leaves.is_empty(),
-                Material::Bark | Material::Twig | Material::Card => true,
+                Material::Bark | Material::Twig | Material::Card | Material::Collision => true,
             };
             if !is_shown {
                 continue;

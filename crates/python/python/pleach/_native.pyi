@@ -199,6 +199,7 @@ class Tree:
         season: Optional[_Season] = None,
         wind: bool = False,
         sway: bool = False,
+        collision: bool = False,
     ) -> list[Path]: ...
     def to_glb(
         self,
@@ -219,6 +220,7 @@ class Tree:
         season: Optional[_Season] = None,
         wind: bool = False,
         sway: bool = False,
+        collision: bool = False,
     ) -> bytes: ...
     def mesh(
         self,

@@ -71,8 +71,8 @@ impl Choice {
 
 /// The table. `--no-leaves`, `--leafy`, `--seed`, `--seeds` and the limits apply to every output.
 #[rustfmt::skip]
-static CHOICES: [Choice; 21] = {
-    use MeshFeature::{Billboard, Budget, Compression, Forest, LeafCards, LeafInstances, Levels, Sway, Textures, Wind};
+static CHOICES: [Choice; 22] = {
+    use MeshFeature::{Billboard, Budget, Collision, Compression, Forest, LeafCards, LeafInstances, Levels, Sway, Textures, Wind};
     use Takes::{Holding, Leafy, LeafyButPng, Meshes, Obj, Png};
 
     const fn choice(flag: &'static str, what: &'static str, takes: Takes, given: fn(&Grow) -> bool) -> Choice {
@@ -99,6 +99,7 @@ static CHOICES: [Choice; 21] = {
         choice("--lod-extension", "levels by MSFT_lod", Holding(Levels), |g| g.mesh.lod_extension),
         choice("--billboard", "billboards", Holding(Billboard), |g| g.mesh.billboard.is_some()),
         choice("--sway", "an animation", Holding(Sway), |g| g.mesh.sway),
+        choice("--collision", "pieces that things bump into", Holding(Collision), |g| g.mesh.collision),
         choice("--forest", "a forest", Holding(Forest), |g| g.mesh.forest.is_some()),
     ]
 };

@@ -22,7 +22,7 @@ pub(super) const fn transmitted(material: Material) -> Option<(f64, [f32; 3])> {
         Material::Leaf => Some((0.4, [1.0, 1.0, 0.45])),
         Material::Blossom => Some((0.4, [1.0, 1.0, 1.0])),
         Material::Twig => Some((0.3, [1.0, 1.0, 0.45])),
-        Material::Bark | Material::Card => None,
+        Material::Bark | Material::Card | Material::Collision => None,
     }
 }
 
@@ -60,7 +60,7 @@ pub(super) fn material(scene: &Scene<'_>, textures: &[Textures], material: Mater
         value["pbrMetallicRoughness"]["metallicRoughnessTexture"] = json!({"index": roughness});
         value["pbrMetallicRoughness"]["roughnessFactor"] = json!(1.0);
     }
-    if !is_bark {
+    if !is_bark && material != Material::Collision {
         value["doubleSided"] = json!(true);
     }
     if own.is_some_and(|own| own.is_cut_out) {

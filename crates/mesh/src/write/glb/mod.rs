@@ -12,6 +12,7 @@
 //! | leaves as instances | `EXT_mesh_gpu_instancing`, then required: without it there is no crown |
 //! | forests | a node for each mesh, instanced (`EXT_mesh_gpu_instancing`), or many nodes that share few meshes |
 //! | sway | a skin of rigid joints with one looping animation |
+//! | collision | a node and mesh for each convex piece, beside the tree's |
 
 mod animation;
 mod json;
@@ -83,7 +84,8 @@ impl Placed {
     }
 
     /// The name of one of its levels.
-    fn level_name(&self, level: usize) -> String {
+    #[must_use]
+    pub fn level_name(&self, level: usize) -> String {
         if self.meshes.len() > 1 { level_name(&self.name, level) } else { self.name.clone() }
     }
 }

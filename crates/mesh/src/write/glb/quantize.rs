@@ -7,7 +7,7 @@ use crate::stream::send;
 use glam::{Vec2, Vec3};
 
 /// How many materials there are.
-const MATERIALS: usize = Material::Card as usize + 1;
+const MATERIALS: usize = Material::Collision as usize + 1;
 /// The largest number of 16 bits.
 const MOST: f32 = 65_535.0;
 
