@@ -17,5 +17,6 @@ export default defineConfig({
     chunkSizeWarningLimit: 900,
     // `sizes` says them by when they are loaded.
     reportCompressedSize: false,
+    rolldownOptions: { checks: { pluginTimings: false } },
   },
 });

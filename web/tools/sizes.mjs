@@ -12,6 +12,9 @@ const LATER = [
   ["of apps, service workers and links", /^(icon-|preview|manifest|service-worker)/],
 ];
 
+/** Pictures and drawings are compressed already. */
+const SHRINKS = /\.(css|html|js|json|svg|wasm|webmanifest)$/;
+
 /** Bytes as they are and as hosts send them, by when they are loaded. */
 export function weigh(folder) {
   const files = readdirSync(folder, { recursive: true, withFileTypes: true })
@@ -24,7 +27,7 @@ export function weigh(folder) {
     const group = later[LATER.findIndex(([, pattern]) => pattern.test(path))] ?? first;
     group.files += 1;
     group.bytes += content.length;
-    group.sent += gzipSync(content).length;
+    group.sent += SHRINKS.test(path) ? gzipSync(content).length : content.length;
   }
   return [first, ...later];
 }

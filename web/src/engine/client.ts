@@ -39,6 +39,8 @@ export class Client {
   private waiting = new Map<number, Waiting>();
   private nextId = 1;
   private cancels = 0;
+  /** How many of its workers have died: what they held is lost. */
+  deaths = 0;
 
   /** `what` names the worker in messages: "the map". */
   constructor(readonly what: string) {}
@@ -99,6 +101,7 @@ export class Client {
   }
 
   private die(message: string): void {
+    this.deaths++;
     onDeath(this.what, message);
     this.stop(new Error(`The worker of ${this.what} stopped: ${message}. A new one takes its place.`));
   }
