@@ -66,7 +66,8 @@ fn numbers_stay_unless_the_text_says_others() {
     assert_eq!(edit("-> F(x)F(x)", "-> F(x)[+F(x)]"), (5.0, 4.0));
     assert_eq!(edit("a = 2", "a = 3"), (3.0, 4.0), "what was changed last counts");
     assert_eq!(edit("in 0..9", "in 0..4"), (2.0, 4.0), "a number that is not allowed any more");
-    let renamed = with_grammar(&species, &text.replace("param a", "param b").replace("F(a)", "F(b)")).unwrap();
+    let renamed =
+        with_grammar(&species, &text.replace("param a", "param b").replace("F(a)", "F(b)")).unwrap();
     assert_eq!(number(&renamed.species, "b"), 2.0);
 }
 
@@ -80,7 +81,10 @@ fn every_mistake_has_its_place() {
     assert_eq!(places("axiom: F[\nF -> F(fooo)\n"), [((1, 9), (1, 10)), ((2, 8), (2, 12))]);
     assert_eq!(places("axiom: F\nparam name = 1 in 0..2\n"), [((2, 7), (2, 11))]);
     let error = GrammarGenerator::read("axiom: F\nparam name = 1 in 0..2\n").unwrap_err();
-    assert!(error.to_string().contains("cannot be called `name`, which is a key of species files"), "{error}");
+    assert!(
+        error.to_string().contains("cannot be called `name`, which is a key of species files"),
+        "{error}"
+    );
     // A count between two whole numbers.
     assert_eq!(places("axiom: F\nparam k = 1.5 in 1.2..1.8 count\n"), [((2, 7), (2, 8))]);
     let odd = with_grammar(&palm(), "axiom: F Q\n").unwrap().warnings.unwrap();
