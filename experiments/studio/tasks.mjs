@@ -75,7 +75,7 @@ class Person {
   }
 
   async shorten() {
-    if (quick) await tell(this.page, { evaluations: 30, timeout: undefined, from: "palm", size: 64, individual: "off" });
+    if (quick) await tell(this.page, { evaluations: 30, from: "palm", size: 64, individual: "off" });
   }
 
   async fit() {
