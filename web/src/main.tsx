@@ -7,6 +7,7 @@ import "./styles/fit.css";
 import "./styles/kept.css";
 import "./styles/map.css";
 import "./styles/species.css";
+import "./styles/grammar.css";
 import "./styles/gallery.css";
 import { App } from "./app";
 import { reportDeaths } from "./engine/client";

@@ -18,6 +18,16 @@ const SPECIES_STEPS = [
   (page) => tab("Download")(page),
 ];
 
+/** The text of a grammar, then with a mistake. */
+const GRAMMAR_STEPS = [
+  (page) => tab("Grammar")(page),
+  async (page) => {
+    await page.locator(".codefield textarea").fill("steps: 3\naxiom: F[\n");
+    await page.locator(".codeline.wrong .remark").waitFor();
+    await page.locator(".notation summary").click();
+  },
+];
+
 /** A short fit, for its outcome. */
 const FIT_STEPS = [
   (page) => shortFit(page),
@@ -40,6 +50,12 @@ const ROOMS = {
     canvas: '[data-testid="tree"]',
     ready: '[data-testid="counts"] dd',
     steps: SPECIES_STEPS,
+  },
+  grammar: {
+    hash: "#species?s=abop_plant_f",
+    canvas: '[data-testid="tree"]',
+    ready: '[data-testid="counts"] dd',
+    steps: GRAMMAR_STEPS,
   },
   welcome: { hash: "#fit", canvas: ".targets" },
   // Its pictures come one after the other, for a while.

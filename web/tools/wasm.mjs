@@ -7,6 +7,7 @@ import { copyFileSync, existsSync, mkdirSync, rmSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { megabytes, step } from "./step.mjs";
 
 const web = dirname(dirname(fileURLToPath(import.meta.url)));
 const root = dirname(web);
@@ -40,7 +41,12 @@ if (!hasTarget()) {
 
 // Vector instructions without fused ones: every browser since 2023 has them, and they round as scalar ones do.
 const RUSTFLAGS = `${process.env.RUSTFLAGS ?? ""} -C target-feature=+simd128`.trim();
-run("cargo", ["build", "--quiet", "-p", "pleach-web", "--target", TRIPLE, "--profile", profile], {
+// Cargo shows how far it is where someone looks at it.
+const quiet = process.stdout.isTTY ? [] : ["--quiet"];
+const compiledIn = step(
+  `library: cargo compiles crates/web to WebAssembly${quick ? ", quickly and larger than it need be" : ""}. The first time takes minutes`,
+);
+run("cargo", ["build", ...quiet, "-p", "pleach-web", "--target", TRIPLE, "--profile", profile], {
   env: { ...process.env, RUSTFLAGS },
 });
 
@@ -48,11 +54,16 @@ const made = join(target, "web");
 rmSync(made, { recursive: true, force: true });
 mkdirSync(made, { recursive: true });
 const compiled = join(target, TRIPLE, profile, "pleach_web.wasm");
+compiledIn(megabytes(statSync(compiled).size));
+const boundIn = step("library: JavaScript that loads it");
 const bindgen = process.env.PLEACH_BINDGEN;
 if (bindgen) run(bindgen, [compiled, made]);
-else run("cargo", ["run", "--quiet", "-p", "pleach-web-bindgen", "--", compiled, made]);
+else run("cargo", ["run", ...quiet, "-p", "pleach-web-bindgen", "--", compiled, made]);
+
+boundIn(megabytes(statSync(join(made, "pleach_web_bg.wasm")).size));
 
 // Binaryen takes another tenth off.
+const optimisedIn = step("library: wasm-opt makes it smaller and faster");
 const optimiser = join(
   dirname(createRequire(import.meta.url).resolve("binaryen/package.json")),
   "bin",
@@ -86,6 +97,4 @@ for (const file of ["pleach_web.js", "pleach_web.d.ts", "pleach_web_bg.wasm.d.ts
 // Drawings of the known species, for a first guess without growing them.
 mkdirSync(join(web, "public"), { recursive: true });
 copyFileSync(join(root, "crates", "pleach", "src", "plan", "known.bin"), join(web, "public", "known.bin"));
-console.log(
-  `src/wasm/pleach_web_bg.wasm: ${(statSync(join(out, "pleach_web_bg.wasm")).size / 1e6).toFixed(2)} MB`,
-);
+optimisedIn(`src/wasm has ${megabytes(statSync(join(out, "pleach_web_bg.wasm")).size)}`);

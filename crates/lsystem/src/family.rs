@@ -3,15 +3,13 @@
 use crate::diagnostic::Diagnostic;
 use crate::evolve::blank;
 use crate::generator::{GrammarGenerator, NAME};
-use crate::syntax::Span;
-use crate::system::LSystem;
 use pleach_tree::param::Problem;
-use pleach_tree::species::{Form, Issue, KEYS, Key, Value};
+use pleach_tree::species::{Form, Issue, Key, Value};
 use pleach_tree::{Family, Generator, SpeciesDoc};
 use std::sync::Arc;
 
 /// The key of the grammar.
-const GRAMMAR: &str = "grammar";
+pub(crate) const GRAMMAR: &str = "grammar";
 
 /// Reads species files with a grammar in them.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,8 +48,8 @@ impl Family for LSystemFamily {
             ));
             return None;
         };
-        let system = match LSystem::read("grammar", text) {
-            Ok(system) => system,
+        match GrammarGenerator::read(text) {
+            Ok(generator) => Some(Arc::new(generator)),
             Err(report) => {
                 for diagnostic in report.diagnostics.iter().take(MAX_TOLD) {
                     let Diagnostic { span, fault } = diagnostic;
@@ -59,26 +57,6 @@ impl Family for LSystemFamily {
                     let problem = Problem::Syntax { message: fault.to_string() };
                     issues.push(Issue { help: fault.help(), ..doc.issue(place, "", problem) });
                 }
-                return None;
-            }
-        };
-        let mut complain = |span: Span, message: String| {
-            let place = doc.span_within(node, span.start..span.end);
-            issues.push(doc.issue(place, GRAMMAR, Problem::Syntax { message }));
-        };
-        let taken = |name: &str| name == GRAMMAR || KEYS.iter().any(|key| key.name == name);
-        if let Some(param) = system.params().iter().find(|p| taken(&p.name.text)) {
-            let name = &param.name;
-            complain(
-                name.span,
-                format!("declares a parameter `{}`, which is a key of species files", name.text),
-            );
-            return None;
-        }
-        match GrammarGenerator::new(system) {
-            Ok(generator) => Some(Arc::new(generator)),
-            Err(error) => {
-                complain(Span::default(), format!("declares a parameter wrongly: {error}"));
                 None
             }
         }

@@ -1,12 +1,14 @@
 //! Grammars as generators of trees.
 
 use crate::derive::{DeriveError, Limits};
-use crate::diagnostic::Fault;
+use crate::diagnostic::{Diagnostic, Fault, Report};
+use crate::family::GRAMMAR;
 use crate::program::Command;
 use crate::syntax::{ExprKind, Grammar, ParamDecl, ParamUnit, SettingKey};
 use crate::system::{Derivation, LSystem};
 use crate::turtle::GrowFault;
 use pleach_tree::param::{DeclarationError, Effect, Kind, Param, Scale};
+use pleach_tree::species::KEYS;
 use pleach_tree::{
     Blame, CheckedParams, Generator, GrowError, Growth, ParamSpace, Tree, Unit, Variation, Workspace,
 };
@@ -42,6 +44,31 @@ impl GrammarGenerator {
         // Where there is a size, the setting reads it.
         let in_proportion = reads == 1;
         Ok(Self { system: Arc::new(system), space, structure, in_proportion })
+    }
+
+    /// The generator of a grammar as species files have it.
+    ///
+    /// # Errors
+    /// What [`LSystem::read`] finds, parameters that are called as keys of species files are, and those of
+    /// [`GrammarGenerator::new`], each with its place.
+    pub fn read(text: &str) -> Result<Self, Report> {
+        let system = LSystem::read(GRAMMAR, text)?;
+        let taken = |name: &str| name == GRAMMAR || KEYS.iter().any(|key| key.name == name);
+        let names = system.params().iter().map(|param| &param.name);
+        let wrong = names.filter(|name| taken(&name.text)).map(|name| {
+            let fault = Fault::FileKey { name: name.text.clone() };
+            Diagnostic::new(name.span, fault)
+        });
+        let wrong: Vec<Diagnostic> = wrong.collect();
+        if !wrong.is_empty() {
+            return Err(Report::new(GRAMMAR, text, wrong));
+        }
+        let spans: Vec<_> = system.params().iter().map(|param| param.name.clone()).collect();
+        Self::new(system).map_err(|error| {
+            let name = spans.iter().find(|name| name.text == error.param);
+            let span = name.map(|name| name.span).unwrap_or_default();
+            Report::new(GRAMMAR, text, vec![Diagnostic::new(span, Fault::Declaration(error))])
+        })
     }
 
     /// The grammar.
@@ -107,12 +134,23 @@ fn declaration(param: &ParamDecl, grammar: &Grammar) -> Param {
 
 /// The grammar as lines of a species file.
 fn toml(grammar: &str) -> String {
-    if grammar.contains("'''") {
-        let escaped = grammar.replace('\\', "\\\\").replace('"', "\\\"");
-        format!("grammar = \"\"\"\n{escaped}\"\"\"\n")
-    } else {
-        format!("grammar = '''\n{grammar}'''\n")
+    let ending = if grammar.is_empty() || grammar.ends_with('\n') { "" } else { "\n" };
+    // As it is where the file can have that: no escapes, no control characters.
+    let is_plain =
+        !grammar.contains("'''") && grammar.chars().all(|c| !c.is_control() || matches!(c, '\n' | '\t'));
+    if is_plain {
+        return format!("grammar = '''\n{grammar}{ending}'''\n");
     }
+    let mut escaped = String::with_capacity(grammar.len());
+    for c in grammar.chars() {
+        match c {
+            '\\' | '"' => escaped.extend(['\\', c]),
+            '\n' | '\t' => escaped.push(c),
+            c if c.is_control() => escaped.push_str(&format!("\\u{:04x}", u32::from(c))),
+            c => escaped.push(c),
+        }
+    }
+    format!("grammar = \"\"\"\n{escaped}{ending}\"\"\"\n")
 }
 
 impl Generator for GrammarGenerator {
@@ -126,6 +164,10 @@ impl Generator for GrammarGenerator {
 
     fn structure(&self) -> String {
         self.structure.clone()
+    }
+
+    fn written(&self) -> String {
+        toml(self.system.text())
     }
 
     fn variation(&self) -> Option<&dyn Variation> {

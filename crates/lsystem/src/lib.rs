@@ -26,6 +26,7 @@
 
 mod derive;
 pub mod diagnostic;
+mod edit;
 mod evolve;
 mod family;
 mod generator;
@@ -39,6 +40,7 @@ mod turtle;
 
 pub use derive::{DeriveError, Limits};
 pub use diagnostic::{Diagnostic, Fault, Report};
+pub use edit::{Edited, with_grammar};
 pub use family::LSystemFamily;
 pub use generator::GrammarGenerator;
 pub use header::Header;

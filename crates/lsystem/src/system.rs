@@ -1,7 +1,7 @@
 //! A grammar that is ready to grow.
 
 use crate::derive::{self, DeriveError, Limits, Modules, Request};
-use crate::diagnostic::{Diagnostic, Report};
+use crate::diagnostic::{Diagnostic, Report, place};
 use crate::header::Header;
 use crate::program::{Program, compile};
 use crate::syntax::{Grammar, ParamDecl};
@@ -92,6 +92,15 @@ impl LSystem {
     pub fn warnings(&self) -> Option<Report> {
         let report = || Report::new(&self.origin, &self.text, self.warnings.clone());
         (!self.warnings.is_empty()).then(report)
+    }
+
+    /// Line and column, both from 1, of the first rule or parameter that messages call `name`.
+    #[must_use]
+    pub fn place_of(&self, name: &str) -> Option<(usize, usize)> {
+        let rules = self.program.rules.iter().map(|rule| (rule.name.as_str(), rule.span));
+        let params = self.params().iter().map(|param| (param.name.text.as_str(), param.name.span));
+        let (_, span) = rules.chain(params).find(|(known, _)| *known == name)?;
+        Some(place(&self.text, span.start))
     }
 
     /// Draws the place of an error that came up while growing.

@@ -93,6 +93,12 @@ pub trait Generator: Send + Sync + fmt::Debug {
         String::new()
     }
 
+    /// The structure as its author wrote it, with comments, for species files: what it reads as is
+    /// [`Generator::structure`].
+    fn written(&self) -> String {
+        self.structure()
+    }
+
     /// How searches may change the structure; `None` if they may not.
     fn variation(&self) -> Option<&dyn Variation> {
         None

@@ -9,6 +9,7 @@ mod catalogue;
 mod error;
 mod fit;
 mod goal;
+mod grammar;
 mod map;
 mod mesh;
 mod message;

@@ -1,13 +1,14 @@
 //! Species, and their numbers.
 
-use crate::error::thrown;
+use crate::error::{thrown, thrown_at};
+use crate::grammar::line_of;
 use crate::tree::Tree;
 use pleach::random::Key;
 use pleach::{Foliage, Freedom, Gene, Genome, Growth, SearchSpace, TreeSeed};
 use serde_json::json;
 use std::sync::Arc;
-use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
+use wasm_bindgen::{JsError, JsValue};
 
 /// A kind of tree. It never changes: what would change it gives another.
 #[wasm_bindgen]
@@ -132,14 +133,15 @@ impl Species {
     }
 
     /// Grows the tree of a seed; unless `leaves` says otherwise, with leaves if the species has them.
-    pub fn grow(&self, tree_seed: f64, leaves: Option<bool>) -> Result<Tree, JsError> {
+    pub fn grow(&self, tree_seed: f64, leaves: Option<bool>) -> Result<Tree, JsValue> {
         let seed = seed(tree_seed)?;
+        let refused = |error| thrown_at(&error, line_of(&self.inner, &error));
         let foliage = match leaves {
             None => self.inner.foliage,
             Some(true) => Foliage::All,
             Some(false) => Foliage::None,
         };
-        let tree = self.inner.grow_with(&Growth { foliage, ..Growth::seed(seed) }).map_err(thrown)?;
+        let tree = self.inner.grow_with(&Growth { foliage, ..Growth::seed(seed) }).map_err(refused)?;
         Ok(Tree { species: Arc::clone(&self.inner), seed, inner: tree })
     }
 }

@@ -10,6 +10,18 @@ export class Cancelled extends Error {
   }
 }
 
+/** What the library has against a call. */
+export class Refused extends Error {
+  constructor(
+    message: string,
+    /** Of a grammar, from 1. */
+    readonly line: number | null,
+  ) {
+    super(message);
+    this.name = "Refused";
+  }
+}
+
 interface Waiting {
   resolve: (value: unknown) => void;
   reject: (error: Error) => void;
@@ -27,12 +39,15 @@ export class Client {
   private waiting = new Map<number, Waiting>();
   private nextId = 1;
   private cancels = 0;
+  /** How many of its workers have died: what they held is lost. */
+  deaths = 0;
 
   /** `what` names the worker in messages: "the map". */
   constructor(readonly what: string) {}
 
-  get busy(): boolean {
-    return this.waiting.size > 0;
+  /** How many calls have no answer yet. */
+  get pending(): number {
+    return this.waiting.size;
   }
 
   async call<K extends Op>(
@@ -80,12 +95,13 @@ export class Client {
     this.waiting.delete(reply.id);
     if (reply.kind === "done") waiting.resolve(reply.value);
     else {
-      waiting.reject(new Error(reply.message));
+      waiting.reject(new Refused(reply.message, reply.line));
       if (reply.fatal) this.die(reply.message);
     }
   }
 
   private die(message: string): void {
+    this.deaths++;
     onDeath(this.what, message);
     this.stop(new Error(`The worker of ${this.what} stopped: ${message}. A new one takes its place.`));
   }

@@ -63,6 +63,24 @@ export interface OpenedSpecies {
   declared: Parameter[];
   values: number[];
   active: boolean[];
+  /** Its text, with comments; null for species of other families. */
+  grammar: string | null;
+}
+/** What there is to say about a place of a grammar's text. Lines and columns are from 1. */
+export interface Remark {
+  line: number;
+  column: number;
+  end_line: number;
+  end_column: number;
+  warning: boolean;
+  message: string;
+  help: string | null;
+}
+export interface EditedGrammar {
+  /** The species file, or null where the grammar is wrong. */
+  toml: string | null;
+  /** The first at the top. */
+  remarks: Remark[];
 }
 export interface TreeStats {
   height: number;
@@ -321,6 +339,8 @@ export interface Ops {
   catalogue: { in: null; out: { version: string; families: Family[] } };
   open: { in: Spec; out: OpenedSpecies };
   active: { in: Spec; out: boolean[] };
+  /** The species with another grammar. */
+  grammar: { in: { spec: Spec; text: string }; out: EditedGrammar };
   dice: { in: { spec: Spec; seed: number; locked: Uint8Array; strength: number }; out: number[] };
   toml: { in: { spec: Spec; name: string | null; treeSeed: number | null }; out: string };
   silhouette: {
@@ -381,5 +401,5 @@ export interface Request<K extends Op = Op> {
 export type ToWorker = { module: WebAssembly.Module } | Request;
 export type FromWorker =
   | { kind: "done"; id: number; value: unknown; ms: number }
-  | { kind: "failed"; id: number; message: string; fatal: boolean }
+  | { kind: "failed"; id: number; message: string; line: number | null; fatal: boolean }
   | { kind: "progress"; id: number; progress: Progress };

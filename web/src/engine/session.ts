@@ -132,6 +132,9 @@ export class FitSession {
 
   private check(): void {
     if (this.over) throw new Cancelled();
+    // It may die while it waits for scores, and the one in its place knows nothing of the search.
+    if (this.coordinator.deaths > 0)
+      throw new Error("The search is lost: its worker stopped. Start it again.");
   }
 
   private end(): void {

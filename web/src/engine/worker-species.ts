@@ -3,6 +3,7 @@ import { catalogue, Species, type Tree, version } from "../wasm/pleach_web.js";
 import { Cache } from "./cache";
 import { cardPictures, smallFile } from "./card-pictures";
 import type {
+  EditedGrammar,
   ExportOptions,
   Family,
   MeshData,
@@ -80,6 +81,7 @@ export const speciesHandlers: Handlers<
   | "catalogue"
   | "open"
   | "active"
+  | "grammar"
   | "dice"
   | "toml"
   | "silhouette"
@@ -97,8 +99,11 @@ export const speciesHandlers: Handlers<
       declared: JSON.parse(opened.declared()) as Parameter[],
       values: Array.from(opened.values()),
       active: flags(opened.active()),
+      grammar: opened.grammar() ?? null,
     };
   },
+
+  grammar: ({ spec, text }) => JSON.parse(species(spec).with_grammar(text)) as EditedGrammar,
 
   active: (spec) => flags(species(spec).active()),
 

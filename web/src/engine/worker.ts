@@ -35,6 +35,10 @@ function buffers(value: unknown): ArrayBuffer[] {
   return [];
 }
 
+/** The line of a grammar that the library's error is about, if it is about one. */
+const lineOf = (error: unknown) =>
+  error instanceof Error && "line" in error && typeof error.line === "number" ? error.line : null;
+
 async function answer<K extends Op>(id: number, op: K, input: Ops[K]["in"]): Promise<void> {
   try {
     await ready;
@@ -46,7 +50,7 @@ async function answer<K extends Op>(id: number, op: K, input: Ops[K]["in"]): Pro
     // A trap leaves the instance in an unknown state: the page throws this worker away.
     const fatal = error instanceof WebAssembly.RuntimeError;
     const message = error instanceof Error ? error.message : String(error);
-    send({ kind: "failed", id, message, fatal });
+    send({ kind: "failed", id, message, line: lineOf(error), fatal });
   }
 }
 

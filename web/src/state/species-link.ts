@@ -7,12 +7,12 @@ import { FIRST, opened, openSource, type Recipe, recipes } from "./species";
 /** `length[1]` as `length.1`, which needs no escape in a link. */
 const short = (slot: string) => slot.replace("[", ".").replace("]", "");
 
-const packed = new Map<string, Promise<string>>();
+/** The file that was packed last: a link is written again with each step of a slider. */
+let packed: { toml: string; text: Promise<string> } | null = null;
 
 function pack(toml: string): Promise<string> {
-  const known = packed.get(toml) ?? packText(toml);
-  packed.set(toml, known);
-  return known;
+  if (packed?.toml !== toml) packed = { toml, text: packText(toml) };
+  return packed.text;
 }
 
 function changes(recipe: Recipe): string {

@@ -37,6 +37,8 @@ export const speciesName = computed(() => {
   return "builtin" in source ? source.builtin : source.name;
 });
 
+/** Of a grammar that is typed there are many sources. */
+const KEPT = 40;
 const kept = new Map<string, OpenedSpecies>();
 const keyOf = (source: SpeciesSource) =>
   "builtin" in source ? source.builtin : `\n${source.name}\n${source.toml}`;
@@ -47,6 +49,10 @@ export async function openSource(source: SpeciesSource): Promise<OpenedSpecies> 
   if (known) return known;
   const read = await speciesClient.call("open", { source, values: null });
   kept.set(key, read);
+  for (const oldest of kept.keys()) {
+    if (kept.size <= KEPT) break;
+    kept.delete(oldest);
+  }
   return read;
 }
 

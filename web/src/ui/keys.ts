@@ -13,7 +13,8 @@ export function useUndoKeys(steps: Undoable): void {
     const listen = (event: KeyboardEvent) => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
       const inText =
-        event.target instanceof HTMLInputElement && /^(search|text|number)$/.test(event.target.type);
+        event.target instanceof HTMLTextAreaElement ||
+        (event.target instanceof HTMLInputElement && /^(search|text|number)$/.test(event.target.type));
       if (inText) return;
       const key = event.key.toLowerCase();
       if (key === "z" && !event.shiftKey) steps.undo();

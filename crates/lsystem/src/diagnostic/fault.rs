@@ -1,6 +1,6 @@
 //! What can be wrong with a grammar, as facts.
 
-use pleach_tree::param::shown;
+use pleach_tree::param::{DeclarationError, shown};
 use std::fmt;
 
 /// What is wrong at one place. [`fmt::Display`] makes a sentence; [`Fault::help`] says what would be
@@ -107,6 +107,13 @@ pub enum Fault {
     NoProbability,
     /// Draws where the value has to be the same for every plant.
     DrawsHere,
+    /// A parameter that is called as a key of species files is.
+    FileKey {
+        /// The name.
+        name: String,
+    },
+    /// A parameter whose declaration contradicts itself.
+    Declaration(DeclarationError),
     /// A rule that an earlier one hides.
     Hidden {
         /// The rule.
@@ -187,6 +194,10 @@ impl fmt::Display for Fault {
             }
             Self::NoProbability => write!(f, "a rule with several successors needs a probability for each"),
             Self::DrawsHere => write!(f, "a random draw is not allowed here"),
+            Self::FileKey { name } => {
+                write!(f, "a parameter cannot be called `{}`, which is a key of species files", shown(name))
+            }
+            Self::Declaration(error) => write!(f, "{error}"),
             Self::Hidden { rule } => {
                 write!(f, "this rule never applies: an earlier rule for {rule} comes first")
             }

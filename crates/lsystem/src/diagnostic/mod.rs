@@ -39,6 +39,13 @@ pub struct Report {
     pub diagnostics: Vec<Diagnostic>,
 }
 
+/// Line and column of a byte of `text`, as [`Report::place`] has them.
+pub(crate) fn place(text: &str, byte: usize) -> (usize, usize) {
+    let before = &text[..excerpt::floor(text, byte)];
+    let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
 /// Most problems that a report shows.
 const MAX_SHOWN: usize = 20;
 
@@ -51,9 +58,7 @@ impl Report {
     /// Line and column of a byte, both from 1, the column in characters.
     #[must_use]
     pub fn place(&self, byte: usize) -> (usize, usize) {
-        let before = &self.text[..excerpt::floor(&self.text, byte)];
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+        place(&self.text, byte)
     }
 
     /// The drawings, with colours or without.

@@ -8,6 +8,7 @@ mod classics;
 mod conformance;
 mod diagnostics;
 mod docs;
+mod edit;
 mod evolve;
 mod facts;
 mod language;

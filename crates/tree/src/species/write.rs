@@ -32,7 +32,7 @@ pub(super) fn species(species: &Species, comments: &[String]) -> String {
         text.push('\n');
         parameters(&mut text, species, group);
     }
-    let structure = species.generator.structure();
+    let structure = species.generator.written();
     if !structure.is_empty() {
         text.push('\n');
         text.push_str(&structure);

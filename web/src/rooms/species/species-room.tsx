@@ -1,7 +1,7 @@
 // Shape a species by hand.
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import { useEffect } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { keepSpecies } from "../../state/library";
 import { sayError } from "../../state/notes";
 import { restored } from "../../state/route";
@@ -19,14 +19,16 @@ import {
 import { Alert, Button, Check, Field, Segmented } from "../../ui/controls";
 import { useUndoKeys } from "../../ui/keys";
 import { BUDGETS, type Budget, exportMesh, exportToml, exportView, FORMATS } from "./exports";
+import { Grammar } from "./grammar";
 import { Parameters } from "./parameters";
 import { Picker } from "./picker";
 import { Seeds } from "./seeds";
 import { Stage } from "./stage";
 
-type Tab = "parameters" | "seeds" | "files";
+type Tab = "parameters" | "grammar" | "seeds" | "files";
 const TABS: readonly { value: Tab; label: string }[] = [
   { value: "parameters", label: "Parameters" },
+  { value: "grammar", label: "Grammar" },
   { value: "seeds", label: "Seeds" },
   { value: "files", label: "Download" },
 ];
@@ -167,6 +169,11 @@ function Files(): JSX.Element {
 
 export function SpeciesRoom(): JSX.Element {
   const tab = useSignal<Tab>("parameters");
+  // Between two species nothing is open, and the tabs stay as they were.
+  const hasGrammar = useRef(false);
+  if (opened.value) hasGrammar.current = opened.value.grammar !== null;
+  const tabs = TABS.filter(({ value }) => value !== "grammar" || hasGrammar.current);
+  const shown = tabs.some(({ value }) => value === tab.value) ? tab.value : "parameters";
   useUndoKeys(recipes);
   useEffect(() => {
     if (restored.value) wanted.value = true;
@@ -208,17 +215,18 @@ export function SpeciesRoom(): JSX.Element {
           {refusal.value && <Alert text={refusal.value} />}
           <Segmented
             label="Part of the panel"
-            value={tab.value}
-            options={TABS}
+            value={shown}
+            options={tabs}
             onPick={(picked) => {
               tab.value = picked;
             }}
           />
         </header>
         <div class="panelbody">
-          {tab.value === "parameters" && <Parameters />}
-          {tab.value === "seeds" && <Seeds />}
-          {tab.value === "files" && <Files />}
+          {shown === "parameters" && <Parameters />}
+          {shown === "grammar" && <Grammar />}
+          {shown === "seeds" && <Seeds />}
+          {shown === "files" && <Files />}
         </div>
       </aside>
     </>

@@ -4,13 +4,17 @@ import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import type { TreeStats } from "../../engine/protocol";
 import { sayError } from "../../state/notes";
-import { recipes, speciesName } from "../../state/species";
+import { recipes, spec, speciesName } from "../../state/species";
 import { reducedMotion, theme } from "../../state/theme";
 import { Alert, Button, Segmented } from "../../ui/controls";
+import { Thumb } from "../../ui/thumb";
 import { KEYS_IN_WORDS, setView, turnByKey } from "../../view3d/handle";
 import type { TreeView } from "../../view3d/tree-view";
 import { exportView } from "./exports";
 import { busy, cards, counts, failure, LEAVES, type Leaves, leaves, level, mesh } from "./tree-state";
+
+/** The picture where nothing is drawn in three dimensions: pixels per side, and milliseconds without a change before it. */
+const FLAT = { size: 640, wait: 300 };
 
 const number = new Intl.NumberFormat("en");
 
@@ -72,7 +76,13 @@ export function Stage(): JSX.Element {
         tabIndex={0}
         onKeyDown={turnByKey}
       >
-        <canvas ref={canvas} role="img" aria-label={text} data-testid="tree" />
+        {broken.value === null ? (
+          <canvas ref={canvas} role="img" aria-label={text} data-testid="tree" />
+        ) : (
+          <div class="flat">
+            <Thumb spec={spec.value} seed={seed} season={season} name={text} {...FLAT} />
+          </div>
+        )}
       </div>
       <div class={`busy${busy.value ? " on" : ""}`} aria-hidden="true" />
       {failure.value && <Alert text={failure.value} />}

@@ -1,9 +1,10 @@
 // The mesh that the species room shows: grown in a worker, the newest wish first, coarse before fine.
 import { computed, effect, signal } from "@preact/signals";
+import { Refused } from "../../engine/client";
 import { treeClient } from "../../engine/clients";
 import { Latest } from "../../engine/latest";
 import { thumbnails } from "../../engine/pool";
-import type { CardPicture, MeshData, Spec } from "../../engine/protocol";
+import type { CardPicture, MeshData, Spec, SpeciesSource } from "../../engine/protocol";
 import { sentence } from "../../state/notes";
 import { opened, recipes, spec, wanted } from "../../state/species";
 import { debounce } from "../../state/store";
@@ -27,6 +28,8 @@ export interface Shown {
 export const mesh = signal<Shown | null>(null);
 const growing = signal(false);
 export const failure = signal<string | null>(null);
+/** The line of the grammar that keeps the tree from growing, from 1. */
+export const failedLine = signal<number | null>(null);
 
 /** The level of the first answer while a slider moves. */
 const COARSE = 2;
@@ -134,20 +137,32 @@ const grower = new Latest<Wish>(
       const data = await treeClient.call("mesh", { ...wish, leaves: leavesAt(leaves, level), level });
       mesh.value = { data, level, cardsOf: leaves === "cards" ? sourceOf(wish) : null };
       failure.value = null;
+      failedLine.value = null;
     }
     growing.value = false;
   },
   (error) => {
     growing.value = false;
+    failedLine.value = error instanceof Refused ? error.line : null;
     failure.value = sentence(error);
   },
 );
+
+/** What the tree that grows now, or grew last, is of. */
+let source: SpeciesSource | null = null;
+
+/** A tree of another species is not waited for: one that runs away takes seconds. */
+function giveUpOthers(wish: Wish): void {
+  if (source !== wish.spec.source && growing.peek() && treeClient.pending === 1) treeClient.cancel();
+  source = wish.spec.source;
+}
 
 effect(() => {
   const { seed, season } = recipes.value;
   const kind = leaves.value === "cards" && !hasCards.value ? "simple" : leaves.value;
   const wish = { spec: spec.value, seed, season, leaves: kind, level: level.value };
   if (!wanted.value) return;
+  giveUpOthers(wish);
   grower.ask(wish);
   if (leaves.value === "cards") drawCards();
 });

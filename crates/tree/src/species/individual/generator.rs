@@ -59,6 +59,10 @@ impl Generator for WithIndividual {
         format!("{}{}", self.kind.structure(), to_toml(&self.individual))
     }
 
+    fn written(&self) -> String {
+        format!("{}{}", self.kind.written(), to_toml(&self.individual))
+    }
+
     fn variation(&self) -> Option<&dyn Variation> {
         self.kind.variation()
     }
