@@ -35,7 +35,7 @@ test("a result goes with its goal, in the page and in what is stored", async () 
   await page.getByTestId("start").waitFor();
   assert.equal(await results(), 0);
   // The height of a goal that is known is not that of the next.
-  assert.equal(await page.getByLabel("Height, m").inputValue(), "12");
+  assert.equal(await page.getByLabel("Height, m").inputValue(), "10");
   assert.deepEqual(problems, []);
   await context.close();
 });
@@ -59,7 +59,7 @@ test("the last choice is the goal, however long each of them takes", async () =>
   await (await came).finished();
   await atRest(page);
   assert.match(await page.locator(".facts").textContent(), /^drawn/);
-  assert.equal(await page.getByLabel("Height, m").inputValue(), "12");
+  assert.equal(await page.getByLabel("Height, m").inputValue(), "10");
   assert.deepEqual(problems, []);
   await context.close();
 });
@@ -168,6 +168,50 @@ test("a picture that was dropped by mistake does not cost the fit before it", as
     });
     assert.equal(lines, 1, `${width} pixels`);
   }
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("what the library says to do next are buttons that do it", async () => {
+  const { page, problems, context } = await fit();
+  await shortFit(page);
+  assert.notEqual(await page.getByTestId("next").getByRole("button").count(), 0);
+  await atRest(page);
+  // All words that there are, and one that this page does not know.
+  const words = [
+    ...["grow-more", "every-seed", "correct-mask", "leafy", "bare", "correct-reading", "any-family"],
+    ...["search-longer", "tell-height", "of-a-later-version"],
+  ];
+  await page.evaluate((next) => {
+    const saved = JSON.parse(localStorage.getItem("pleach-studio.fit"));
+    saved.fit.result.report.next = next;
+    localStorage.setItem("pleach-studio.fit", JSON.stringify(saved));
+  }, words);
+  // No fit gets beyond its beginning.
+  await page.route("**/known.bin", () => {});
+  await page.reload();
+  const step = (name) => page.getByTestId("next").getByRole("button", { name, exact: true });
+  await step("Paint away what is too much").click();
+  assert.ok(await page.getByRole("radio", { name: "Take away" }).isChecked());
+  await page.getByLabel("Show it over the goal").uncheck();
+  await step("Correct what was read").click();
+  assert.ok(await page.getByLabel("Show it over the goal").isChecked());
+  await step("Say how tall it is").click();
+  assert.equal(await page.evaluate(() => document.activeElement.labels[0].textContent), "Height, m");
+  // A fit that is begun so is the panel's: it is seen what was chosen.
+  const begins = async (name) => {
+    await step(name).click();
+    await page.getByRole("button", { name: "Cancel" }).click();
+    await page.getByTestId("start").waitFor();
+  };
+  await begins("Search for 60 s");
+  assert.ok(await page.getByRole("radio", { name: "60 s" }).isChecked());
+  await begins("Fit it without leaves");
+  assert.equal(await page.getByLabel("Leaves", { exact: true }).inputValue(), "off");
+  await begins("Try all families");
+  assert.equal(await page.getByLabel("Family").inputValue(), "auto");
+  await step("Grow more of its kind").click();
+  await page.locator('[data-testid="counts"] dd').first().waitFor();
   assert.deepEqual(problems, []);
   await context.close();
 });

@@ -25,8 +25,11 @@ test("the brush changes the mask, and undo brings it back", async () => {
   await inkIs(page, (now) => now > before + 50);
   await page.getByTestId("undo-mask").click();
   await inkIs(page, (now) => now === before);
-  await page.getByRole("slider", { name: "Ground" }).focus();
+  const ground = page.getByRole("slider", { name: "Ground" });
+  const row = Number(await ground.getAttribute("aria-valuenow"));
+  await ground.focus();
   await page.keyboard.press("ArrowUp");
+  assert.equal(Number(await ground.getAttribute("aria-valuenow")), row - 1);
   assert.deepEqual(problems, []);
   await context.close();
 });
@@ -101,6 +104,12 @@ test("a finger scrolls over the goal, and paints once a brush is picked", async 
     await atRest(page);
   };
   const scrolled = () => page.evaluate(() => document.querySelector("main").scrollTop);
+  // Handles are large enough for a finger.
+  await page.locator(".handle.measure").first().waitFor();
+  for (const handle of await page.locator(".handle").all()) {
+    const { width, height } = await handle.boundingBox();
+    assert.ok(width >= 44 && height >= 44, `a handle of ${width} × ${height} pixels`);
+  }
   await swipe();
   assert.ok((await scrolled()) > 80, `scrolled by ${await scrolled()}`);
   assert.equal(await ink(page), before);
@@ -149,36 +158,71 @@ test("a tree is found in a photograph by its colour", async () => {
     Math.abs(found - planted) < 0.2 * planted + 1,
     `${found} % of the picture, ${planted} % are tree`,
   );
+  // Strokes show what is not of it, and what is found by them is a step that can be undone.
+  await page.getByRole("radio", { name: "Take away" }).check({ force: true });
+  await drag([0.35, 0.4], [0.65, 0.4]);
+  const guided = page.getByRole("button", { name: "Find the tree by these strokes" });
+  await guided.click();
+  await guided.waitFor({ state: "detached" });
+  await page.locator(".facts", { hasText: /sure$/ }).waitFor();
+  await page.getByTestId("start").focus();
+  await page.keyboard.press("Control+z");
+  await page.locator(".facts", { hasText: "painted over" }).waitFor();
+  assert.ok(await guided.isVisible());
   assert.deepEqual(problems, []);
   await context.close();
 });
 
-test("what was read in the goal is dragged, and can be taken back", async () => {
+test("what was read in the goal is dragged, undone, and kept", async () => {
   const { page, problems, context } = await fit("#fit?goal=acer");
-  await page.getByRole("radio", { name: "Measures" }).check({ force: true });
+  await page.getByText("All measures").click();
   const row = (name) =>
     page.getByTestId("reading-table").locator("tr", { has: page.locator(`th:text-is("${name}")`) });
   await row("feet").filter({ hasText: "one trunk" }).waitFor();
-  const bare = page.getByRole("slider", { name: "Bare" });
-  const before = Number(await bare.getAttribute("aria-valuenow"));
-  const from = await bare.boundingBox();
+  const handle = (name) => page.getByRole("slider", { name, exact: true });
+  const now = async (name) => Number(await handle(name).getAttribute("aria-valuenow"));
+  const drag = async (name, right, up) => {
+    const from = await handle(name).boundingBox();
+    const [x, y] = [from.x + from.width / 2, from.y + from.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + right, y - up, { steps: 5 });
+    await page.mouse.up();
+  };
   const goal = await page.getByTestId("goal").boundingBox();
-  await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2);
-  await page.mouse.down();
-  await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2 - goal.height * 0.2, { steps: 5 });
-  await page.mouse.up();
-  const dragged = Number(await bare.getAttribute("aria-valuenow"));
-  assert.ok(dragged > before + 0.1, `bare up to ${before}, then ${dragged}`);
+  const [bare, width] = [await now("Bare"), await now("Trunk width")];
+  await drag("Bare", 0, goal.height * 0.2);
+  const dragged = await now("Bare");
+  assert.ok(dragged > bare + 0.1, `bare up to ${bare}, then ${dragged}`);
   await row("bare trunk").filter({ hasText: "100 %" }).waitFor();
-  await page.getByRole("slider", { name: "Lean" }).focus();
+  await drag("Trunk width", goal.width * 0.05, 0);
+  const wide = await now("Trunk width");
+  assert.ok(wide > width + 0.08 && wide < width + 0.2, `${width} wide, then ${wide}`);
+  await row("feet")
+    .filter({ hasText: `one trunk, ${wide.toFixed(2)} of the height wide` })
+    .waitFor();
+  await handle("Lean").focus();
   await page.keyboard.press("ArrowLeft");
   await row("lean").filter({ hasText: "100 %" }).waitFor();
   await page.getByLabel("Trunks").fill("3");
   await page.getByLabel("Trunks").press("Enter");
   await row("feet").filter({ hasText: "3 trunks" }).waitFor();
-  await page.getByRole("button", { name: "As it was read" }).click();
+  // Each is a step of its own.
+  await page.getByTestId("start").focus();
+  await page.keyboard.press("Control+z");
   await row("feet").filter({ hasText: "one trunk" }).waitFor();
-  assert.equal(Number(await bare.getAttribute("aria-valuenow")), before);
+  await atRest(page);
+  await page.reload();
+  await page.getByText("All measures").click();
+  await row("bare trunk").filter({ hasText: "100 %" }).waitFor();
+  assert.deepEqual([await now("Bare"), await now("Trunk width")], [dragged, wide]);
+  await page.getByRole("button", { name: "As it was read" }).click();
+  await atRest(page);
+  assert.deepEqual([await now("Bare"), await now("Trunk width")], [bare, width]);
+  // The drawing goes by a switch, and takes its handles with it; ground and trunk are of the goal.
+  await page.getByLabel("Show it over the goal").uncheck();
+  assert.equal(await page.locator(".look, .handle.measure").count(), 0);
+  assert.equal(await handle("Ground").count(), 1);
   assert.deepEqual(problems, []);
   await context.close();
 });
@@ -197,8 +241,14 @@ test("a fit has the colours of the picture that its mask is of", async () => {
     }),
   );
   const inked = () => Goal.from_pixels("tree", side, side, tree);
-  assert.equal(JSON.parse(inked().look(undefined, "{}")).found.colors, null);
-  const { found, anchor } = JSON.parse(inked().look(photo, '{"lean_deg": -8}'));
+  const plain = inked().look(undefined, "{}");
+  assert.deepEqual([JSON.parse(plain.json).found.colors, plain.layers.length], [null, 0]);
+  const { json, layers } = inked().look(photo, '{"lean_deg": -8}');
+  const { found, anchor } = JSON.parse(json);
+  // Wood and leaves lie on the tree, and most of a maple is leaves.
+  const count = (kind) => layers.reduce((sum, layer) => sum + (layer === kind ? 1 : 0), 0);
+  assert.ok(layers.every((layer, at) => layer === 0 || tree[at] === 1));
+  assert.ok(count(1) > 20 && count(2) > 5 * count(1), `${count(1)} of wood, ${count(2)} of leaves`);
   assert.equal(found.lean_deg, -8);
   assert.ok(anchor.height > 60 && found.colors.season === "autumn", JSON.stringify(found.colors));
   const autumn = (goal) => {
@@ -213,7 +263,7 @@ test("a fit has the colours of the picture that its mask is of", async () => {
     );
     return /season = "autumn"/.test(fit.best_toml());
   };
-  assert.ok(autumn(inked().with_colors(JSON.stringify(found.colors))) && !autumn(inked()));
+  assert.ok(autumn(inked().with_colors(JSON.stringify(found.colors), layers)) && !autumn(inked()));
 });
 
 test("pictures that are none are refused in words, and the goal stays", async () => {
@@ -238,6 +288,19 @@ test("pictures that are none are refused in words, and the goal stays", async ()
     assert.equal(await ink(page), before);
     assert.ok(await page.getByTestId("start").isEnabled());
   }
+  // What is odd is said in a whole sentence of the library, with what to do about it.
+  const side = 100;
+  const square = (x, y) => (x > 30 && x < 70 && y > 30 && y < 70 ? [0, 0, 0] : [255, 255, 255]);
+  await drop(page, "square.png", colorPng(side, side, square));
+  const odd = page.locator('.warning[data-kind="solid"]');
+  await odd.waitFor();
+  const { Goal } = await library();
+  const { warnings } = JSON.parse(Goal.read("square.png", colorPng(side, side, square), "auto").info());
+  const { message } = warnings.find(({ kind }) => kind === "solid");
+  assert.equal(await odd.locator("p").textContent(), `${message}.`);
+  assert.doesNotMatch(message, / --|`/);
+  await odd.getByRole("button", { name: "Draw a box around the tree" }).click();
+  assert.ok(await page.getByRole("radio", { name: "Box" }).isChecked());
   assert.deepEqual(problems, []);
   await context.close();
 });

@@ -153,11 +153,11 @@ mod picture;
 pub use picture::{
     AppearanceFrom, Corrections, Direction, Effort, FitDrawing, FitOptions, FitReport, FitSource, FitStart,
     FittedTree, FurtherPicture, FurtherView, GoalPair, GoalReading, IdentifiabilityCounts, IndividualReport,
-    IntervalsReport, KnownFrame, Leaves, LooksLike, MaskFrom, MaskHints, NumberReport, ParameterReport,
-    PictureError, PictureReading, PictureSource, PosteriorReport, PrepareError, Prepared, Readings,
-    ReportError, RulesReport, SearchReport, SettingError, SideTree, SidesReport, Spent, StartFrom, TIME_KEYS,
-    Tone, ViewReport, VolumeFrom, best_of_each_family, fit_picture, optimizer_with, parse_duration,
-    read_picture, settings_of,
+    IntervalsReport, KnownFrame, Leaves, LooksLike, MaskFrom, MaskHints, NextStep, NumberReport,
+    ParameterReport, PictureError, PictureReading, PictureSource, PosteriorReport, PrepareError, Prepared,
+    Readings, ReportError, RulesReport, SearchReport, SettingError, SideTree, SidesReport, Spent, StartFrom,
+    TIME_KEYS, Tone, ViewReport, VolumeFrom, best_of_each_family, fit_picture, optimizer_with,
+    parse_duration, read_picture, settings_of,
 };
 
 #[cfg(feature = "fit")]

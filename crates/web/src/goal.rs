@@ -128,11 +128,10 @@ impl Goal {
     #[must_use]
     pub fn info(&self) -> String {
         let goal = &self.full;
-        let warnings = self.mask_warnings.iter().chain(&goal.warnings);
-        let mut said: Vec<String> = Vec::new();
-        for warning in warnings.map(ToString::to_string) {
-            if !said.contains(&warning) {
-                said.push(warning);
+        let mut warnings: Vec<GoalWarning> = Vec::new();
+        for warning in self.mask_warnings.iter().chain(&goal.warnings) {
+            if !warnings.contains(warning) {
+                warnings.push(*warning);
             }
         }
         json!({
@@ -145,7 +144,7 @@ impl Goal {
             "ground_row": goal.ground_row,
             "axis_column": goal.axis_column,
             "height_in_pixels": goal.height_in_pixels(),
-            "warnings": said,
+            "warnings": warnings,
         })
         .to_string()
     }
@@ -181,12 +180,9 @@ impl Goal {
         })
     }
 
-    /// What is in the picture: JSON. `photo` are its colours, four bytes per pixel; `corrections`, JSON, what is otherwise
-    /// than it is read.
-    ///
-    /// `found` is what `pleach read --json` gives, `table` the same in words, with confidences, and `anchor` where the
-    /// tree stands in pixels.
-    pub fn look(&self, photo: Option<Vec<u8>>, corrections: &str) -> Result<String, JsError> {
+    /// What is in the picture. `photo` are its colours, four bytes per pixel; `corrections`, JSON, what is otherwise than it
+    /// is read.
+    pub fn look(&self, photo: Option<Vec<u8>>, corrections: &str) -> Result<Look, JsError> {
         let tree = self.ink();
         let (width, height) = (tree.width(), tree.height());
         let photo = photo.filter(|bytes| bytes.len() == 4 * width as usize * height as usize);
@@ -203,15 +199,25 @@ impl Goal {
         };
         let source = FitSource { colors, ..tree.clone().into() };
         let PictureReading { found, silhouette, .. } = read_picture(source, &options).map_err(thrown)?;
-        let colors = found.colors.iter().flat_map(Colors::table);
-        let table: Vec<_> = found.measures.table().into_iter().chain(colors).collect();
+        let words = found.colors.iter().flat_map(Colors::table);
+        let table: Vec<_> = found.measures.table().into_iter().chain(words).collect();
         let anchor = Anchor::new(&silhouette, &found.measures);
-        Ok(json!({ "found": found, "table": table, "anchor": anchor }).to_string())
+        Ok(Look {
+            json: json!({ "found": found, "table": table, "anchor": anchor }).to_string(),
+            layers: found.colors.as_ref().map(layers).unwrap_or_default(),
+        })
     }
 
-    /// The same goal with these colours of its tree: JSON, as in what `look` has found.
-    pub fn with_colors(self, colors: &str) -> Result<Self, JsError> {
-        Ok(Self { colors: serde_json::from_str(colors).map_err(thrown)?, ..self })
+    /// The same goal with these colours and layers of its tree, as `look` has found them.
+    pub fn with_colors(self, colors: &str, layers: &[u8]) -> Result<Self, JsError> {
+        let (width, height) = (self.painted.width(), self.painted.height());
+        let layer = |kind: u8| -> Result<Bitmap, JsError> {
+            let of_kind: Vec<u8> = layers.iter().map(|&layer| u8::from(layer == kind)).collect();
+            bitmap(width, height, &of_kind)
+        };
+        let colors: Colors = serde_json::from_str(colors).map_err(thrown)?;
+        let colors = Colors { wood: layer(WOOD)?, foliage: layer(FOLIAGE)?, ..colors };
+        Ok(Self { colors: Some(colors), ..self })
     }
 
     /// The score card of a picture of the same size: JSON.
@@ -220,6 +226,30 @@ impl Goal {
         let card = ScoreCard::new(&picture, &self.full.bitmap).map_err(thrown)?;
         serde_json::to_string(&card).map_err(thrown)
     }
+}
+
+/// What is in a picture.
+#[wasm_bindgen(getter_with_clone)]
+pub struct Look {
+    /// JSON: `found` is what `pleach read --json` gives, `table` the same in words, with confidences, and `anchor` where the
+    /// tree stands in pixels.
+    pub json: String,
+    /// One byte per pixel, 1 for wood and 2 for foliage; empty of a picture without colours.
+    pub layers: Vec<u8>,
+}
+
+/// What a byte of a layer says of its pixel.
+const WOOD: u8 = 1;
+const FOLIAGE: u8 = 2;
+
+fn layers(colors: &Colors) -> Vec<u8> {
+    let kind = |x, y| match (colors.wood.get(x, y), colors.foliage.get(x, y)) {
+        (true, _) => WOOD,
+        (_, true) => FOLIAGE,
+        _ => 0,
+    };
+    let (width, height) = (colors.wood.width(), colors.wood.height());
+    (0..height).flat_map(|y| (0..width).map(move |x| kind(x, y))).collect()
 }
 
 fn bitmap(width: u32, height: u32, pixels: &[u8]) -> Result<Bitmap, JsError> {

@@ -135,7 +135,12 @@ export interface GoalInfo {
   ground_row: number;
   axis_column: number;
   height_in_pixels: number;
-  warnings: string[];
+  warnings: GoalWarning[];
+}
+/** What is odd about a goal: a word for it, and a sentence without a full stop. */
+export interface GoalWarning {
+  kind: string;
+  message: string;
 }
 /** How a picture becomes a mask: as it looks, as a photograph, or by brightness. */
 export type MaskWay = "auto" | "photo" | "off";
@@ -144,6 +149,9 @@ export type MaskWay = "auto" | "photo" | "off";
 export interface MaskHints {
   /** First column, first row, columns, rows. */
   box?: [number, number, number, number];
+  /** Columns and rows of points that are of the tree, and of points that are not. */
+  include?: [number, number][];
+  exclude?: [number, number][];
 }
 
 export interface GoalData {
@@ -158,12 +166,23 @@ export interface GoalPixels extends Ink {
   name: string;
   ground: number | null;
   axis: number | null;
-  /** Colours of the tree as JSON, where they were seen. */
-  colors: string | null;
+  /** Colours of the tree, where they were seen. */
+  colors: SeenColors | null;
+}
+/** Colours as JSON; and one byte per pixel, 1 for wood and 2 for foliage. */
+export interface SeenColors {
+  json: string;
+  layers: Uint8Array<ArrayBuffer>;
 }
 
-/** What is otherwise in a picture than it is read: keys of `reading.json`, and `trunks`. */
-export type Corrections = Partial<Record<"trunks" | "lean_deg" | "bare_height" | "first_fork", number>>;
+/** Measures of a tree that a person can say: lengths are in heights of the tree. */
+export type Told = "trunks" | "trunk_width" | "lean_deg" | "bare_height" | "first_fork";
+/** Colours of it, such as "#5c8336". */
+export type Tint = "leaf" | "bark";
+/** What is otherwise in a picture than it is read: keys of `reading.json`, and short ones. */
+export interface Corrections extends Partial<Record<Told, number>> {
+  colors?: Partial<Record<Tint, string>>;
+}
 
 /** What is in a picture of a tree; lengths are in heights of the tree. */
 export interface Look {
@@ -177,12 +196,14 @@ export interface Look {
     fork_arms_deg: number[];
     bare_height: number | null;
     crown: { left: number[]; right: number[] };
-    colors: object | null;
+    colors: (Record<Tint, string | null> & { leaves: boolean | null }) | null;
   };
   /** Names, values in words, confidences. */
   table: [string, string, number][];
   /** Where the tree stands in pixels: the column of x = 0, the row of y = 0, and rows of one height. */
   anchor: { origin: number; ground: number; height: number } | null;
+  /** One byte per pixel, 1 for wood and 2 for foliage; empty of a picture without colours. */
+  layers: Uint8Array<ArrayBuffer>;
 }
 /** Scores of a tree against the goal: keys of the library's score card. */
 export interface Card {
@@ -205,6 +226,8 @@ export interface FitOptions {
   evaluations?: number;
   seed?: number;
   leaves?: "auto" | "on" | "off";
+  /** Trees of different seeds that each kind is scored by. */
+  robust?: number;
   /** How long this very tree is looked for, after its kind. */
   individual?: "share" | "off";
   reading?: Corrections;
@@ -263,6 +286,8 @@ export interface References {
 /** What the page shows of the library's `FitReport`: the same keys as the program's `summary.json`. */
 export interface FitReport extends Card {
   species: string;
+  /** Words for what to do next, the most promising first; fits of earlier versions have none. */
+  next?: string[] | undefined;
   fresh_seeds: { count: number; likeness: Spread; iou: Spread } | null;
   individual: (Card & { stems: number }) | null;
   references: References | null;

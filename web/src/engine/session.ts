@@ -13,6 +13,7 @@ import type {
   Op,
   Ops,
   Progress,
+  SeenColors,
 } from "./protocol";
 
 export interface FitEvents {
@@ -55,7 +56,7 @@ export class FitSession {
   constructor(
     private readonly goal: GoalPixels,
     /** Reads the colours of its picture. */
-    private readonly colors: () => Promise<string | null>,
+    private readonly colors: () => Promise<SeenColors | null>,
     private readonly options: FitOptions,
     private readonly events: FitEvents,
   ) {}

@@ -9,7 +9,7 @@ const info = (goal: Goal) => JSON.parse(goal.info()) as GoalInfo;
 /** The goal of these pixels and lines. The caller frees it. */
 export function makeGoal(pixels: GoalPixels): Goal {
   const inked = Goal.from_pixels(pixels.name, pixels.width, pixels.height, pixels.ink);
-  const plain = pixels.colors === null ? inked : inked.with_colors(pixels.colors);
+  const plain = pixels.colors === null ? inked : inked.with_colors(pixels.colors.json, pixels.colors.layers);
   if (pixels.ground === null && pixels.axis === null) return plain;
   const lined = plain.with_ground(pixels.ground ?? undefined, pixels.axis ?? undefined);
   plain.free();
@@ -52,7 +52,9 @@ export const goalHandlers: Handlers<"goalRead" | "goalCheck" | "goalLook"> = {
 
   goalLook({ goal: pixels, photo, corrections }) {
     const goal = makeGoal(pixels);
-    const out = JSON.parse(goal.look(photo ?? undefined, JSON.stringify(corrections))) as Look;
+    const found = goal.look(photo ?? undefined, JSON.stringify(corrections));
+    const out = { ...(JSON.parse(found.json) as Look), layers: found.layers.slice() };
+    found.free();
     goal.free();
     return out;
   },

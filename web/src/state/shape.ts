@@ -16,6 +16,21 @@ export const whole = shape<number>((value) => Number.isSafeInteger(value) && (va
 
 export const orNull = <T>(of: Shape<T>): Shape<T | null> => shape((value) => value === null || of(value));
 
+/** What earlier versions did not store. */
+export const orMissing = <T>(of: Shape<T>): Shape<T | undefined> =>
+  shape((value) => value === undefined || of(value));
+
+/** An object with some of these fields and no others. */
+export const some = <F extends Record<string, Shape<unknown>>>(
+  of: F,
+): Shape<{ [Name in keyof F]?: Of<F[Name]> }> =>
+  shape(
+    (value) =>
+      typeof value === "object" &&
+      value !== null &&
+      Object.entries(value).every(([name, field]) => Object.hasOwn(of, name) && of[name]?.(field)),
+  );
+
 export const list = <T>(of: Shape<T>): Shape<T[]> =>
   shape((value) => Array.isArray(value) && value.every((each) => of(each)));
 

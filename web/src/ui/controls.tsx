@@ -66,12 +66,15 @@ export function Segmented<T extends string>(props: SegmentedProps<T>): JSX.Eleme
 
 interface FieldProps {
   label: string;
+  /** Of what it is the label of; one of its own by default. */
+  id?: string;
   hint?: string;
   children: (id: string) => ComponentChildren;
 }
 
-export function Field({ label, hint, children }: FieldProps): JSX.Element {
-  const id = useId();
+export function Field({ label, hint, children, id: given }: FieldProps): JSX.Element {
+  const own = useId();
+  const id = given ?? own;
   return (
     <div class="field">
       <label for={id}>{label}</label>

@@ -6,6 +6,9 @@ export type Rgb = readonly [number, number, number];
 export const GOAL_ONLY: Rgb = [46, 110, 212];
 export const TREE_ONLY: Rgb = [232, 126, 28];
 export const BOTH: Rgb = [30, 38, 42];
+/** Wood and leaves of a goal: apart for every kind of colour vision too. */
+export const WOOD: Rgb = [198, 84, 0];
+export const LEAVES: Rgb = [0, 158, 115];
 
 /** Ink in one colour on nothing. */
 export function inkImage(ink: Uint8Array, width: number, height: number, color: Rgb): ImageData {

@@ -16,6 +16,9 @@ pub(super) struct CorrectionArgs {
     /// How many trunks there are
     #[arg(long, value_name = "N", value_parser = trunks)]
     pub(super) trunks: Option<u32>,
+    /// How wide the main trunk is, in heights of the tree
+    #[arg(long, value_name = "PART", value_parser = width)]
+    pub(super) trunk_width: Option<f64>,
     /// How far the trunk leans from the vertical, in degrees, positive to the right
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = lean)]
     pub(super) lean: Option<f64>,
@@ -34,9 +37,12 @@ struct Fork(Option<f64>);
 impl CorrectionArgs {
     /// Whether nothing is corrected.
     pub(super) fn is_empty(&self) -> bool {
-        let Self { reading, trunks, lean, bare_height, first_fork } = self;
-        let measures = [trunks.is_none(), lean.is_none(), bare_height.is_none(), first_fork.is_none()];
-        reading.is_none() && measures.into_iter().all(|none| none)
+        let Self { reading, trunks, trunk_width, lean, bare_height, first_fork } = self;
+        let numbers = [trunk_width, lean, bare_height];
+        reading.is_none()
+            && trunks.is_none()
+            && first_fork.is_none()
+            && numbers.into_iter().all(Option::is_none)
     }
 
     /// What the library is told: single measures in place of those in the file.
@@ -57,6 +63,7 @@ impl CorrectionArgs {
         let fork = self.first_fork.map(|Fork(height)| height.map_or(Value::Null, Value::from));
         let typed = [
             ("trunks", self.trunks.map(Value::from)),
+            ("trunk_width", self.trunk_width.map(Value::from)),
             ("lean_deg", self.lean.map(Value::from)),
             ("bare_height", self.bare_height.map(Value::from)),
             ("first_fork", fork),
@@ -73,6 +80,10 @@ impl CorrectionArgs {
 pub(super) fn trunks(text: &str) -> Result<u32, String> {
     let count = text.parse().ok().filter(|count| (1..=64).contains(count));
     count.ok_or_else(|| "expected a whole number from 1 to 64".to_owned())
+}
+
+pub(super) fn width(text: &str) -> Result<f64, String> {
+    number(text, 0.001, 2.0).ok_or_else(|| "expected heights of the tree from 0.001 to 2".to_owned())
 }
 
 pub(super) fn lean(text: &str) -> Result<f64, String> {

@@ -1,5 +1,6 @@
 //! One module per command: what was typed, and what it does.
 
+mod advice;
 mod bench;
 mod blend;
 mod collect;

@@ -1,5 +1,6 @@
 //! `pleach read`: what is in a picture of a tree.
 
+use super::advice;
 use super::corrections::CorrectionArgs;
 use super::fit::flags;
 use super::fit::values::TONES;
@@ -68,7 +69,7 @@ impl Read {
             output::line(table(&read.found))?;
         }
         for warning in &read.found.warnings {
-            output::note(format!("warning: {warning}"));
+            output::note(format!("warning: {}", advice::warning(warning)));
         }
         self.write(&read)
     }

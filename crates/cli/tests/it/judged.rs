@@ -34,8 +34,10 @@ fn a_fit_says_whether_it_is_good_and_what_to_do_next() {
         found.unwrap_or_else(|| panic!("no `{start}` in\n{report}"))
     };
     assert!(line("verdict  ").contains(&pleach_fit::KindVerdict::from_share(share).to_string()));
-    let next = line("next     ");
-    assert!(next.contains(": pleach ") && next.contains("'my run"), "{next}");
+    // What the summary names, as commands.
+    let steps = summary["next"].as_array().unwrap();
+    assert!(!steps.is_empty() && line("next     ").contains(": pleach "), "{report}");
+    assert!(report.contains("'my run"), "{report}");
     assert!(line("for this goal, about: ").contains(&format!("another tree of the species {same:.2}")));
     assert!(line("16 other seeds: ").contains("(an empty picture "));
     assert!(line("200 trees in ").contains(" trees/s) by `evolution`"));

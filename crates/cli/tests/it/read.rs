@@ -141,6 +141,13 @@ fn a_reading_is_corrected_by_flags_and_by_its_file() {
     assert_eq!((said["feet"].as_array().unwrap().len(), &said["feet_confidence"]), (2, &1.0.into()));
     assert_eq!((&said["lean_deg"], &said["lean_deg_confidence"]), (&(-8.0).into(), &1.0.into()));
     assert_eq!((&said["bare_height"], &said["first_fork"]), (&0.3.into(), &Value::Null));
+    let wide = read_with(&["--trunk-width", "0.2"]).json();
+    let is_wide = |foot: &Value| foot["width"] == 0.2;
+    assert!(wide["feet"].as_array().unwrap().iter().any(is_wide), "{wide}");
+    assert_eq!(
+        (&wide["width_confidence"], &wide["feet_confidence"]),
+        (&1.0.into(), &plain["feet_confidence"])
+    );
     // A flag before the file.
     let text = String::from_utf8(read(&dir.path("out/reading.json"))).unwrap();
     let mut edited: Value = serde_json::from_str(&text).unwrap();
@@ -152,6 +159,7 @@ fn a_reading_is_corrected_by_flags_and_by_its_file() {
     assert_eq!((&found["lean_deg"], &found["feet"]), (&6.0.into(), &plain["feet"]));
     for (more, expected) in [
         (["--trunks", "0"], "expected a whole number from 1 to 64"),
+        (["--trunk-width", "0"], "expected heights of the tree from 0.001 to 2"),
         (["--lean", "100"], "expected degrees from -90 to 90"),
         (["--bare-height", "1.5"], "expected a number from 0 to 1"),
         (["--first-fork", "low"], "expected a number from 0 to 1"),

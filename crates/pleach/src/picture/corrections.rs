@@ -15,6 +15,7 @@ use serde_json::{Map, Value, json};
 ///   confirms it. So a `reading.json` as it was written changes nothing.
 /// - A confidence without its value replaces the one that was read.
 /// - `trunks` is short for `feet` where only their number is known, from 1 to 64.
+/// - `trunk_width` is short for `feet` where only the thickness of the main trunk, the thickest, is known.
 /// - `mask_confidence` and `warnings`, which are not about the tree, are passed over.
 ///
 /// ```
@@ -36,6 +37,7 @@ const OPTION: &str = "reading";
 /// Keys of `reading.json` that are not about the tree.
 const NOT_OF_THE_TREE: [&str; 2] = ["mask_confidence", "warnings"];
 const TRUNKS: &str = "trunks";
+const TRUNK_WIDTH: &str = "trunk_width";
 const COLORS: &str = "colors";
 const SUFFIX: &str = "_confidence";
 /// The most trunks, and the most points of a trunk or an outline.
@@ -51,6 +53,7 @@ fn range(key: &str) -> (f64, f64) {
         "asymmetry" | "grain_upright" | "grain_rising" => (-1.0, 1.0),
         "bare_height" | "first_fork" | "crown_widest" | "gap_share" | "gap_by_height" | "gap_sizes"
         | "stroke_upright" | "hanging_ends" | "foliage_share" => (0.0, 1.0),
+        TRUNK_WIDTH => (0.001, 2.0),
         "crown_width" | "twig_fineness" | "leaf_spread" => (0.0, 20.0),
         "leaf_size_px" | "clumps" => (0.0, 1e6),
         _ if key.ends_with(SUFFIX) => (0.0, 1.0),
@@ -82,7 +85,11 @@ impl Corrections {
     pub fn confirmed(mut self, key: &str, value: impl Into<Value>) -> Self {
         let _ = self.0.insert(key.to_owned(), value.into());
         // What a file says of it is of another value.
-        let of = if key == TRUNKS { "feet" } else { key };
+        let of = match key {
+            TRUNKS => "feet",
+            TRUNK_WIDTH => "width",
+            _ => key,
+        };
         let _ = self.0.remove(&format!("{of}{SUFFIX}"));
         self
     }
@@ -111,6 +118,7 @@ impl Corrections {
             let _ = given.insert("feet".to_owned(), json!(feet(&found.measures.feet, count as usize)));
             let _ = given.entry("feet_confidence").or_insert_with(|| json!(1.0));
         }
+        let trunk_width = given.remove(TRUNK_WIDTH);
         let colors = match given.remove(COLORS) {
             None | Some(Value::Null) => Map::new(),
             Some(Value::Object(colors)) => changed(colors, &found.colors.clone().unwrap_or_default()),
@@ -118,7 +126,17 @@ impl Corrections {
                 return Err(OptionError::new(OPTION, format!("has the colors {other}, expected an object")));
             }
         };
-        Ok(Changes { measures: changed(given, &found.measures), colors })
+        let mut measures = changed(given, &found.measures);
+        if let Some(width) = trunk_width {
+            let width = width.as_f64().ok_or_else(|| {
+                OptionError::new(OPTION, format!("has {width} for `{TRUNK_WIDTH}`, expected a number"))
+            })?;
+            // How many trunks there are is as sure as before.
+            let feet = measures.remove("feet").unwrap_or_else(|| json!(found.measures.feet));
+            let _ = measures.insert("feet".to_owned(), with_main_width(feet, width));
+            let _ = measures.insert("width_confidence".to_owned(), json!(1.0));
+        }
+        Ok(Changes { measures, colors })
     }
 }
 
@@ -262,6 +280,26 @@ fn feet(read: &[Foot], count: usize) -> Vec<Foot> {
     feet
 }
 
+/// `feet` of which the thickest, or the only one of unknown thickness, is so wide; one foot where there are none. Others are
+/// not wider than it is.
+fn with_main_width(feet: Value, width: f64) -> Value {
+    // What is no list of feet is told when it is read.
+    let Value::Array(mut feet) = feet else { return feet };
+    if feet.is_empty() {
+        feet.push(json!(Foot::default()));
+    }
+    let of = |foot: &Value| foot["width"].as_f64().unwrap_or(0.0);
+    let widest = feet.iter().map(of).fold(0.0, f64::max);
+    let main = feet.iter().position(|foot| of(foot) >= widest).unwrap_or(0);
+    for (at, foot) in feet.iter_mut().enumerate() {
+        let own = if at == main { width } else { of(foot).min(width) };
+        if let Some(foot) = foot.as_object_mut() {
+            let _ = foot.insert("width".to_owned(), json!(own));
+        }
+    }
+    Value::Array(feet)
+}
+
 /// How far feet stand apart that are only counted, in heights of the tree.
 const APART: f64 = 0.1;
 
@@ -325,6 +363,32 @@ mod tests {
     }
 
     #[test]
+    fn the_main_trunk_is_the_thickest() {
+        let found = corrected(r#"{ "trunk_width": 0.05 }"#).measures;
+        assert_eq!(found.feet.iter().map(|foot| foot.width).collect::<Vec<_>>(), [0.03, 0.05]);
+        assert_eq!((found.feet_confidence, found.width_confidence), (0.45, 1.0));
+        // The others are thinner.
+        let found = corrected(r#"{ "trunk_width": 0.02 }"#).measures;
+        assert_eq!(found.feet.iter().map(|foot| foot.width).collect::<Vec<_>>(), [0.02, 0.02]);
+        let found = corrected(r#"{ "trunk_width": 0.1, "trunks": 1 }"#).measures;
+        assert_eq!((found.feet, found.feet_confidence), (vec![Foot { x: 0.1, width: 0.1 }], 1.0));
+        let said = Corrections::from_json(r#"{ "width_confidence": 0.2 }"#).unwrap();
+        let mut found = read();
+        let said = said.confirmed("trunk_width", 0.07);
+        said.changes(&found).unwrap().apply(&mut found).unwrap();
+        assert_eq!(found.measures.width_confidence, 1.0, "confirmed");
+        // Of a picture without a foot too.
+        let mut found = GoalReading::new(Reading::default(), None, None, Vec::new());
+        Corrections::from_json(r#"{ "trunk_width": 0.1 }"#)
+            .unwrap()
+            .changes(&found)
+            .unwrap()
+            .apply(&mut found)
+            .unwrap();
+        assert_eq!(found.measures.trunk_width(), Some(0.1));
+    }
+
+    #[test]
     fn what_is_wrong_is_named() {
         let error = |text: &str| Corrections::from_json(text).unwrap_err().to_string();
         for (text, expected) in [
@@ -336,6 +400,8 @@ mod tests {
             (r#"{ "feet_confidence": 2 }"#, "expected from 0 to 1"),
             (r#"{ "trunks": 0 }"#, "has 0 trunks, expected a whole number from 1 to 64"),
             (r#"{ "trunks": 1.5 }"#, "has 1.5 trunks"),
+            (r#"{ "trunk_width": 0 }"#, "has 0 for `trunk_width`, expected from 0.001 to 2"),
+            (r#"{ "trunk_width": "thick" }"#, "has \"thick\" for `trunk_width`"),
             (r#"{ "feet": [{ "x": 1e300, "width": 0.1 }] }"#, "for `x`, expected from -20 to 20"),
             (r#"{ "feet": [{ "width": 0.1 }] }"#, "for `feet`"),
             (r#"{ "colors": { "leaf": "green" } }"#, "has \"green\" for `leaf`"),

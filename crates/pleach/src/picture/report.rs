@@ -1,6 +1,7 @@
 //! What a whole fit has found, as data.
 
 use super::drawn::{FitDrawing, FittedTree};
+use super::next::NextStep;
 use super::optimizer::settings_of;
 use super::options::FitOptions;
 use super::parameters::{intervals, parameters};
@@ -53,6 +54,8 @@ pub struct FitReport {
     pub references: Option<References>,
     /// Whether the kind is right.
     pub verdict: Option<Verdict>,
+    /// What to do next, the most promising first.
+    pub next: Vec<NextStep>,
     /// What is in the goal and in the pictures of the trees that were found, and how they differ.
     pub readings: Readings,
     /// How many of the free parameters the goal determines; `None` if the result was not judged.
@@ -241,6 +244,8 @@ impl Prepared {
             }
         });
         let parameters = parameters(&fitted, &kind.species);
+        let leaves = fitted.problem.foliage != Foliage::None;
+        let next = NextStep::after(&self.options, verdict.as_ref(), &readings, &self.goal.warnings, leaves);
         let seconds = outcome.elapsed.as_secs_f64();
         let first_guess_seconds = outcome.before_search.as_secs_f64();
         Ok(FitReport {
@@ -254,6 +259,7 @@ impl Prepared {
             individuals,
             references: fitted.references().cloned(),
             verdict,
+            next,
             readings,
             determined: judged.map(|_| IdentifiabilityCounts::new(&parameters)),
             parameters,
@@ -277,7 +283,7 @@ impl Prepared {
             from: self.options.from.to_string(),
             looks_like: LooksLike::from_guess(fitted.guess.as_ref()),
             families: best_of_each_family(fitted.guess.as_ref()),
-            leaves: fitted.problem.foliage != Foliage::None,
+            leaves,
             leaves_detected: self.detects_leaves,
             views: kind.views.clone(),
             holdout_views,

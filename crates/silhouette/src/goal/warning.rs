@@ -8,7 +8,8 @@ use std::fmt;
 
 /// Something about a picture, or about a mask made of one, that makes a bad goal. It can still be fitted.
 ///
-/// `Display` says what was seen and what to do about it; as JSON it is `{"kind": …, "message": …}`.
+/// `Display` says what was seen and what makes a better goal, in words that hold wherever a fit is made: in a program,
+/// in Python, in a page. As JSON it is `{"kind": …, "message": …}`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum GoalWarning {
@@ -100,8 +101,8 @@ impl fmt::Display for GoalWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Photograph => f.write_str(
-                "this looks like a photograph, and was split in two by brightness alone; --mask auto finds \
-                 the tree by its colour, and --mask FILE takes a mask of your own",
+                "this looks like a photograph, and was split in two by brightness alone, although its colours may \
+                 show the tree better",
             ),
             Self::SeveralPictures => f.write_str(
                 "the file holds several pictures, as an animation or as pages; only the first was read, so \
@@ -126,9 +127,7 @@ impl fmt::Display for GoalWarning {
             Self::ByColor { confidence } => write!(
                 f,
                 "brightness did not separate the tree from the paper, as where light is uneven; the tree is what \
-                 differs in colour from the paper around it, as with `pleach mask --background plain` \
-                 (confidence {confidence:.2} of 1); `pleach fit --tree dark` or `--tree light` splits by \
-                 brightness all the same"
+                 differs in colour from the paper around it (confidence {confidence:.2} of 1)"
             ),
             Self::TouchesFrame(touches) => write!(
                 f,
@@ -138,13 +137,13 @@ impl fmt::Display for GoalWarning {
             ),
             Self::SeveralPieces { pieces } => write!(
                 f,
-                "there are {pieces} pieces of similar size, and all count as one tree; crop the picture to \
-                 one of them, or choose one with `pleach mask --seed-point X,Y`"
+                "there are {pieces} pieces of similar size, and all count as one tree; if they are several trees, \
+                 a mask of one of them makes a better goal"
             ),
             Self::Ground { row } => write!(
                 f,
-                "the wide strip below row {row} looks like ground, and counts as tree; crop the picture \
-                 there, or paint the strip in the colour of the background"
+                "the wide strip below row {row} looks like ground, and counts as tree; a mask without it makes a \
+                 better goal"
             ),
             Self::Noise { specks } => write!(
                 f,
@@ -154,13 +153,13 @@ impl fmt::Display for GoalWarning {
             Self::Solid { solidity } => write!(
                 f,
                 "the shape has neither gaps nor notches ({:.0} % of its convex hull is ink), and trees have \
-                 both; if tree and background were mixed up, `pleach fit` has --tree dark and --tree light",
+                 both; tree and background may be mixed up",
                 100.0 * solidity
             ),
             Self::MostlyInk { share } => write!(
                 f,
                 "{:.0} % of the picture counts as tree, up to the corners, so that the paper may have been taken \
-                 for it; if it was, `pleach fit` has --tree dark and --tree light",
+                 for it",
                 100.0 * share
             ),
             Self::Outline { hollow } => write!(
@@ -175,9 +174,8 @@ impl fmt::Display for GoalWarning {
             ),
             Self::DoubtfulMask { confidence } => write!(
                 f,
-                "the mask is doubtful (confidence {confidence:.2} of 1); look at it with `pleach mask PHOTO \
-                 -o mask.png --overlay look.png`, and try --box, --seed-point or --background, or a mask made \
-                 by hand"
+                "the mask is doubtful (confidence {confidence:.2} of 1); a fit follows it, so look at it first, and \
+                 show where the tree is or correct it by hand"
             ),
         }
     }

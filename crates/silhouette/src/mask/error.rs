@@ -8,8 +8,8 @@ use super::pixel_box::PixelBox;
 pub enum MaskError {
     /// Nothing stands out from the background.
     #[error(
-        "no tree found: {why}; is the background even, and the tree all in the picture? A --box around the tree, \
-         another --background or a --seed-point on the tree may help, or a mask made by hand"
+        "no tree found: {why}; is the background even, and the tree all in the picture? A box around the tree or \
+         a stroke on it may help, or a mask made by hand"
     )]
     NoTree {
         /// What was seen instead.

@@ -144,7 +144,7 @@ fn nothing_is_made_up_where_there_is_no_tree() {
         for background in [sky, sky_and_lawn, wall] {
             let error = Mask::from_photo(&empty(background, grain), &MaskOptions::default()).unwrap_err();
             assert!(matches!(error, MaskError::NoTree { .. }), "{error}");
-            assert!(error.to_string().contains("--seed-point"), "{error}");
+            assert!(error.to_string().contains("A box around the tree"), "{error}");
         }
     }
     let even = Photo::from_fn(64, 64, |_, _| [90, 120, 60, 255]);

@@ -1,5 +1,5 @@
 // Strokes on a mask, and the mask on a canvas: only the part that has changed is drawn again.
-import { GOAL_ONLY } from "../../ui/ink";
+import { GOAL_ONLY, LEAVES, type Rgb, WOOD } from "../../ui/ink";
 import type { GoalPicture } from "./goal-state";
 
 export interface Point {
@@ -25,39 +25,81 @@ export const joined = (one: Area, other: Area): Area => ({
 /** The picture has so much of the colour over it, inside of the mask and outside. */
 const INSIDE = 0.45;
 const OUTSIDE = 0.25;
-const WHITE = [255, 255, 255] as const;
-/** The mask of a silhouette. */
-const DARK = [30, 38, 42] as const;
+const WHITE: Rgb = [255, 255, 255];
+/** The mask of a silhouette, as a word of [ImageData]. */
+const DARK = 0xff2a261e;
 
-/** The photograph, pale, under its mask in blue; or the mask alone, dark. */
-export function paint(canvas: HTMLCanvasElement, shown: GoalPicture, ink: Uint8Array, area?: Area): void {
+/** Red, green and blue take so many numbers. */
+const VALUES = 256;
+
+/**
+ * What a pixel of a photograph becomes, as it lies in a word of [ImageData]: by its kind, its channel and its value. Kinds
+ * are outside of the mask, and inside by the number of the layer: blue where that is not known.
+ */
+const MIXED = new Uint32Array(
+  [[WHITE, OUTSIDE] as const, ...[GOAL_ONLY, WOOD, LEAVES].map((over) => [over, INSIDE] as const)].flatMap(
+    ([over, share]) =>
+      over.flatMap((tint, channel) =>
+        Array.from({ length: VALUES }, (_, value) => {
+          const mixed = Math.round(value * (1 - share) + tint * share);
+          return (mixed << (8 * channel)) >>> 0;
+        }),
+      ),
+  ),
+);
+
+interface Painted {
+  ink: Uint8Array;
+  /** One byte per pixel, 1 for wood and 2 for leaves. */
+  layers: Uint8Array | null;
+}
+
+/** The photograph, pale, under its mask in colours; or the mask alone, dark. A million pixels take some milliseconds. */
+export function paint(
+  canvas: HTMLCanvasElement,
+  shown: GoalPicture,
+  { ink, layers }: Painted,
+  area?: Area,
+): void {
   const { width, height, photo } = shown;
   if (ink.length !== width * height) return;
+  const kinds = layers?.length === ink.length ? layers : null;
   if (canvas.width !== width) canvas.width = width;
   if (canvas.height !== height) canvas.height = height;
   const { left, top, right, bottom } = area ?? { left: 0, top: 0, right: width, bottom: height };
   if (right <= left || bottom <= top) return;
   const image = new ImageData(right - left, bottom - top);
-  const { data } = image;
-  let to = 0;
+  const words = new Uint32Array(image.data.buffer);
   for (let row = top; row < bottom; row++) {
-    for (let at = row * width + left; at < row * width + right; at++, to += 4) {
-      const inside = ink[at] === 1;
-      if (photo) {
-        const [share, over] = inside ? [INSIDE, GOAL_ONLY] : [OUTSIDE, WHITE];
-        data[to] = (photo[4 * at] ?? 0) * (1 - share) + over[0] * share;
-        data[to + 1] = (photo[4 * at + 1] ?? 0) * (1 - share) + over[1] * share;
-        data[to + 2] = (photo[4 * at + 2] ?? 0) * (1 - share) + over[2] * share;
-        data[to + 3] = 255;
-      } else if (inside) {
-        data[to] = DARK[0];
-        data[to + 1] = DARK[1];
-        data[to + 2] = DARK[2];
-        data[to + 3] = 255;
-      }
-    }
+    const from = row * width + left;
+    const to = (row - top) * (right - left);
+    if (photo) mixRow(words, to, photo, ink, kinds, from, right - left);
+    else for (let at = 0; at < right - left; at++) if (ink[from + at]) words[to + at] = DARK;
   }
   canvas.getContext("2d")?.putImageData(image, left, top);
+}
+
+/** A row on its own is compiled by the browser before the first picture is done. */
+function mixRow(
+  words: Uint32Array,
+  to: number,
+  photo: Uint8Array,
+  ink: Uint8Array,
+  kinds: Uint8Array | null,
+  from: number,
+  count: number,
+): void {
+  const layers = kinds ?? ink;
+  const isLayered = kinds ? 1 : 0;
+  for (let at = 0; at < count; at++) {
+    const pixel = from + at;
+    const kind = ink[pixel] === 0 ? 0 : 1 + isLayered * (layers[pixel] ?? 0);
+    const table = 3 * VALUES * kind;
+    const red = MIXED[table + (photo[4 * pixel] ?? 0)] ?? 0;
+    const green = MIXED[table + VALUES + (photo[4 * pixel + 1] ?? 0)] ?? 0;
+    const blue = MIXED[table + 2 * VALUES + (photo[4 * pixel + 2] ?? 0)] ?? 0;
+    words[to + at] = red | green | blue | 0xff000000;
+  }
 }
 
 /** A round brush from one point to another, of this radius in pixels. The area that it has touched. */

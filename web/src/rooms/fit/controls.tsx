@@ -28,27 +28,22 @@ import {
   masks,
   picture,
   readAgain,
+  readByStrokes,
   reading,
   redoMask,
   setMask,
   undoMask,
 } from "./goal-state";
-import { MeasuresPart } from "./measures";
+import { LookPart } from "./look-part";
 import { before, bestToml, goBack, guess, outdated, result } from "./record";
 import { SearchPart } from "./search-part";
+import { Warning } from "./warning";
 
 /** Where the mask is from, which painting does not change. */
 function origin({ masked, confidence }: GoalPicture): string {
   if (!masked) return "a silhouette";
   const sure = confidence === null ? "" : `, ${Math.round(confidence * 100)} % sure`;
   return `a tree found in a photograph${sure}`;
-}
-
-/** The library's warnings end with what to do in the program; here there are other means. */
-function inPage(warning: string): string {
-  const program = warning.search(/[;,:] [^;]*(`pleach | --)/);
-  if (program < 0) return warning;
-  return `${warning.slice(0, program)}. Paint over the mask, or draw a box around the tree.`;
 }
 
 function GoalPart(): JSX.Element {
@@ -80,9 +75,7 @@ function GoalPart(): JSX.Element {
         />
       )}
       {found?.warnings.map((warning) => (
-        <p key={warning} class="warning">
-          {inPage(warning)}
-        </p>
+        <Warning key={warning.message} of={warning} />
       ))}
       {shown && canReadAgain() && (
         <Button
@@ -92,7 +85,7 @@ function GoalPart(): JSX.Element {
           onPress={() => void readAgain(shown.masked ? "off" : "photo")}
         />
       )}
-      <div class="row wrap">
+      <div class="row wrap" data-part="brush">
         <Segmented
           label="Brush"
           value={brush.value}
@@ -102,30 +95,38 @@ function GoalPart(): JSX.Element {
             { value: "add", label: "Add" },
             { value: "take", label: "Take away" },
             { value: "box", label: "Box" },
-            { value: "measures", label: "Measures" },
           ]}
           onPick={pickBrush}
         />
-        <Button
-          icon="undo"
-          iconOnly
-          label="Undo the brush (Ctrl+Z)"
-          disabled={busy || !masks.canUndo.value}
-          onPress={undoMask}
-          testid="undo-mask"
-        />
-        <Button
-          icon="redo"
-          iconOnly
-          label="Redo the brush (Ctrl+Shift+Z)"
-          disabled={busy || !masks.canRedo.value}
-          onPress={redoMask}
-        />
+        <div class="row">
+          <Button
+            icon="undo"
+            iconOnly
+            label="Undo (Ctrl+Z)"
+            disabled={busy || !masks.canUndo.value}
+            onPress={undoMask}
+            testid="undo-mask"
+          />
+          <Button
+            icon="redo"
+            iconOnly
+            label="Redo (Ctrl+Shift+Z)"
+            disabled={busy || !masks.canRedo.value}
+            onPress={redoMask}
+          />
+        </div>
       </div>
       {brush.value === "box" && (
         <p class="hint">Drag a box around all of the tree: it is then looked for inside.</p>
       )}
-      {brush.value === "measures" && <MeasuresPart />}
+      {shown?.masked && canReadAgain() && masks.value.strokes.length > 0 && (
+        <Button
+          label="Find the tree by these strokes"
+          title="Strokes that add show the tree, strokes that take away show what is not. The mask is found again by the colours of the picture."
+          disabled={busy}
+          onPress={() => void readByStrokes()}
+        />
+      )}
       <Field label="Brush size">
         {(id) => (
           <input
@@ -200,14 +201,15 @@ function Kin(): JSX.Element | null {
   if (!seen) return null;
   return (
     <p class="kin">
-      Looks like{" "}
+      {seen.looks_like.length > 0 ? "Looks like " : "Looks"}
       {seen.looks_like.slice(0, 3).map(({ species, confidence }, at) => (
         <span key={species}>
           {at > 0 && ", "}
           <strong>{species.replaceAll("_", " ")}</strong> {Math.round(confidence * 100)} %
         </span>
       ))}
-      , {seen.leaves ? "leafy" : "bare"}.
+      {seen.looks_like.length > 0 ? ", " : " "}
+      {seen.leaves ? "leafy" : "bare"}.
     </p>
   );
 }
@@ -237,6 +239,7 @@ export function Controls(): JSX.Element {
         )}
         {goalError.value && <Alert text={goalError.value} />}
         <GoalPart />
+        {picture.value && <LookPart />}
         <SearchPart />
       </div>
       <footer class="panelfoot" ref={foot}>

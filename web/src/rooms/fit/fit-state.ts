@@ -16,6 +16,8 @@ export const stage = signal<{ text: string; share: number | null }>({ text: "", 
 export const progress = signal<FitProgress | null>(null);
 export const elapsed = signal(0);
 export const failure = signal<string | null>(null);
+/** Times to search, in seconds. */
+export const BUDGETS = [10, 30, 60, 180, 600] as const;
 export const seconds = signal(30);
 /** A family or a choice of the library's, or "" for what the library chooses by the picture. */
 export const generator = signal("");
@@ -45,7 +47,7 @@ function withPoint(points: readonly CurvePoint[], point: CurvePoint): readonly C
   return [...points, point];
 }
 
-function optionsNow(): FitOptions {
+function optionsNow(more: FitOptions): FitOptions {
   return {
     height: treeHeight.peek(),
     ...(generator.peek() === "" ? {} : { generator: generator.peek() }),
@@ -53,6 +55,7 @@ function optionsNow(): FitOptions {
     leaves: leafiness.peek(),
     individual: individual.peek() ? "share" : "off",
     reading: corrections.peek(),
+    ...more,
     ...told.options,
   };
 }
@@ -123,7 +126,8 @@ function fallBack(earlier: Fitted | null): void {
   if (earlier.result || !now?.best) record.value = earlier;
 }
 
-export async function startFit(): Promise<void> {
+/** With more options than the page's controls say. */
+export async function startFit(more: FitOptions = {}): Promise<void> {
   const goal = goalPixels();
   const id = picture.peek()?.id;
   if (!goal || id === undefined || running.peek()) return;
@@ -137,7 +141,7 @@ export async function startFit(): Promise<void> {
   const earlier = record.peek();
   const isGoal = () => picture.peek()?.id === id;
   const isCurrent = () => session === mine && isGoal();
-  const mine = new FitSession(goal, seenColors, optionsNow(), events(id, goal, isCurrent));
+  const mine = new FitSession(goal, seenColors, optionsNow(more), events(id, goal, isCurrent));
   searched = picture.peek();
   session = mine;
   try {

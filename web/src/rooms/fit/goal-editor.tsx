@@ -1,17 +1,19 @@
-// The goal with its mask: a brush that adds and takes away, a box around the tree, and two lines to drag.
+// The goal with its mask: a brush that adds and takes away, a box around the tree, two lines to drag, and what was read.
 import { computed, signal, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
 import { type Area, joined, type Point, paint, stroke } from "./brush";
 import { running } from "./fit-state";
 import { canReadAgain, type GoalPicture, info, masks, picture, readInBox, setMask } from "./goal-state";
-import { Measures } from "./measures";
+import { Handle } from "./handle";
+import { layers } from "./look-state";
+import { LookView } from "./look-view";
 
 /**
- * What dragging over the picture does: nothing, paint the tree, paint what is not the tree, draw a box around the tree,
- * or move what was read. A finger scrolls the page until one of them is picked.
+ * What dragging over the picture does: nothing, paint the tree, paint what is not the tree, or draw a box around the tree.
+ * A finger scrolls the page until one of them is picked.
  */
-export type BrushMode = "off" | "add" | "take" | "box" | "measures";
+export type BrushMode = "off" | "add" | "take" | "box";
 const brushMode = signal<BrushMode>(matchMedia("(pointer: coarse)").matches ? "off" : "add");
 const picked = signal(false);
 export const brush = computed(() => brushMode.value);
@@ -39,7 +41,9 @@ interface Box extends Corners {
 interface Stroke {
   on: GoalPicture;
   ink: Uint8Array<ArrayBuffer>;
-  last: Point;
+  value: 0 | 1;
+  /** Where it has been, the last place included. */
+  points: Point[];
   dirty: Area;
 }
 
@@ -82,19 +86,23 @@ export function GoalEditor(): JSX.Element | null {
   const stroking = useRef<Stroke | null>(null);
   const frame = useRef(0);
   /** What the canvas shows. */
-  const painted = useRef<{ ink: Uint8Array; on: GoalPicture } | null>(null);
+  const painted = useRef<{ ink: Uint8Array; on: GoalPicture; layers: Uint8Array | null } | null>(null);
   const cursor = useSignal<Point | null>(null);
   const box = useSignal<Box | null>(null);
 
   useSignalEffect(() => {
     const { ink } = masks.value;
     const now = picture.value;
+    const kinds = layers.value;
     stroking.current = stillOn(stroking.current);
     box.value = stillOn(box.peek());
+    const last = painted.current;
     // A stroke that has ended is on the canvas already.
-    if (!canvas.current || !now || (painted.current?.ink === ink && painted.current.on === now)) return;
-    paint(canvas.current, now, ink);
-    painted.current = { ink, on: now };
+    const isThere = last?.ink === ink && last.on === now && last.layers === kinds;
+    // One that goes on paints by itself, and ends with all of it.
+    if (!canvas.current || !now || isThere || stroking.current) return;
+    paint(canvas.current, now, { ink, layers: kinds });
+    painted.current = { ink, on: now, layers: kinds };
   });
 
   const shown = picture.value;
@@ -108,17 +116,19 @@ export function GoalEditor(): JSX.Element | null {
       y: ((event.clientY - box.top) / box.height) * height,
     };
   };
+  /** Those that the canvas shows: what is read during a stroke is drawn after it. */
+  const kinds = () => painted.current?.layers ?? null;
   const draw = (to: Point) => {
     const now = stillOn(stroking.current);
     if (!now) return;
-    const value = brush.peek() === "add" ? 1 : 0;
-    now.dirty = joined(now.dirty, stroke(now.ink, shown, [now.last, to], radius, value));
-    now.last = to;
+    const from = now.points.at(-1) ?? to;
+    now.dirty = joined(now.dirty, stroke(now.ink, shown, [from, to], radius, now.value));
+    now.points.push(to);
     cancelAnimationFrame(frame.current);
     frame.current = requestAnimationFrame(() => {
       const drawn = stillOn(stroking.current);
       if (!canvas.current || !drawn) return;
-      paint(canvas.current, shown, drawn.ink, drawn.dirty);
+      paint(canvas.current, shown, { ink: drawn.ink, layers: kinds() }, drawn.dirty);
       drawn.dirty = NOTHING;
     });
   };
@@ -129,9 +139,11 @@ export function GoalEditor(): JSX.Element | null {
     if (running.peek()) return giveUp();
     if (now) {
       cancelAnimationFrame(frame.current);
-      if (canvas.current) paint(canvas.current, shown, now.ink, now.dirty);
-      painted.current = { ink: now.ink, on: shown };
-      setMask({ ink: now.ink });
+      const drawn = { ink: now.ink, layers: kinds() };
+      if (canvas.current) paint(canvas.current, shown, drawn, now.dirty);
+      painted.current = { ...drawn, on: shown };
+      const { value, points } = now;
+      setMask({ ink: now.ink, strokes: [...masks.peek().strokes, { value, points }] });
     }
     const drawn = stillOn(box.peek());
     box.value = null;
@@ -142,9 +154,11 @@ export function GoalEditor(): JSX.Element | null {
   const giveUp = () => {
     stroking.current = null;
     box.value = null;
-    if (canvas.current) paint(canvas.current, shown, masks.peek().ink);
+    const drawn = { ink: masks.peek().ink, layers: layers.peek() };
+    if (canvas.current) paint(canvas.current, shown, drawn);
+    painted.current = { ...drawn, on: shown };
   };
-  const idle = running.value || brush.value === "measures" || brush.value === "off";
+  const idle = running.value || brush.value === "off";
   const text = `Goal ${shown.name}, ${width} by ${height} pixels, ${info.value ? `${Math.round((100 * info.value.ink) / (width * height))} % tree` : "mask"}`;
   return (
     <div class="editor" style={{ aspectRatio: `${width} / ${height}` }}>
@@ -168,7 +182,8 @@ export function GoalEditor(): JSX.Element | null {
             if (canReadAgain()) box.value = { on: shown, from: at, to: at };
             return;
           }
-          stroking.current = { on: shown, ink: masks.peek().ink.slice(), last: at, dirty: NOTHING };
+          const value = brush.peek() === "add" ? 1 : 0;
+          stroking.current = { on: shown, ink: masks.peek().ink.slice(), value, points: [], dirty: NOTHING };
           draw(at);
         }}
         onPointerMove={(event) => {
@@ -196,67 +211,33 @@ export function GoalEditor(): JSX.Element | null {
           }}
         />
       )}
-      {brush.value === "measures" ? (
-        <Measures />
-      ) : (
-        <>
-          <Line kind="ground" size={height} at={masks.value.ground ?? info.value?.ground_row ?? height - 1} />
-          <Line kind="axis" size={width} at={masks.value.axis ?? info.value?.axis_column ?? width / 2} />
-        </>
-      )}
+      <LookView />
+      <Line kind="ground" size={height} at={masks.value.ground ?? info.value?.ground_row ?? height - 1} />
+      <Line kind="axis" size={width} at={masks.value.axis ?? info.value?.axis_column ?? width / 2} />
     </div>
   );
 }
 
 /** A line across the picture with a handle at its end. */
 function Line({ kind, size, at }: { kind: "ground" | "axis"; size: number; at: number }): JSX.Element {
-  const dragging = useSignal(false);
-  const move = (to: number) =>
-    setMask({ [kind]: Math.round(Math.min(Math.max(to, 0), size - 1)) }, `line ${kind}`);
-  const share = `${(100 * (at + 0.5)) / size}%`;
-  const ground = kind === "ground";
+  const share = (at + 0.5) / size;
+  const isGround = kind === "ground";
   return (
-    <div class={`line ${kind}`} style={ground ? { top: share } : { left: share }}>
-      <div
-        class="handle"
-        role="slider"
-        tabIndex={running.value ? -1 : 0}
-        aria-label={ground ? "Ground" : "Trunk"}
-        aria-orientation={ground ? "vertical" : "horizontal"}
-        aria-valuemin={0}
-        aria-valuemax={size - 1}
-        aria-valuenow={Math.round(at)}
-        aria-disabled={running.value}
-        onPointerDown={(event) => {
-          if (running.peek() || !event.isPrimary) return;
-          event.currentTarget.setPointerCapture(event.pointerId);
-          dragging.value = true;
-          event.preventDefault();
-        }}
-        onPointerMove={(event) => {
-          const frame = event.currentTarget.closest(".editor")?.getBoundingClientRect();
-          if (!dragging.peek() || !frame || running.peek() || !event.isPrimary) return;
-          move(
-            ground
-              ? ((event.clientY - frame.top) / frame.height) * size
-              : ((event.clientX - frame.left) / frame.width) * size,
-          );
-        }}
-        onPointerUp={() => {
-          dragging.value = false;
-        }}
-        onPointerCancel={() => {
-          dragging.value = false;
-        }}
-        onKeyDown={(event) => {
-          const step = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[event.key];
-          if (step === undefined || running.peek()) return;
-          event.preventDefault();
-          move(at + step * (event.shiftKey ? 10 : 1));
-        }}
-      >
-        {ground ? "ground" : "trunk"}
-      </div>
-    </div>
+    <>
+      <div class={`line ${kind}`} style={{ [isGround ? "top" : "left"]: `${100 * share}%` }} />
+      <Handle
+        name={isGround ? "Ground" : "Trunk"}
+        label={isGround ? "ground" : "trunk"}
+        kind={isGround ? "at-right" : "at-top"}
+        way={isGround ? "vertical" : "horizontal"}
+        at={isGround ? [1, share] : [share, 0]}
+        value={Math.round(at)}
+        range={[0, size - 1]}
+        step={1}
+        down={isGround}
+        valueAt={([column, row]) => (isGround ? row : column) * size}
+        onValue={(to) => setMask({ [kind]: to }, `line ${kind}`)}
+      />
+    </>
   );
 }

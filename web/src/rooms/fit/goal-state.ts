@@ -1,11 +1,12 @@
-// The goal: its mask, the two lines, undo, and where it came from.
-import { batch, signal } from "@preact/signals";
+// The goal: its mask, the two lines, what is said of it, undo, and where it came from.
+import { batch, computed, signal } from "@preact/signals";
 import { goalClient } from "../../engine/clients";
 import { thumbnails } from "../../engine/pool";
 import type { Corrections, GoalInfo, GoalPixels, MaskHints, MaskWay } from "../../engine/protocol";
 import { announce, sayError, sentence } from "../../state/notes";
 import { baseName } from "../../ui/files";
 import { type Mask, MaskHistory } from "./mask-history";
+import { places } from "./strokes";
 
 export interface GoalPicture {
   /** The same for as long as it is the same file, however it is read. */
@@ -30,9 +31,10 @@ export const info = signal<GoalInfo | null>(null);
 export const reading = signal<string | null>(null);
 export const goalError = signal<string | null>(null);
 /** What the user says is otherwise in the picture than it is read. */
-export const corrections = signal<Corrections>({});
+export const corrections = computed(() => masks.value.corrections);
 
-const USUAL_HEIGHT = 12;
+/** That of the library, which says after a fit that another one could be told. */
+const USUAL_HEIGHT = 10;
 export const treeHeight = signal(USUAL_HEIGHT);
 /** Larger files are not read: the picture would not fit into a worker's memory. */
 const MAX_FILE = 150_000_000;
@@ -44,8 +46,10 @@ interface Source {
   target: string | null;
   /** The picture in colour, RGBA, whether it is shown or not; null where it is not known. */
   colored: Uint8Array<ArrayBuffer> | null;
-  /** What was said of the mask before anything was painted. */
-  asRead: { ink: Uint8Array; info: GoalInfo } | null;
+  /** What was said of the mask before anything was painted, and the reading that it was of. */
+  asRead: { reading: number; info: GoalInfo };
+  /** What it was found by. */
+  hints: MaskHints;
 }
 let source: Source | null = null;
 
@@ -54,7 +58,6 @@ export interface WholeGoal {
   picture: GoalPicture;
   mask: Mask;
   info: GoalInfo | null;
-  corrections: Corrections;
   treeHeight: number;
   source: Source | null;
 }
@@ -66,19 +69,18 @@ export function wholeGoal(): WholeGoal | null {
     picture: shown,
     mask: masks.peek(),
     info: info.peek(),
-    corrections: corrections.peek(),
     treeHeight: treeHeight.peek(),
     source,
   };
 }
 
-/** The goal becomes this one, at once. */
-export function putGoal(goal: WholeGoal): void {
+/** The goal becomes this one, at once: another one, or the same with another mask, which is a step to be undone. */
+export function putGoal(goal: WholeGoal, isStep = false): void {
   batch(() => {
     source = goal.source;
-    corrections.value = goal.corrections;
     treeHeight.value = goal.treeHeight;
-    masks.begin(goal.mask, goal.picture.width);
+    if (isStep) masks.push(goal.mask);
+    else masks.begin(goal.mask, goal.picture.width);
     info.value = goal.info;
     // What is still asked about the mask before is not about this one.
     checks++;
@@ -143,15 +145,26 @@ async function read(
       masked,
       confidence,
     };
-    putGoal({
+    const before = picture.peek();
+    const isStep = id !== null && before?.id === id && before.width === width && before.height === height;
+    const whole = {
       picture: shown,
-      mask: { ink: goal.ink, ground: null, axis: null, painted: false },
+      // What was said of the tree is true of it however it is masked.
+      mask: {
+        ink: goal.ink,
+        ground: null,
+        axis: null,
+        painted: false,
+        strokes: [],
+        reading: mine,
+        corrections: id === null ? {} : corrections.peek(),
+      },
       info: goal.info,
-      corrections: {},
       // What was said of another tree does not hold for this one.
       treeHeight: tall ?? (id === null ? USUAL_HEIGHT : treeHeight.peek()),
-      source: { ...file, colored, asRead: { ink: goal.ink, info: goal.info } },
-    });
+      source: { ...file, colored, asRead: { reading: mine, info: goal.info }, hints },
+    };
+    putGoal(whole, isStep);
     announce(`${name} is the goal`);
   } catch (error) {
     // The goal before stays as it is.
@@ -185,6 +198,17 @@ export async function readInBox([left, top, width, height]: [number, number, num
   const larger = shown.full.width / shown.width;
   const scaled = (pixels: number) => Math.round(pixels * larger);
   await readAgain("photo", { box: [scaled(left), scaled(top), scaled(width), scaled(height)] });
+}
+
+/** Finds the tree by what was painted: strokes that add are on it, the others are not. */
+export async function readByStrokes(): Promise<void> {
+  const shown = picture.peek();
+  if (!shown) return;
+  const before = source?.hints ?? {};
+  const shownBy = (value: 0 | 1) => places(masks.peek().strokes, value, shown);
+  const include = [...(before.include ?? []), ...shownBy(1)];
+  const exclude = [...(before.exclude ?? []), ...shownBy(0)];
+  await readAgain("photo", { ...before, include, exclude });
 }
 
 export const canReadAgain = () => source !== null;
@@ -224,10 +248,22 @@ export function goalPixels(): GoalPixels | null {
 export const photoPixels = () => source?.colored ?? null;
 
 /** A changed mask: the library reads it at once. */
-export function setMask(part: Partial<Pick<Mask, "ink" | "ground" | "axis">>, key = ""): void {
+export function setMask(part: Partial<Pick<Mask, "ink" | "strokes" | "ground" | "axis">>, key = ""): void {
   const before = masks.peek();
   masks.push({ ...before, ...part, painted: before.painted || part.ink !== undefined }, key);
   checkGoal();
+}
+
+/** What is otherwise in the picture than it is read; measures that are left out are as they are. */
+export function correct(part: Corrections, key = ""): void {
+  const before = masks.peek();
+  const colors = { ...before.corrections.colors, ...part.colors };
+  const said = Object.keys(colors).length > 0 ? { ...part, colors } : part;
+  masks.push({ ...before, corrections: { ...before.corrections, ...said } }, key);
+}
+
+export function asRead(): void {
+  masks.push({ ...masks.peek(), corrections: {} });
 }
 
 export function undoMask(): void {
@@ -246,9 +282,9 @@ function checkGoal(): void {
   const pixels = goalPixels();
   if (!pixels) return;
   const mine = ++checks;
-  const { painted } = masks.peek();
+  const { painted, reading: of } = masks.peek();
   const first = source?.asRead;
-  if (first && !painted && pixels.ground === null && pixels.axis === null) {
+  if (first?.reading === of && !painted && pixels.ground === null && pixels.axis === null) {
     info.value = first.info;
     goalError.value = null;
     return;
@@ -268,7 +304,7 @@ function checkGoal(): void {
 /** A goal that was stored: its file is not. */
 export function restoreGoal(stored: Omit<GoalPicture, "id" | "photo">, mask: Mask, height: number): void {
   const shown = { ...stored, id: nextId++, photo: null };
-  putGoal({ picture: shown, mask, info: null, corrections: {}, treeHeight: height, source: null });
+  putGoal({ picture: shown, mask, info: null, treeHeight: height, source: null });
 }
 
 let list: Promise<readonly string[]> | undefined;

@@ -1,19 +1,32 @@
 // Undo and redo of a mask. A step holds which pixels of a rectangle it turned over, one bit for each, and not the whole
-// mask: hundreds of strokes on a large picture fit into a few megabytes.
+// mask: hundreds of strokes on a large picture fit into a few megabytes. What is said of the picture goes with it.
+import type { Corrections } from "../../engine/protocol";
 import { packBits, unpackBits } from "../../state/codec";
 import { Steps } from "../../state/history";
 
-/** What undo goes back to: the mask and the lines. */
-export interface Mask extends Lines {
+/** What undo goes back to: the mask, the lines, and what was said of the picture. */
+export interface Mask extends Said {
   readonly ink: Uint8Array<ArrayBuffer>;
 }
 
-interface Lines {
+interface Said {
   /** Null where the library finds the line. */
   readonly ground: number | null;
   readonly axis: number | null;
   /** Whether the ink is otherwise than it was read. */
   readonly painted: boolean;
+  /** Since it was read. */
+  readonly strokes: readonly Stroke[];
+  /** The number of the reading that it comes from. */
+  readonly reading: number;
+  /** What is otherwise in the picture than it is read. */
+  readonly corrections: Corrections;
+}
+
+/** The way of a brush, in pixels of the mask. */
+export interface Stroke {
+  readonly value: 0 | 1;
+  readonly points: readonly { x: number; y: number }[];
 }
 
 interface Rectangle {
@@ -24,13 +37,20 @@ interface Rectangle {
 }
 
 interface Step {
-  /** Null if only lines were moved. */
+  /** Null if no pixel was. */
   turned: { where: Rectangle; bits: Uint8Array } | null;
-  before: Lines;
-  after: Lines;
+  before: Said;
+  after: Said;
 }
 
-const linesOf = ({ ground, axis, painted }: Lines): Lines => ({ ground, axis, painted });
+const saidOf = ({ ground, axis, painted, strokes, reading, corrections }: Said): Said => ({
+  ground,
+  axis,
+  painted,
+  strokes,
+  reading,
+  corrections,
+});
 
 /** The smallest rectangle around all pixels that differ. */
 function changed(before: Uint8Array, after: Uint8Array, width: number): Rectangle | null {
@@ -64,7 +84,15 @@ function each(
   }
 }
 
-const NOTHING: Mask = { ink: new Uint8Array(0), ground: null, axis: null, painted: false };
+const NOTHING: Mask = {
+  ink: new Uint8Array(0),
+  ground: null,
+  axis: null,
+  painted: false,
+  strokes: [],
+  reading: 0,
+  corrections: {},
+};
 
 export class MaskHistory extends Steps<Mask, Step> {
   /** Pixels of a row. */
@@ -81,7 +109,7 @@ export class MaskHistory extends Steps<Mask, Step> {
   }
 
   protected override between(before: Mask, after: Mask): Step {
-    return { turned: this.difference(before, after), before: linesOf(before), after: linesOf(after) };
+    return { turned: this.difference(before, after), before: saidOf(before), after: saidOf(after) };
   }
 
   protected override back(now: Mask, step: Step): Mask {
@@ -92,7 +120,7 @@ export class MaskHistory extends Steps<Mask, Step> {
     return { ...step.after, ink: this.turn(now, step) };
   }
 
-  /** A line that is dragged on. Each stroke is a step of its own. */
+  /** A line or a measure that is dragged on. Each stroke is a step of its own. */
   protected override joined(one: Step, { turned, after }: Step): Step | null {
     return turned ? null : { ...one, after };
   }

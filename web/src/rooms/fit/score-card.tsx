@@ -9,7 +9,7 @@ const SAME_SPECIES = 0.77;
 const OTHER_SPECIES = 0.44;
 
 /** For where the library has no verdict. */
-function meaning(likeness: number): string {
+export function meaning(likeness: number): string {
   if (likeness >= 0.9) return "Very like the goal: closer than two trees of one species usually are";
   if (likeness >= SAME_SPECIES) return "Like the goal as two trees of one species are";
   if (likeness >= 0.6) return "A relative: the habit is right, some of the parts are not";
@@ -43,20 +43,6 @@ function Row({
         <span>{children}</span>
       </dd>
     </div>
-  );
-}
-
-/** So many differences are shown. */
-const SHOWN = 3;
-
-function Differences({ of }: { of: string[] }): JSX.Element | null {
-  if (of.length === 0) return null;
-  return (
-    <ul class="differences" data-testid="differences">
-      {of.slice(0, SHOWN).map((words) => (
-        <li key={words}>{words}</li>
-      ))}
-    </ul>
   );
 }
 
@@ -119,8 +105,8 @@ export function ScoreCard(): JSX.Element | null {
         <p class="big">{card.likeness.toFixed(2)}</p>
         <div>
           <h3>Likeness</h3>
-          <p class={own ? "" : "verdict"}>
-            {own ? "How far this very tree lies on the goal." : `${fit.verdict ?? meaning(card.likeness)}.`}
+          <p>
+            {own ? "How far this very tree lies on the goal." : "How like the goal a tree of its kind is."}
           </p>
         </div>
       </header>
@@ -154,8 +140,6 @@ export function ScoreCard(): JSX.Element | null {
         </Row>
         <Fresh fresh={fit.report.fresh_seeds} />
       </dl>
-      {own && fit.verdict && <p class="verdict below">{fit.verdict}.</p>}
-      <Differences of={fit.report.readings.differences.map((one) => one.words)} />
       <References references={fit.report.references} />
     </section>
   );

@@ -6,10 +6,13 @@ import { loadCatalogue } from "../../engine/clients";
 import { familyTitle } from "../../state/families";
 import { sayError } from "../../state/notes";
 import { Check, Field, NumberInput, Segmented } from "../../ui/controls";
-import { generator, individual, leafiness, running, seconds } from "./fit-state";
+import { BUDGETS, generator, individual, leafiness, running, seconds } from "./fit-state";
 import { treeHeight } from "./goal-state";
 
-const BUDGETS = [10, 30, 60, 180] as const;
+export const HEIGHT_ID = "tree-height";
+
+/** A time in words. */
+export const timeText = (seconds: number): string => (seconds < 100 ? `${seconds} s` : `${seconds / 60} min`);
 
 export function SearchPart(): JSX.Element {
   const families = useSignal<readonly string[]>([]);
@@ -24,7 +27,7 @@ export function SearchPart(): JSX.Element {
     <section class="part" aria-label="Search">
       <h3>Search</h3>
       <div class="pair">
-        <Field label="Height, m">
+        <Field label="Height, m" id={HEIGHT_ID}>
           {(id) => (
             <NumberInput
               id={id}
@@ -84,7 +87,7 @@ export function SearchPart(): JSX.Element {
             disabled={running.value}
             options={BUDGETS.map((value) => ({
               value: String(value),
-              label: value < 100 ? `${value} s` : `${value / 60} min`,
+              label: timeText(value),
             }))}
             onPick={(picked) => {
               seconds.value = Number(picked);

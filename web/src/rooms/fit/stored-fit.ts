@@ -1,7 +1,19 @@
 // A goal and its fit as the browser stores them: masks are packed, photographs are left out.
-import type { Card, FitReport, FitResult } from "../../engine/protocol";
+import type { Card, Corrections, FitReport, FitResult } from "../../engine/protocol";
 import { pack, packBits, unpack, unpackBits } from "../../state/codec";
-import { fields, flag, list, number, oneOf, orNull, type Shape, text, whole } from "../../state/shape";
+import {
+  fields,
+  flag,
+  list,
+  number,
+  oneOf,
+  orMissing,
+  orNull,
+  type Shape,
+  some,
+  text,
+  whole,
+} from "../../state/shape";
 import { chooseGoal, type GoalPicture, picture, restoreGoal, type WholeGoal } from "./goal-state";
 import { type CurvePoint, type Fitted, record } from "./record";
 
@@ -10,6 +22,7 @@ export interface StoredGoal extends Omit<GoalPicture, "id" | "photo"> {
   ground: number | null;
   axis: number | null;
   painted: boolean;
+  corrections: Corrections | undefined;
 }
 export interface StoredFit {
   result: FitResult;
@@ -20,6 +33,15 @@ export interface StoredFit {
   ownInk: string | null;
   goal: string;
 }
+
+const isCorrections: Shape<Corrections> = some({
+  trunks: whole,
+  trunk_width: number,
+  lean_deg: number,
+  bare_height: number,
+  first_fork: number,
+  colors: some({ leaf: text, bark: text }),
+});
 
 const goalFields = {
   name: text,
@@ -33,6 +55,7 @@ const goalFields = {
   ground: orNull(number),
   axis: orNull(number),
   painted: flag,
+  corrections: orMissing(isCorrections),
 };
 export const isStoredGoal: Shape<StoredGoal> = fields(goalFields);
 
@@ -53,6 +76,7 @@ const reference = fields({ likeness: number, iou: number });
 const isReport: Shape<FitReport> = fields({
   ...cardFields,
   species: text,
+  next: orMissing(list(text)),
   fresh_seeds: orNull(fields({ count: number, likeness: spread, iou: spread })),
   individual: orNull(fields({ ...cardFields, stems: number })),
   references: orNull(
@@ -103,8 +127,8 @@ export async function unpackInk(packed: string, pixels: number): Promise<Uint8Ar
 
 export async function packGoal({ picture: shown, mask }: WholeGoal): Promise<StoredGoal> {
   const { id: _id, photo: _photo, ...told } = shown;
-  const { ink, ...lines } = mask;
-  return { ...told, ...lines, ink: await packInk(ink) };
+  const { ink, ground, axis, painted, corrections } = mask;
+  return { ...told, ground, axis, painted, corrections, ink: await packInk(ink) };
 }
 
 /** Null for a fit without a result. */
@@ -142,12 +166,16 @@ export async function openStored(stored: {
   treeHeight: number;
 }): Promise<void> {
   const isLast = chooseGoal();
-  const { ink, ground, axis, painted, ...told } = stored.goal;
+  const { ink, ground, axis, painted, corrections = {}, ...told } = stored.goal;
   const mask = await unpackInk(ink, told.width * told.height);
   const { fit } = stored;
   const inks = fit && (await unpackInks(fit));
   if (!isLast()) return;
-  restoreGoal(told, { ink: mask, ground, axis, painted }, stored.treeHeight);
+  restoreGoal(
+    told,
+    { ink: mask, ground, axis, painted, strokes: [], reading: 0, corrections },
+    stored.treeHeight,
+  );
   const id = picture.peek()?.id;
   if (!fit || !inks || id === undefined) return;
   const { result, curve, width, height } = fit;

@@ -9,10 +9,12 @@ import { Curve } from "./curve";
 import { progress } from "./fit-state";
 import { GoalEditor } from "./goal-editor";
 import { picture } from "./goal-state";
+import { layers } from "./look-state";
 import { ModelStage } from "./model-stage";
 import { blowing, season, seasons } from "./model-state";
 import { TakeAway } from "./outcome";
 import { best, result, shownInk, shownTree, shownWhich, which } from "./record";
+import { Verdict } from "./verdict";
 
 function Best(): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -143,7 +145,15 @@ export function Tiles(): JSX.Element {
         <div class="paper">
           <GoalEditor />
         </div>
-        <figcaption>Goal</figcaption>
+        <figcaption>
+          <span>Goal</span>
+          {layers.value && (
+            <>
+              <span class="swatch wood">wood</span>
+              <span class="swatch leaves">leaves</span>
+            </>
+          )}
+        </figcaption>
       </figure>
       {now && (
         <>
@@ -160,6 +170,7 @@ export function Tiles(): JSX.Element {
           </figure>
           {result.value && (
             <div class="beside">
+              <Verdict />
               <TakeAway />
               <Curve />
             </div>

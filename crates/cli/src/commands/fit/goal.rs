@@ -1,5 +1,6 @@
 //! What is said of the picture that is fitted to.
 
+use crate::commands::advice;
 use crate::commands::describe::{self, places};
 use crate::output;
 use pleach::GoalPair;
@@ -15,7 +16,7 @@ pub(super) fn say(path: &Path, goal: &GoalPair, verbose: bool) {
         output::note(format!("goal of {width} × {height} pixels: {how}; {}", places(&goal.full)));
     }
     for warning in &goal.warnings {
-        output::note(format!("warning: {}: {warning}", path.display()));
+        output::note(format!("warning: {}: {}", path.display(), advice::warning(warning)));
     }
 }
 

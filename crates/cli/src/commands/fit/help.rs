@@ -51,5 +51,5 @@ refused. Several processes may fit one batch at a time, each goal is then fitted
 `pleach collect` joins what they leave.
 
 A --list is a CSV file with a header: the column `file`, and any of `height`, `view`, `mask`, `tree`, \
-`ground_row`, `axis_column`, `leaves`, `trunks`, `lean` and `bare_height`; an empty cell means the option of the command line. Paths are \
+`ground_row`, `axis_column`, `leaves`, `trunks`, `trunk_width`, `lean` and `bare_height`; an empty cell means the option of the command line. Paths are \
 relative to the list.";

@@ -23,7 +23,7 @@ struct Column {
 /// The column that names the goal.
 const FILE: &str = "file";
 
-const COLUMNS: [Column; 10] = [
+const COLUMNS: [Column; 11] = [
     Column {
         name: "height",
         is_number: true,
@@ -82,6 +82,11 @@ const COLUMNS: [Column; 10] = [
         name: "trunks",
         is_number: true,
         set: |args, cell, _| corrections::trunks(cell).map(|count| args.corrections.trunks = Some(count)),
+    },
+    Column {
+        name: "trunk_width",
+        is_number: true,
+        set: |args, cell, _| corrections::width(cell).map(|width| args.corrections.trunk_width = Some(width)),
     },
     Column {
         name: "lean",

@@ -3,8 +3,8 @@
 use super::names::RUNS;
 use super::run_folder::names::{POSTERIOR_SHEET, SHEET};
 use super::{individual, judged, posterior, several, views};
-use pleach::FitReport;
-use pleach_fit::{AssessmentSettings, KindVerdict, References};
+use pleach::{FitReport, NextStep};
+use pleach_fit::{AssessmentSettings, References};
 use std::path::Path;
 
 /// The score card that ends a fit, the verdict, and what to do next. `goal` is the picture and `folder`
@@ -91,7 +91,10 @@ fn beside(references: &References) -> String {
 /// So many differences between goal and tree are said below the verdict; all are in the summary.
 const SHOWN: usize = 3;
 
-/// The verdict, in what tree and goal differ, and the next command, each on its line; nothing where there is nothing to
+/// So many next steps.
+const STEPS: usize = 3;
+
+/// The verdict, in what tree and goal differ, and the next commands, each on its line; nothing where there is nothing to
 /// compare with.
 fn verdict(summary: &FitReport, goal: &Path, folder: &Path) -> String {
     let Some(verdict) = &summary.verdict else { return String::new() };
@@ -102,20 +105,28 @@ fn verdict(summary: &FitReport, goal: &Path, folder: &Path) -> String {
         fit += &format!(" --out {}", quoted(folder));
     }
     let best = quoted(&folder.join("best.toml"));
-    let next = match (verdict.kind, verdict.tree) {
-        (KindVerdict::OfItsKind, _) => {
-            format!("twenty more trees: pleach grow {best} --seeds 0..20 -o forest/")
-        }
-        // One lucky tree.
-        (_, KindVerdict::OfItsKind) if summary.robust == 1 => {
-            format!("have every seed look like the goal: {fit} --robust 4 --timeout 5m")
-        }
-        (KindVerdict::Roughly, _) => format!("more time: {fit} --continue --timeout 5m"),
-        _ => format!(
-            "look at {}, then more time: {fit} --continue --timeout 5m",
-            quoted(&folder.join("overlay.png"))
-        ),
+    let command = |step: &NextStep| {
+        let command = match step {
+            NextStep::GrowMore => {
+                return format!("twenty more trees: pleach grow {best} --seeds 0..20 -o forest/");
+            }
+            NextStep::EverySeed => format!("{fit} --robust 4 --timeout 5m --overwrite"),
+            NextStep::CorrectMask => {
+                format!("pleach mask {} -o mask.png --overlay look.png", quoted(goal))
+            }
+            NextStep::Leafy => format!("{fit} --leaves on --overwrite"),
+            NextStep::Bare => format!("{fit} --leaves off --overwrite"),
+            NextStep::CorrectReading => format!("pleach read {}", quoted(goal)),
+            NextStep::AnyFamily => format!("{fit} --generator auto --overwrite"),
+            NextStep::SearchLonger => format!("{fit} --continue --timeout 5m"),
+            NextStep::TellHeight => format!("{fit} --height METRES --overwrite"),
+            // What is not known here yet is only named.
+            _ => return step.to_string(),
+        };
+        format!("{step}: {command}")
     };
+    let next: Vec<String> = summary.next.iter().take(STEPS).map(command).collect();
+    let next = next.join("\n         ");
     let differences: String =
         summary.readings.differences.iter().take(SHOWN).map(|one| format!("         {one}\n")).collect();
     format!("verdict  {verdict}\n{differences}next     {next}\n\n")

@@ -209,7 +209,7 @@ mod tests {
     }
 
     /// The options of `pleach fit`, and what each of them may be given that is not its default.
-    const GIVEN: [(&str, &str); 43] = [
+    const GIVEN: [(&str, &str); 44] = [
         ("height", "12"),
         ("size", "64"),
         ("mask", "auto"),
@@ -226,6 +226,7 @@ mod tests {
         ("free_frame", ""),
         ("reading", "tests/data/reading.json"),
         ("trunks", "2"),
+        ("trunk_width", "0.05"),
         ("lean", "-4"),
         ("bare_height", "0.2"),
         ("first_fork", "none"),

@@ -2,6 +2,7 @@
 
 mod many;
 
+use super::advice;
 use super::describe::{cannot, means, places};
 use super::hints::HintArgs;
 use crate::choice::{Choice, one_of};
@@ -167,7 +168,7 @@ impl MaskCommand {
             output::line(report)?;
         }
         for warning in &made.mask.warnings {
-            output::note(format!("warning: {warning}"));
+            output::note(format!("warning: {}", advice::warning(warning)));
         }
         for path in outputs {
             output::note(format!("wrote {}", path.display()));
@@ -191,7 +192,8 @@ impl MaskCommand {
         };
         let picture = Photo::from_encoded(&encoded)?;
         let options = self.hints.hints().over(options, &picture, &encoded.into())?;
-        let mask = Mask::from_photo(&picture, &options).with_context(|| cannot(photo))?;
+        let mask = Mask::from_photo(&picture, &options);
+        let mask = mask.map_err(advice::mask_error).with_context(|| cannot(photo))?;
         let goal = Goal::from_bitmap(mask.bitmap.clone()).with_context(|| cannot(photo))?;
         Ok(Made { photo: picture, mask, goal })
     }
