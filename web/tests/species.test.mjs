@@ -265,7 +265,8 @@ test("sliders at their ends give a coarser tree, and undo works at once", async 
     await page.keyboard.press("End");
   }
   const told = page.getByTestId("coarser");
-  await told.waitFor({ timeout: PATIENCE });
+  // The most stems that a species may have take their time on a machine that does other things too.
+  await told.waitFor({ timeout: 3 * PATIENCE });
   assert.match(await told.textContent(), /^The finest level has [\d,]+ triangles, too many for this view\. /);
   await atRest(page);
   const vertices = page.locator('[data-testid="counts"] div', { hasText: "Vertices" }).locator("dd");
