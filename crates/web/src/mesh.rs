@@ -120,10 +120,9 @@ impl MeshBuffers {
 /// How far bark may stray on the screen, in metres.
 const TOLERANCE: f64 = 0.002;
 
-/// Times the tolerance of the level before, where the coarsest level has too many vertices.
-const COARSER: f64 = 4.0;
-/// So often: then bark may stray by metres, and only the thickest stems are left.
-const COARSEST: i32 = 4;
+/// Times the tolerance of the coarsest level, one after the other, where that has too many vertices: at the end bark may
+/// stray by metres, and only the thickest stems are left.
+const COARSER: [f64; 4] = [4.0, 16.0, 64.0, 256.0];
 
 /// Level `level` of the tree if it has at most `most` vertices, or else the finest coarser one that has; beyond the
 /// coarsest, stems that are thinner and thinner go. Beside it are the number of that level, and the triangles of what was
@@ -131,9 +130,9 @@ const COARSEST: i32 = 4;
 fn fitting(tree: &Tree, settings: MeshSettings, level: u32, most: u64) -> (lod::Level<'_>, u32, u32) {
     let last = lod::MAX_LEVELS - 1;
     let asked = level.min(last);
-    let coarser = |step: i32| MeshSettings { tolerance: settings.tolerance * COARSER.powi(step), ..settings };
+    let coarser = |times: f64| MeshSettings { tolerance: settings.tolerance * times, ..settings };
     let levels = (asked..=last).map(|level| (level, settings));
-    let levels = levels.chain((1..=COARSEST).map(|step| (last, coarser(step))));
+    let levels = levels.chain(COARSER.map(|times| (last, coarser(times))));
     let mut wanted = None;
     let mut found = None;
     for (level, settings) in levels {
