@@ -17,6 +17,7 @@ import { startOffline } from "./offline/offline";
 import { fitLink, restoreFit } from "./rooms/fit/autosave";
 import { elapsed, progress, told } from "./rooms/fit/fit-state";
 import { masks } from "./rooms/fit/goal-state";
+import { drawn } from "./rooms/fit/growing-state";
 import { mapLink, times } from "./rooms/map/map-state";
 import { say, sayError } from "./state/notes";
 import { register, startRouting } from "./state/route";
@@ -32,14 +33,18 @@ register(speciesLink);
 register(mapLink);
 register(fitLink);
 
-// For the console and the tests: what the graphics card holds, how fast the map answers, how far a search is, options of
-// the next one, how much undo holds.
+// For the console and the tests: what the graphics card holds, how fast the map answers, how far a search is and how many
+// of its trees were drawn, options of the next one, how much undo holds.
 Object.assign(window, {
   studio: {
     memory: () => view()?.memory() ?? null,
     mapTimes: times,
     undoBytes: () => masks.bytes(),
-    search: () => ({ seconds: elapsed.peek(), trees: progress.peek()?.evaluations ?? 0 }),
+    search: () => ({
+      seconds: elapsed.peek(),
+      trees: progress.peek()?.evaluations ?? 0,
+      drawn: { ...drawn },
+    }),
     tell: (options: FitOptions) => {
       told.options = options;
     },

@@ -148,6 +148,44 @@ test("after a fit the tree that is exported stands in three dimensions beside it
   await context.close();
 });
 
+test("while it is searched the best tree grows in three dimensions, with the same shaders", async () => {
+  const { page, problems, context } = await fit("#fit?goal=acer");
+  // Far from its goal, so that better trees follow each other.
+  await start(page, endless("black_oak"));
+  const growing = page.locator('[data-testid="growing"][data-state="growing"]');
+  await growing.waitFor({ timeout: PATIENCE });
+  const drawn = () => page.evaluate(() => window.studio.search().drawn);
+  const before = await drawn();
+  assert.ok(before.programs > 0);
+  assert.ok((await colors(page, '[data-testid="growing"]')) > 1000, "bark, leaves, meadow and sky");
+  await page.waitForFunction((before) => window.studio.search().drawn.trees > before, before.trees, {
+    timeout: PATIENCE,
+  });
+  assert.equal((await drawn()).programs, before.programs);
+  // Keys turn it.
+  const picture = async () => (await growing.screenshot()).toString("base64");
+  const seen = await picture();
+  await growing.getByRole("group").focus();
+  for (let at = 0; at < 4; at++) await page.keyboard.press("ArrowLeft");
+  assert.notEqual(await picture(), seen);
+  await page.getByTestId("stop").click();
+  await page.getByTestId("score").waitFor({ timeout: PATIENCE });
+  await modelView(page, "shown").waitFor({ timeout: PATIENCE });
+  assert.equal(await growing.count(), 0, "the fitted tree takes its place");
+  // One of eight others takes the place of the tree, and is what is saved.
+  const others = page.getByLabel("Other trees of the kind").getByRole("button");
+  assert.equal(await others.count(), 8);
+  await others.nth(2).click();
+  await page.getByRole("radio", { name: "Seed 4" }).waitFor();
+  assert.equal(await others.nth(2).getAttribute("aria-pressed"), "true");
+  await modelView(page, "shown").waitFor({ timeout: PATIENCE });
+  assert.match(await saved(page, "TOML"), /^tree_seed = 4$/m);
+  await page.getByRole("radio", { name: "Its kind" }).check();
+  assert.doesNotMatch(await saved(page, "TOML"), /^tree_seed = 4$/m);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
 test("without WebGL the tree is a flat picture", async () => {
   const first = () => {
     const found = HTMLCanvasElement.prototype.getContext;

@@ -304,3 +304,52 @@ test("pictures that are none are refused in words, and the goal stays", async ()
   assert.deepEqual(problems, []);
   await context.close();
 });
+
+const TREE =
+  "<path fill='#000' d='M46 100 L46 50 A30 30 0 1 1 54 50 L54 100 Z'/><path fill='#000' d='M10 98 H90 V100 H10 Z'/>";
+
+test("a drawing in SVG is a goal, with or without a size, and nothing outside of it is read", async () => {
+  const { page, problems, context } = await fit();
+  const svg = async (name, attributes, inside = TREE) => {
+    const text = `<svg xmlns="http://www.w3.org/2000/svg" ${attributes}>${inside}</svg>`;
+    await drop(page, name, Buffer.from(text));
+  };
+  const elsewhere =
+    "<style>.none { fill: none }</style><rect class='none' width='99' height='40'/><image href='https://example.org/a.png' width='9' height='9'/><style>@import url(https://example.org/a.css);</style>";
+  for (const [name, attributes, size] of [
+    ["sized", 'width="10cm" height="5cm" viewBox="0 0 200 100"', "1024 × 512"],
+    ["boxed", 'viewBox="0 0 100 100"', "1024 × 1024"],
+    ["percent", 'width="100%" height="100%" viewBox="0 0 50 100"', "512 × 1024"],
+  ]) {
+    await svg(`${name}.svg`, attributes, elsewhere + TREE);
+    await page.locator(".facts", { hasText: name }).waitFor();
+    assert.ok((await page.locator(".facts").textContent()).includes(size), name);
+    assert.ok((await ink(page)) > 1000);
+  }
+  // What is wrong is told, and the goal stays.
+  const endless = "<g id='a'><use href='#b'/></g><g id='b'><use href='#a'/></g>";
+  const many = Array.from(
+    { length: 16 },
+    (_, at) => `<g id='n${at}'><use href='#n${at + 1}'/><use href='#n${at + 1}'/></g>`,
+  );
+  const refused = async (name, attributes, inside, words) => {
+    await svg(`${name}.svg`, attributes, inside);
+    const told = page.locator(".alert", { hasText: `${name}.svg` });
+    await told.waitFor();
+    assert.ok((await told.textContent()).includes(words), await told.textContent());
+    assert.ok((await page.locator(".facts").textContent()).includes("percent"));
+  };
+  for (const each of [
+    ["none", "", TREE, "neither width and height nor a viewBox"],
+    ["blurred", 'viewBox="0 0 9 9"', "<filter id='f'/>", "It has the element filter"],
+    ["endless", 'viewBox="0 0 9 9"', endless, "nested more than"],
+    ["many", 'viewBox="0 0 9 9"', `${many.join("")}<rect id='n16'/>`, "more than 20,000 shapes"],
+    ["empty", 'viewBox="0 0 9 9"', "", ""],
+  ]) {
+    await refused(...each);
+  }
+  assert.deepEqual(problems, []);
+  // Chromium complains in the console of the style of its own message.
+  await refused("broken", 'viewBox="0 0 9 9"', "<path", "It is no complete XML");
+  await context.close();
+});

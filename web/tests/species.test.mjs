@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
+import { unzipSync } from "fflate";
 import validator from "gltf-validator";
 import { atRest, newPage, open, PATIENCE, saved } from "./browser.mjs";
 
@@ -204,6 +205,118 @@ test("a step of a slider compiles no shader", async () => {
   }
   assert.equal(await page.evaluate(() => window.links), before);
   await context.close();
+});
+
+test("eight trees come in one zip, which says before what it costs and may be cancelled", async () => {
+  const { page, problems, context } = await species("#species?s=palm");
+  await page.getByLabel("Download", { exact: true }).first().check();
+  await page.getByTestId("budget").selectOption("far");
+  await page.getByTestId("textures").selectOption("512");
+  await page.getByTestId("zip-open").click();
+  const zip = page.getByTestId("zip");
+  await zip.getByText(/Zip of 8, about [\d,]+ triangles, [\d.]+ MB/).waitFor({ timeout: PATIENCE });
+  const [, triangles, megabytes] = /about ([\d,]+) triangles, ([\d.]+) MB/.exec(await zip.textContent());
+  await zip.click();
+  await page.getByTestId("zip-cancel").click();
+  await zip.waitFor();
+  const waiting = page.waitForEvent("download", { timeout: PATIENCE });
+  await zip.click();
+  const file = await waiting;
+  assert.equal(file.suggestedFilename(), "palm-8-trees.zip");
+  const bytes = new Uint8Array(await readFile(await file.path()));
+  assert.ok(Math.abs(bytes.length / 1e6 / Number(megabytes) - 1) < 0.25, `${bytes.length} and ${megabytes}`);
+  const files = Object.entries(unzipSync(bytes));
+  const names = [1, 2, 3, 4, 5, 6, 7, 8].map((seed) => `palm-${seed}.glb`);
+  assert.deepEqual(
+    files.map(([name]) => name),
+    names,
+  );
+  const reports = await Promise.all(files.map(([, glb]) => validator.validateBytes(glb)));
+  let sum = 0;
+  for (const { info, issues } of reports) {
+    assert.equal(issues.numErrors, 0, JSON.stringify(issues.messages.slice(0, 5)));
+    assert.ok(info.totalTriangleCount <= 8000);
+    sum += info.totalTriangleCount;
+  }
+  assert.ok(Math.abs(sum / Number(triangles.replaceAll(",", "")) - 1) < 0.25, `${sum} and ${triangles}`);
+  assert.notDeepEqual(files[0][1], files[1][1]);
+  // Other formats come with the files that they name.
+  await page.getByTestId("zip-format").selectOption("obj");
+  await zip.getByText(/Zip of 8, about [\d.]+ MB/).waitFor({ timeout: PATIENCE });
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("sliders at their ends give a coarser tree, and undo works at once", async () => {
+  const { page, problems, context } = await species("#species?s=acer");
+  await page.evaluate(() => {
+    window.stalls = [];
+    const watch = (list) => window.stalls.push(...list.getEntries().map(({ duration }) => duration));
+    new PerformanceObserver(watch).observe({ type: "longtask" });
+  });
+  const before = await page.getByTestId("tree").getAttribute("aria-label");
+  await page.getByRole("button", { name: /^branches/ }).click();
+  const ends = await page
+    .locator('[data-slot^="branches["] input[type="range"]')
+    .evaluateAll((all) => all.slice(1).map((each) => [each.closest("[data-slot]").dataset.slot, each.max]));
+  assert.equal(ends.length, 3);
+  for (const [slot] of ends) {
+    await page.locator(`[data-slot="${slot}"] input[type="range"]`).focus();
+    await page.keyboard.press("End");
+  }
+  const told = page.getByTestId("coarser");
+  // The most stems that a species may have take their time on a machine that does other things too.
+  await told.waitFor({ timeout: 3 * PATIENCE });
+  assert.match(await told.textContent(), /^The finest level has [\d,]+ triangles, too many for this view\. /);
+  await atRest(page);
+  const vertices = page.locator('[data-testid="counts"] div', { hasText: "Vertices" }).locator("dd");
+  assert.ok(Number((await vertices.textContent()).replaceAll(",", "")) <= 2_500_000);
+  const begun = Date.now();
+  for (const _ of ends) await page.getByTestId("undo").click();
+  await page.locator(`[data-testid="tree"][aria-label="${before}"]`).waitFor();
+  console.log(
+    `undone after ${Date.now() - begun} ms; stalls of ${await page.evaluate(() => window.stalls)} ms`,
+  );
+  assert.equal(await told.count(), 0);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("a view is saved as it turns once, as a video or as pictures", async () => {
+  const turned = async (first) => {
+    const { page, problems, context } = await newPage(studio, first ? { first } : {}, "#species?s=palm");
+    await page.locator('[data-testid="counts"] dd').first().waitFor();
+    await page.getByRole("radio", { name: "LOD 3" }).check();
+    await page.getByLabel("Download", { exact: true }).first().check();
+    await atRest(page);
+    const seen = async () => {
+      const png = page.waitForEvent("download");
+      await page.locator(".formats").getByRole("button", { name: "PNG" }).click();
+      return readFile(await (await png).path(), "base64");
+    };
+    const before = await seen();
+    const waiting = page.waitForEvent("download", { timeout: PATIENCE });
+    await page.getByTestId("turntable").click();
+    await page.getByTestId("turntable-cancel").waitFor();
+    const file = await waiting;
+    const bytes = new Uint8Array(await readFile(await file.path()));
+    await atRest(page);
+    assert.ok((await seen()) === before, "the view is as it was");
+    assert.deepEqual(problems, []);
+    await context.close();
+    return { name: file.suggestedFilename(), bytes };
+  };
+  const video = await turned();
+  assert.equal(video.name, "palm-1-turntable.webm");
+  // Of Matroska.
+  assert.deepEqual([...video.bytes.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3]);
+  const zip = await turned(() => {
+    delete window.MediaRecorder;
+  });
+  assert.equal(zip.name, "palm-1-turntable.zip");
+  const pictures = Object.values(unzipSync(zip.bytes));
+  assert.equal(pictures.length, 36);
+  assert.notDeepEqual(pictures[0], pictures[9]);
 });
 
 test("a file that opens takes away what was wrong with the one before", async () => {

@@ -2,7 +2,7 @@
 
 use crate::error::thrown;
 use glam::Vec3;
-use pleach::{LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Season, Tree, send};
+use pleach::{LeafStyle, Material, Mesh, MeshError, MeshSettings, Palette, Season, Tree, send};
 use pleach_mesh::block::Block;
 use pleach_mesh::lod;
 use pleach_mesh::palette::linear;
@@ -19,13 +19,18 @@ pub(crate) fn season_named(name: &str) -> Result<Option<Season>, JsError> {
     Season::from_name(name).map(Some).ok_or_else(known)
 }
 
-pub(crate) fn leaf_style(name: &str) -> Result<LeafStyle, JsError> {
+/// How leaves are drawn, and whether they show their cells of the sheet that GLB files have.
+fn leaf_style(name: &str) -> Result<(LeafStyle, bool), JsError> {
     Ok(match name {
-        "outline" => LeafStyle::Outline,
-        "simple" => LeafStyle::Simple,
-        "cards" => LeafStyle::CrossedCards,
-        "none" => LeafStyle::None,
-        _ => return Err(thrown(format!("leaves are `{name}`, expected outline, simple, cards or none"))),
+        "outline" => (LeafStyle::Outline, false),
+        "simple" => (LeafStyle::Simple, false),
+        "cards" => (LeafStyle::CrossedCards, false),
+        "pictured" => (LeafStyle::Card, true),
+        "none" => (LeafStyle::None, false),
+        _ => {
+            let expected = "outline, simple, cards, pictured or none";
+            return Err(thrown(format!("leaves are `{name}`, expected {expected}")));
+        }
     })
 }
 
@@ -36,7 +41,10 @@ pub struct MeshBuffers {
     positions: Vec<f32>,
     normals: Vec<f32>,
     wind: Vec<f32>,
+    uv: Vec<f32>,
     indices: Vec<u32>,
+    level: u32,
+    wanted: u32,
 }
 
 #[wasm_bindgen]
@@ -64,6 +72,24 @@ impl MeshBuffers {
     #[must_use]
     pub fn wind(&self) -> Vec<f32> {
         self.wind.clone()
+    }
+
+    /// Two numbers per vertex: places in the pictures of GLB files.
+    #[must_use]
+    pub fn uv(&self) -> Vec<f32> {
+        self.uv.clone()
+    }
+
+    /// The level of detail: a coarser one than was asked for where that has too many vertices.
+    #[must_use]
+    pub fn level(&self) -> u32 {
+        self.level
+    }
+
+    /// The triangles of the level that was asked for.
+    #[must_use]
+    pub fn wanted_triangles(&self) -> u32 {
+        self.wanted
     }
 
     /// None: colours are those of the parts.
@@ -94,16 +120,46 @@ impl MeshBuffers {
 /// How far bark may stray on the screen, in metres.
 const TOLERANCE: f64 = 0.002;
 
+/// Times the tolerance of the coarsest level, one after the other, where that has too many vertices: at the end bark may
+/// stray by metres, and only the thickest stems are left.
+const COARSER: [f64; 4] = [4.0, 16.0, 64.0, 256.0];
+
+/// Level `level` of the tree if it has at most `most` vertices, or else the finest coarser one that has; beyond the
+/// coarsest, stems that are thinner and thinner go. Beside it are the number of that level, and the triangles of what was
+/// asked for.
+fn fitting(tree: &Tree, settings: MeshSettings, level: u32, most: u64) -> (lod::Level<'_>, u32, u32) {
+    let last = lod::MAX_LEVELS - 1;
+    let asked = level.min(last);
+    let coarser = |times: f64| MeshSettings { tolerance: settings.tolerance * times, ..settings };
+    let levels = (asked..=last).map(|level| (level, settings));
+    let levels = levels.chain(COARSER.map(|times| (last, coarser(times))));
+    let mut wanted = None;
+    let mut found = None;
+    for (level, settings) in levels {
+        let made = lod::level(tree, settings, level);
+        let count = made.mesher().count();
+        let wanted = *wanted.get_or_insert(count.triangles);
+        found = Some((made, level, u32::try_from(wanted).unwrap_or(u32::MAX)));
+        if count.vertices <= most {
+            break;
+        }
+    }
+    found.unwrap_or_else(|| (lod::level(tree, settings, last), last, 0))
+}
+
 pub(crate) fn buffers(
     tree: &Tree,
     palette: &Palette,
-    leaves: LeafStyle,
+    leaves: &str,
     level: u32,
+    most: u32,
 ) -> Result<MeshBuffers, JsError> {
-    let settings = MeshSettings { tolerance: TOLERANCE, leaves, wind: true, ..MeshSettings::default() };
-    let level = lod::level(tree, settings, level.min(lod::MAX_LEVELS - 1));
+    let (leaves, pictured) = leaf_style(leaves)?;
+    let settings =
+        MeshSettings { tolerance: TOLERANCE, leaves, pictured, wind: true, ..MeshSettings::default() };
+    let (made, level, wanted) = fitting(tree, settings, level, most.into());
     let mut mesh = Mesh::default();
-    match send(&[Mesher::new(&level.tree, level.settings)], &mut mesh) {
+    match send(&[made.mesher()], &mut mesh) {
         Ok(()) | Err(MeshError::Empty) => {}
         Err(error) => return Err(thrown(error)),
     }
@@ -114,7 +170,10 @@ pub(crate) fn buffers(
         positions: Vec::new(),
         normals: Vec::new(),
         wind: Vec::new(),
+        uv: Vec::new(),
         indices: Vec::new(),
+        level,
+        wanted,
     };
     let mut parts = Vec::new();
     for (part, block) in &mesh.parts {
@@ -143,6 +202,7 @@ impl MeshBuffers {
         for vertex in &block.vertices {
             self.positions.extend(turned(vertex.position));
             self.normals.extend(turned(vertex.normal));
+            self.uv.extend(vertex.uv.to_array());
         }
         for (wind, vertex) in block.wind.iter().zip(&block.vertices) {
             let sway = (vertex.position.z / top).clamp(0.0, 1.0);

@@ -1,7 +1,7 @@
 //! Grown trees, their pictures and files.
 
 use crate::error::thrown;
-use crate::mesh::{self, MeshBuffers, leaf_style, season_named};
+use crate::mesh::{self, MeshBuffers, season_named};
 use js_sys::{Array, Uint8Array};
 use pleach::{
     Bounds, Detail, Export, Frame, Leaf, MeshFormat, Palette, Parts, Preview, PreviewSettings, Rasterizer,
@@ -105,11 +105,18 @@ impl Tree {
         Ok(picture)
     }
 
-    /// Triangles, in a season (empty for the species' own), with leaves drawn as `outline`, `simple`, `cards` or
-    /// `none`, at a level of detail of which 0 is the finest.
-    pub fn mesh(&self, season: &str, leaves: &str, level: u32) -> Result<MeshBuffers, JsError> {
+    /// Triangles, in a season (empty for the species' own), with leaves drawn as `outline`, `simple`, `cards`, `pictured`
+    /// (one card each, for the pictures of GLB files) or `none`, at a level of detail of which 0 is the finest; at a
+    /// coarser one where that has more than `most` vertices.
+    pub fn mesh(&self, season: &str, leaves: &str, level: u32, most: u32) -> Result<MeshBuffers, JsError> {
         let (palette, tree) = self.dressed(season)?;
-        mesh::buffers(&tree, &palette, leaf_style(leaves)?, level)
+        mesh::buffers(&tree, &palette, leaves, level, most)
+    }
+
+    /// Two trees with the same text have the same pictures of bark, leaves and blossoms in their GLB files.
+    #[must_use]
+    pub fn looks(&self) -> String {
+        format!("{:?} {:?} {:?}", self.species.appearance, self.inner.leaf_shapes, self.inner.blossom_shapes)
     }
 
     /// A mesh file, and the files that it names: pairs of a name and bytes, the mesh file first; and behind that list

@@ -1,11 +1,6 @@
 // What cards show: the library draws leaves for its files alone, so the pictures are taken out of a small one.
 import { Glb } from "./glb";
-import type { CardPicture, ExportOptions } from "./protocol";
-
-/** The coarsest level has the fewest cards. Leaves of all forms have one sheet of this side, in pixels. */
-const SMALL: ExportOptions = { leaves: "cards", textures: 512, lod: 6, level: 5 };
-
-export const smallFile = (season: string): ExportOptions => ({ ...SMALL, season: season || null });
+import type { CardPicture } from "./protocol";
 
 /** Vertices of a leaf: two crossed cards. A blossom has one card, and so half as many. */
 const CARD_VERTICES = 8;

@@ -50,6 +50,12 @@ export class Glb {
     return (this.contents.meshes ?? []).flatMap(({ primitives }) => primitives);
   }
 
+  /** Of all meshes: each has indices in files of the library. */
+  get triangles(): number {
+    const indices = this.primitives.map((part) => part.indices ?? -1);
+    return indices.reduce((sum, at) => sum + (this.contents.accessors?.[at]?.count ?? 0) / 3, 0);
+  }
+
   material(primitive: Primitive): Material | null {
     return this.contents.materials?.[primitive.material ?? -1] ?? null;
   }

@@ -108,10 +108,20 @@ export interface MeshData {
   wind: Float32Array<ArrayBuffer>;
   colors: Float32Array<ArrayBuffer>;
   indices: Uint32Array<ArrayBuffer>;
+  /** Of detail: a coarser one than was asked for, where that has too many vertices. */
+  level: number;
+  /** Triangles of the level that was asked for. */
+  wanted: number;
   /** Lowest and highest x, y, z. */
   low: [number, number, number];
   high: [number, number, number];
   stats: TreeStats;
+}
+/** A tree for the pictures of its GLB file. */
+export interface PicturedMesh extends MeshData {
+  uv: Float32Array<ArrayBuffer>;
+  /** Trees with the same text have the same pictures. */
+  looks: string;
 }
 /** What the cards of a material show. */
 export interface CardPicture {
@@ -353,10 +363,26 @@ export interface ExportOptions {
   leaves?: string;
   season?: string | null;
   wind?: boolean;
+  /** Convex pieces that things bump into. */
+  collision?: boolean;
 }
 export interface NamedFile {
   name: string;
   bytes: Uint8Array<ArrayBuffer>;
+}
+
+/** A tree of a zip; `stem` is the name of its files without the suffix. */
+export interface ZipTree {
+  spec: Spec;
+  seed: number;
+  stem: string;
+}
+export interface Zipped {
+  zip: Blob;
+  /** Of all trees; null where that is no look into a file. */
+  triangles: number | null;
+  /** What the user is to be told, each once. */
+  notes: string[];
 }
 
 /** Every operation: what goes in, what comes out. */
@@ -372,7 +398,13 @@ export interface Ops {
     in: { spec: Spec; seed: number; size: number; coarse: boolean };
     out: Ink & { stats: TreeStats };
   };
-  mesh: { in: { spec: Spec; seed: number; season: string; leaves: string; level: number }; out: MeshData };
+  /** With at most `most` vertices: a coarser level where the one that is asked for has more. */
+  mesh: {
+    in: { spec: Spec; seed: number; season: string; leaves: string; level: number; most: number };
+    out: MeshData;
+  };
+  /** The same for a species file, with leaves on cards that show the pictures of its GLB file. */
+  picturedMesh: { in: { source: SpeciesSource; level: number; most: number }; out: PicturedMesh };
   cardPictures: { in: { spec: Spec; seed: number; season: string }; out: CardPicture[] };
   picture: {
     in: { spec: Spec; seed: number; season: string; size: number; azimuth: number; elevation: number };
@@ -386,6 +418,12 @@ export interface Ops {
     in: { spec: Spec; seed: number; format: MeshFormat; stem: string; options: ExportOptions };
     out: { files: NamedFile[]; note: string };
   };
+  zip: {
+    in: { trees: readonly ZipTree[]; format: MeshFormat; options: ExportOptions };
+    out: Zipped;
+  };
+  /** Files that are packed as they are. */
+  pack: { in: readonly NamedFile[]; out: Blob };
   goalRead: {
     in: { name: string; bytes: Uint8Array; mask: MaskWay; hints: MaskHints };
     out: GoalData;

@@ -1,7 +1,8 @@
 // Species and trees: opening, changing, growing, drawing, exporting.
-import { catalogue, Species, type Tree, version } from "../wasm/pleach_web.js";
+import { catalogue, type MeshBuffers, Species, type Tree, version } from "../wasm/pleach_web.js";
 import { Cache } from "./cache";
-import { cardPictures, smallFile } from "./card-pictures";
+import { cardPictures } from "./card-pictures";
+import { picturesOnly } from "./pictures-only";
 import type {
   EditedGrammar,
   ExportOptions,
@@ -65,8 +66,29 @@ function bounds(positions: Float32Array): Pick<MeshData, "low" | "high"> {
   return { low, high };
 }
 
+function meshData(mesh: MeshBuffers, tree: Tree): MeshData {
+  const positions = mesh.positions().slice();
+  return {
+    parts: JSON.parse(mesh.parts()) as MeshPart[],
+    positions,
+    ...bounds(positions),
+    normals: mesh.normals().slice(),
+    wind: mesh.wind().slice(),
+    colors: mesh.colors().slice(),
+    indices: mesh.indices().slice(),
+    level: mesh.level(),
+    wanted: mesh.wanted_triangles(),
+    stats: stats(tree),
+  };
+}
+
+const infoOf = (of: Species) => JSON.parse(of.info()) as SpeciesInfo;
+
+/** Of the tree that a species file means. */
+const ownSeed = (of: Species) => infoOf(of).tree_seed ?? 1;
+
 /** The files with their names, and what the user is to be told. */
-function write(
+export function write(
   spec: Spec,
   seed: number,
   format: MeshFormat,
@@ -86,6 +108,7 @@ export const speciesHandlers: Handlers<
   | "toml"
   | "silhouette"
   | "mesh"
+  | "picturedMesh"
   | "cardPictures"
   | "picture"
   | "export"
@@ -95,7 +118,7 @@ export const speciesHandlers: Handlers<
   open(spec): OpenedSpecies {
     const opened = species(spec);
     return {
-      info: JSON.parse(opened.info()) as SpeciesInfo,
+      info: infoOf(opened),
       declared: JSON.parse(opened.declared()) as Parameter[],
       values: Array.from(opened.values()),
       active: flags(opened.active()),
@@ -136,20 +159,19 @@ export const speciesHandlers: Handlers<
     return { width: size, height: size, ink: ink.slice(), stats: stats(tree) };
   },
 
-  mesh({ spec, seed, season, leaves, level }) {
+  mesh({ spec, seed, season, leaves, level, most }) {
     const tree = grow(spec, seed);
-    const mesh = tree.mesh(season, leaves, level);
-    const positions = mesh.positions().slice();
-    const out = {
-      parts: JSON.parse(mesh.parts()) as MeshPart[],
-      positions,
-      ...bounds(positions),
-      normals: mesh.normals().slice(),
-      wind: mesh.wind().slice(),
-      colors: mesh.colors().slice(),
-      indices: mesh.indices().slice(),
-      stats: stats(tree),
-    };
+    const mesh = tree.mesh(season, leaves, level, most);
+    const out = meshData(mesh, tree);
+    mesh.free();
+    return out;
+  },
+
+  picturedMesh({ source, level, most }) {
+    const spec = { source, values: null };
+    const tree = grow(spec, ownSeed(species(spec)));
+    const mesh = tree.mesh("", "pictured", level, most);
+    const out = { ...meshData(mesh, tree), uv: mesh.uv().slice(), looks: tree.looks() };
     mesh.free();
     return out;
   },
@@ -160,7 +182,7 @@ export const speciesHandlers: Handlers<
   },
 
   cardPictures({ spec, seed, season }) {
-    const [[file]] = write(spec, seed, "glb", "cards", smallFile(season));
+    const [[file]] = write(spec, seed, "glb", "cards", picturesOnly(season));
     return file ? cardPictures(file[1]) : [];
   },
 

@@ -1,11 +1,12 @@
-// One instance of the library behind a message port. What it can do is in worker-fit.ts, worker-goal.ts, worker-map.ts and
-// worker-species.ts.
+// One instance of the library behind a message port. What it can do is in worker-fit.ts, worker-goal.ts, worker-map.ts,
+// worker-species.ts and worker-zip.ts.
 import init from "../wasm/pleach_web.js";
 import type { FromWorker, Op, Ops, Progress, ToWorker } from "./protocol";
 import { fitHandlers } from "./worker-fit";
 import { goalHandlers } from "./worker-goal";
 import { mapHandlers } from "./worker-map";
 import { speciesHandlers } from "./worker-species";
+import { zipHandlers } from "./worker-zip";
 
 export type Handlers<K extends Op> = {
   [Name in K]: (
@@ -14,7 +15,13 @@ export type Handlers<K extends Op> = {
   ) => Ops[Name]["out"] | Promise<Ops[Name]["out"]>;
 };
 
-const handlers: Handlers<Op> = { ...speciesHandlers, ...goalHandlers, ...mapHandlers, ...fitHandlers };
+const handlers: Handlers<Op> = {
+  ...speciesHandlers,
+  ...goalHandlers,
+  ...mapHandlers,
+  ...fitHandlers,
+  ...zipHandlers,
+};
 
 let ready: Promise<unknown> | undefined;
 

@@ -11,7 +11,9 @@ export function setView(next: SceneView | null): void {
   current = next;
 }
 
-const KEYS: Record<string, [around: number, up: number, factor: number]> = {
+type Step = [around: number, up: number, factor: number];
+
+const KEYS: Record<string, Step> = {
   ArrowLeft: [-0.15, 0, 1],
   ArrowRight: [0.15, 0, 1],
   ArrowUp: [0, 0.1, 1],
@@ -24,10 +26,13 @@ const KEYS: Record<string, [around: number, up: number, factor: number]> = {
 /** What the keys of a view are called, for those who do not see it. */
 export const KEYS_IN_WORDS = "Arrow keys turn it, plus and minus come nearer and go back.";
 
-/** Turns the open view if the key is one of its own. */
-export function turnByKey(event: KeyboardEvent): void {
+/** Calls `turn` if the key is one of those that turn a view. */
+export function onTurningKey(event: KeyboardEvent, turn: (...step: Step) => void): void {
   const step = KEYS[event.key];
   if (!step || event.ctrlKey || event.metaKey) return;
   event.preventDefault();
-  current?.orbit(...step);
+  turn(...step);
 }
+
+/** Turns the open view if the key is one of its own. */
+export const turnByKey = (event: KeyboardEvent) => onTurningKey(event, (...step) => current?.orbit(...step));

@@ -37,9 +37,15 @@ export class TreeView extends SceneView {
   private readonly hidden = new Material();
   private readonly textures = new CardTextures();
   private asked = 0;
+  private isFirst = true;
   private blowing = false;
 
-  constructor(canvas: HTMLCanvasElement, lost: (gone: boolean) => void) {
+  /** `took` is told of each tree how many vertices it has, and the milliseconds until it was drawn. */
+  constructor(
+    canvas: HTMLCanvasElement,
+    lost: (gone: boolean) => void,
+    private readonly took: (vertices: number, milliseconds: number) => void,
+  ) {
     super(canvas, lost);
     this.hidden.visible = false;
   }
@@ -86,6 +92,21 @@ export class TreeView extends SceneView {
     this.wind.height.value = data.high[1] - data.low[1];
     this.renderer.shadowMap.needsUpdate = true;
     this.draw();
+    void this.measure(data.positions.length / 3);
+  }
+
+  private async measure(vertices: number): Promise<void> {
+    const mine = this.asked;
+    if (this.isFirst) {
+      // Its shaders take longer than itself.
+      this.isFirst = false;
+      await this.drawn();
+      this.renderer.shadowMap.needsUpdate = true;
+      this.draw();
+    }
+    const begun = performance.now();
+    await this.drawn();
+    if (mine === this.asked) this.took(vertices, performance.now() - begun);
   }
 
   private piece(part: MeshPart, texture: Texture | null): Piece {

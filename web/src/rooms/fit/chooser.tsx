@@ -11,7 +11,7 @@ import { picture, takePicture, takeTarget, targets } from "./goal-state";
 export const words = (file: string) => baseName(file).replaceAll("_", " ");
 
 async function choose(): Promise<void> {
-  const file = await pickFile("image/png,image/jpeg,image/webp,image/tiff");
+  const file = await pickFile("image/png,image/jpeg,image/webp,image/tiff,image/gif,image/bmp,image/svg+xml");
   if (file) await takePicture(file);
 }
 

@@ -3,11 +3,10 @@ import type { JSX } from "preact";
 import { Alert } from "../../ui/controls";
 import { Welcome } from "./chooser";
 import { Controls } from "./controls";
-import { Curve } from "./curve";
 import { goalError, picture, reading } from "./goal-state";
 import { KeptFits } from "./kept-list";
-import { Determined, Outcome } from "./outcome";
-import { curve, result } from "./record";
+import { Others } from "./others";
+import { Determined } from "./outcome";
 import { ScoreCard } from "./score-card";
 import { Tiles } from "./tiles";
 
@@ -30,8 +29,7 @@ export function FitRoom(): JSX.Element {
     <>
       <div class="canvas scroll">
         <Tiles />
-        {!result.value && curve.value.length > 1 && <Curve />}
-        <Outcome />
+        <Others />
         <div class="cardsrow">
           <ScoreCard />
           <Determined />

@@ -7,6 +7,7 @@ import { announce, sayError, sentence } from "../../state/notes";
 import { baseName } from "../../ui/files";
 import { type Mask, MaskHistory } from "./mask-history";
 import { places } from "./strokes";
+import { isSvg, paintSvg } from "./svg-picture";
 
 export interface GoalPicture {
   /** The same for as long as it is the same file, however it is read. */
@@ -180,7 +181,10 @@ export async function takePicture(file: File): Promise<void> {
     return;
   }
   const { name } = file;
-  const open = async () => ({ name, bytes: new Uint8Array(await file.arrayBuffer()), target: null });
+  const open = async () => {
+    const bytes = isSvg(file) ? await paintSvg(file) : new Uint8Array(await file.arrayBuffer());
+    return { name, bytes, target: null };
+  };
   await read(name, open, NEW);
 }
 

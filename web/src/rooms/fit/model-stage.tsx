@@ -1,4 +1,5 @@
-// The fitted tree in three dimensions, with bark and leaves as they are exported.
+// The tree in three dimensions, with bark and leaves as they are exported: while the search runs the best so far, then the
+// fitted tree.
 import { useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
@@ -6,11 +7,15 @@ import { reducedMotion, theme } from "../../state/theme";
 import { Bar } from "../../ui/controls";
 import { KEYS_IN_WORDS, setView, turnByKey } from "../../view3d/handle";
 import type { ModelView } from "../../view3d/model-view";
+import { running } from "./fit-state";
+import { GrowingStage } from "./growing-stage";
 import { blowing, drawing, drawModel, isOf, type Model, model, modelFailure, wanted } from "./model-state";
 import { shownWhich } from "./record";
 
 /** What is to be seen: `flat` where the browser draws nothing in three dimensions. */
 type State = "coming" | "shown" | "lost" | "flat";
+
+const IN_WORDS = { own: "This very tree", kind: "A tree of this kind", other: "Another tree of this kind" };
 
 const LOST = "The graphics card lost the view. It comes back by itself; the tree is kept.";
 
@@ -97,8 +102,8 @@ export function ModelStage({ children }: { children: JSX.Element }): JSX.Element
   });
 
   const failed = modelFailure.value;
-  const busy = drawing.value || (state.value === "coming" && !failed);
-  const what = shownWhich.value === "own" ? "This very tree" : "A tree of this kind";
+  const searching = running.value && !wanted.value;
+  const busy = !searching && (drawing.value || (state.value === "coming" && !failed));
   return (
     <div
       class={`model-stage ${state.value}`}
@@ -106,7 +111,11 @@ export function ModelStage({ children }: { children: JSX.Element }): JSX.Element
       data-testid="model"
       data-state={busy ? "busy" : state.value}
     >
-      {state.value !== "shown" && <div class="instead">{children}</div>}
+      {state.value !== "shown" && (
+        <div class="instead">
+          {state.value === "flat" ? children : <GrowingStage>{children}</GrowingStage>}
+        </div>
+      )}
       {/* biome-ignore lint/a11y/useSemanticElements: no element means "a view that arrow keys turn". */}
       <div
         class="view"
@@ -117,9 +126,13 @@ export function ModelStage({ children }: { children: JSX.Element }): JSX.Element
         tabIndex={0}
         onKeyDown={turnByKey}
       >
-        <canvas ref={canvas} role="img" aria-label={`${what} in three dimensions.`} />
+        <canvas ref={canvas} role="img" aria-label={`${IN_WORDS[shownWhich.value]} in three dimensions.`} />
       </div>
-      <Told failed={failed} lost={state.value === "lost"} busy={busy && state.value !== "flat"} />
+      <Told
+        failed={searching ? null : failed}
+        lost={state.value === "lost"}
+        busy={busy && state.value !== "flat"}
+      />
     </div>
   );
 }

@@ -1,11 +1,11 @@
 // The fitted tree as a GLB file: the one that is shown is the one that is saved.
 import { computed, signal } from "@preact/signals";
-import { treeClient } from "../../engine/clients";
+import { fileClient } from "../../engine/clients";
+import { Glb } from "../../engine/glb";
 import { Latest } from "../../engine/latest";
 import { sentence } from "../../state/notes";
 import { openSource } from "../../state/species";
 import { fileName } from "../../ui/files";
-import { trianglesIn } from "../../ui/glb";
 import { BUDGETS, optionsFor } from "../species/exports";
 import { shownTree } from "./record";
 
@@ -62,10 +62,10 @@ export async function modelOf(of: Wanted): Promise<Model> {
   const options = optionsFor("glb", BUDGETS[0], { wind: true, season: of.season || null });
   const name = fileName(of.season ? `${of.name}-${of.season}` : of.name, "glb");
   const input = { spec, seed: info.tree_seed ?? 1, format: "glb", stem: of.name, options } as const;
-  const { files, note } = await treeClient.call("export", input);
+  const { files, note } = await fileClient.call("export", input);
   const [file] = files;
   if (!file) throw new Error("The library has written no file.");
-  const made = { of, name, bytes: file.bytes, triangles: trianglesIn(file.bytes), note };
+  const made = { of, name, bytes: file.bytes, triangles: new Glb(file.bytes).triangles, note };
   kept.set(keyOf(of), made);
   const oldest = kept.keys().next().value;
   if (kept.size > KEPT && oldest !== undefined) kept.delete(oldest);

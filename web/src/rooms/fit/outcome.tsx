@@ -1,6 +1,6 @@
-// What a fit leaves: trees of other seeds, what the picture says of the parameters, and where to take it.
+// What a fit leaves: where to take its tree, and what the picture says of the parameters.
 import type { JSX } from "preact";
-import { treeClient } from "../../engine/clients";
+import { fileClient } from "../../engine/clients";
 import type { FitReport, FittedParameter, Seen, Spec } from "../../engine/protocol";
 import { keepSpecies } from "../../state/library";
 import { say, sayError } from "../../state/notes";
@@ -9,11 +9,11 @@ import { openSource, start } from "../../state/species";
 import { linkTo } from "../../state/species-link";
 import { copyText } from "../../ui/clipboard";
 import { Button } from "../../ui/controls";
+import { cost } from "../../ui/cost";
 import { canvasPng, download, fileName } from "../../ui/files";
-import { cost } from "../../ui/glb";
 import { show } from "../../ui/ink";
-import { Thumb } from "../../ui/thumb";
 import { BUDGETS, optionsFor, saveMesh, sizeOf } from "../species/exports";
+import { Turntable } from "../species/turntable";
 import { keepFit } from "./kept-fits";
 import { isOf, model, modelOf, season, wanted } from "./model-state";
 import { result, shownTree } from "./record";
@@ -64,7 +64,7 @@ async function exportPicture(fit: Found): Promise<void> {
     azimuth: 0,
     elevation: 0,
   };
-  const picture = await treeClient.call("picture", input);
+  const picture = await fileClient.call("picture", input);
   const canvas = document.createElement("canvas");
   show(canvas, new ImageData(new Uint8ClampedArray(picture.rgba.buffer), picture.size, picture.size));
   download(fileName(fit.name, "png"), await canvasPng(canvas));
@@ -117,36 +117,8 @@ export function TakeAway(): JSX.Element | null {
       />
       <Button icon="download" label="OBJ" onPress={() => void exportObj(fit).catch(sayError)} />
       <Button icon="download" label="PNG" onPress={() => void exportPicture(fit).catch(sayError)} />
+      <Turntable name={fit.name} />
     </div>
-  );
-}
-
-export function Outcome(): JSX.Element | null {
-  const found = result.value;
-  if (!found) return null;
-  const kind = specOf({ name: found.report.species, toml: found.toml });
-  return (
-    <section class="outcome" aria-label="Outcome">
-      <h3>Eight more of the kind</h3>
-      <ul class="strip eight">
-        {Array.from({ length: 8 }, (_, at) => at + 2).map((seed) => (
-          <li key={seed}>
-            <button
-              type="button"
-              title="Open this tree in the species room"
-              onClick={() =>
-                void start(kind.source, { seed, season: "" })
-                  .then(() => go("species"))
-                  .catch(sayError)
-              }
-            >
-              <Thumb spec={kind} seed={seed} season="" size={144} name={`Seed ${seed}`} />
-              <span>Seed {seed}</span>
-            </button>
-          </li>
-        ))}
-      </ul>
-    </section>
   );
 }
 

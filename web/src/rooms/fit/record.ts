@@ -1,5 +1,5 @@
 // A fit and what it found: one record, which belongs to one goal and goes with it.
-import { computed, effect, signal } from "@preact/signals";
+import { batch, computed, effect, signal } from "@preact/signals";
 import type { Card, FitResult, Guess } from "../../engine/protocol";
 import { chooseGoal, masks, picture, putGoal, treeHeight, type WholeGoal, wholeGoal } from "./goal-state";
 
@@ -56,18 +56,40 @@ export const best = computed(() => {
 });
 
 /** Which of the trees that were found is shown and saved: the goal's own, or one of its kind. */
-export type Which = "own" | "kind";
-export const which = signal<Which>("own");
+type Found = "own" | "kind";
+export const which = signal<Found>("own");
 
-/** The same, where there is one of its own. */
-export const shownWhich = computed<Which>(() => (record.value?.best?.ownInk ? which.value : "kind"));
+/** Another tree of the kind. */
+interface Other {
+  readonly seed: number;
+  readonly toml: string;
+  /** The species file of the kind. */
+  readonly kind: string;
+}
+const picked = signal<Other | null>(null);
+
+/** The other tree that was picked of this kind, in the place of the trees that were found. */
+export const other = computed(() => (picked.value?.kind === result.value?.toml ? picked.value : null));
+
+export function pick(next: Found | Other): void {
+  batch(() => {
+    picked.value = typeof next === "string" ? null : next;
+    if (typeof next === "string") which.value = next;
+  });
+}
+
+/** The tree that is shown, of those that there are. */
+export const shownWhich = computed<Found | "other">(() => {
+  if (other.value) return "other";
+  return record.value?.best?.ownInk ? which.value : "kind";
+});
 
 export const shownInk = computed(() => {
   const now = record.value?.best;
   return now && ((shownWhich.value === "own" && now.ownInk) || now.ink);
 });
 
-/** The species file and the scores of the tree that is shown. */
+/** The species file of the tree that is shown, and its scores; another tree of the kind has those of the first. */
 export const shownTree = computed<{ name: string; toml: string; card: Card } | null>(() => {
   const fit = result.value;
   if (!fit) return null;
@@ -76,6 +98,8 @@ export const shownTree = computed<{ name: string; toml: string; card: Card } | n
   if (shownWhich.value === "own" && own !== null && report.individual) {
     return { name, toml: own, card: report.individual };
   }
+  const another = other.value;
+  if (another) return { name: `${name}-${another.seed}`, toml: another.toml, card: report };
   return { name, toml, card: report };
 });
 

@@ -6,6 +6,7 @@ import { reducedMotion } from "../../state/theme";
 import { Button, Segmented } from "../../ui/controls";
 import { BOTH, inkImage, overlayImage, show } from "../../ui/ink";
 import { Curve } from "./curve";
+import { EightTrees } from "./eight-trees";
 import { progress } from "./fit-state";
 import { GoalEditor } from "./goal-editor";
 import { picture } from "./goal-state";
@@ -13,7 +14,7 @@ import { layers } from "./look-state";
 import { ModelStage } from "./model-stage";
 import { blowing, season, seasons } from "./model-state";
 import { TakeAway } from "./outcome";
-import { best, result, shownInk, shownTree, shownWhich, which } from "./record";
+import { best, curve, other, pick, result, shownInk, shownTree, shownWhich } from "./record";
 import { Verdict } from "./verdict";
 
 function Best(): JSX.Element {
@@ -52,17 +53,20 @@ function scoreText(): string {
 
 /** The choice between the goal's own tree and one of its kind, or what the one tree is. */
 function Caption(): JSX.Element {
-  if (!best.value?.ownInk) return <>{result.value ? "Best tree" : "Best tree so far"}</>;
+  const isOwn = best.value?.ownInk;
+  const another = other.value;
+  if (!isOwn && !another) return <>{result.value ? "Best tree" : "Best tree so far"}</>;
   return (
     <Segmented
       label="Tree that is shown"
       value={shownWhich.value}
       options={[
-        { value: "own", label: "This very tree" },
+        ...(isOwn ? [{ value: "own", label: "This very tree" } as const] : []),
         { value: "kind", label: "Its kind" },
+        ...(another ? [{ value: "other", label: `Seed ${another.seed}` } as const] : []),
       ]}
       onPick={(picked) => {
-        which.value = picked;
+        if (picked !== "other") pick(picked);
       }}
     />
   );
@@ -105,20 +109,8 @@ function Wind(): JSX.Element {
   );
 }
 
-/** The best tree: flat while the search runs, in three dimensions once it has ended. */
+/** The best tree in three dimensions; flat until it is drawn. */
 function TreeTile(): JSX.Element {
-  if (!result.value) {
-    return (
-      <figure class="tile">
-        <div class="paper">
-          <Best />
-        </div>
-        <figcaption>
-          <Caption />
-        </figcaption>
-      </figure>
-    );
-  }
   return (
     <figure class="tile tree">
       <ModelStage>
@@ -126,8 +118,12 @@ function TreeTile(): JSX.Element {
       </ModelStage>
       <figcaption>
         <Caption />
-        <Season />
-        <Wind />
+        {result.value && (
+          <>
+            <Season />
+            <Wind />
+          </>
+        )}
         <span>Drag to turn it.</span>
       </figcaption>
     </figure>
@@ -137,7 +133,7 @@ function TreeTile(): JSX.Element {
 export function Tiles(): JSX.Element {
   const now = best.value;
   const shown = picture.value;
-  const layout = result.value ? " done" : now ? " three" : "";
+  const layout = now ? ` beside-tree${result.value ? " done" : ""}` : "";
   const aspect = shown ? { "--aspect": shown.width / shown.height } : {};
   return (
     <div class={`tiles${layout}`} style={aspect}>
@@ -166,13 +162,15 @@ export function Tiles(): JSX.Element {
               <span class="swatch goal">goal only</span>
               <span class="swatch tree">tree only</span>
               <span class="swatch both">both</span>
+              {other.value && <span>This is the first tree of the kind.</span>}
             </figcaption>
           </figure>
           {result.value && (
             <div class="beside">
               <Verdict />
               <TakeAway />
-              <Curve />
+              <EightTrees />
+              {curve.value.length > 1 && <Curve />}
             </div>
           )}
         </>

@@ -1,12 +1,13 @@
 // Downloads of the species room. Every file is written by the library.
-import { treeClient } from "../../engine/clients";
+import { fileClient } from "../../engine/clients";
+import { Glb } from "../../engine/glb";
 import type { ExportOptions, MeshFormat, NamedFile, Ops } from "../../engine/protocol";
 import { announce, say } from "../../state/notes";
 import { recipes, spec, speciesName, toToml } from "../../state/species";
+import { cost } from "../../ui/cost";
 import { baseName, download, fileName } from "../../ui/files";
-import { cost, megabytes, trianglesIn } from "../../ui/glb";
 import { view } from "../../view3d/handle";
-import { leaves, leavesAt, level } from "./tree-state";
+import { leaves, leavesAt, level, mesh } from "./tree-state";
 
 export const FORMATS = [
   { format: "glb", label: "GLB", what: "glTF, for engines and Blender" },
@@ -16,13 +17,13 @@ export const FORMATS = [
   { format: "usda", label: "USDA", what: "USD as text" },
 ] as const;
 
-/** Of what the rooms ask for, what a format can hold: wind, pictures, several levels of detail. */
-const HOLDS: Record<MeshFormat, { wind: boolean; pictures: boolean; levels: boolean }> = {
-  glb: { wind: true, pictures: true, levels: true },
-  obj: { wind: false, pictures: true, levels: false },
-  ply: { wind: true, pictures: false, levels: false },
-  stl: { wind: false, pictures: false, levels: false },
-  usda: { wind: false, pictures: true, levels: false },
+/** Of what the rooms ask for, what a format can hold: wind, pictures, several meshes for levels and collision. */
+const HOLDS: Record<MeshFormat, { wind: boolean; pictures: boolean; meshes: boolean }> = {
+  glb: { wind: true, pictures: true, meshes: true },
+  obj: { wind: false, pictures: true, meshes: false },
+  ply: { wind: true, pictures: false, meshes: false },
+  stl: { wind: false, pictures: false, meshes: false },
+  usda: { wind: false, pictures: true, meshes: false },
 };
 
 /** How many triangles a file may have, level by level. */
@@ -40,8 +41,17 @@ export const BUDGETS = [
 ] as const;
 export type Budget = (typeof BUDGETS)[number];
 
-/** Pixels per side of the pictures of bark and leaves. */
-const TEXTURES = 1024;
+/** Pixels per side of the pictures of bark and leaves, 0 for none; the usual ones first. */
+export const TEXTURES = [1024, 512, 2048, 0] as const;
+export type Textures = (typeof TEXTURES)[number];
+
+/** What is chosen for files, besides what the view shows. */
+export interface Asked {
+  readonly budget: Budget;
+  readonly textures: Textures;
+  readonly wind: boolean;
+  readonly collision: boolean;
+}
 
 /** One of the levels of fixed coarseness, of which a view shows one. */
 const atLevel = (level: number) => ({ lod: level + 1, level });
@@ -54,22 +64,27 @@ export function optionsFor(
   shown = 0,
 ): ExportOptions {
   const held = HOLDS[format];
-  const options: ExportOptions = { ...asked, wind: Boolean(asked.wind) && held.wind };
+  const options: ExportOptions = {
+    ...asked,
+    wind: Boolean(asked.wind) && held.wind,
+    collision: Boolean(asked.collision) && held.meshes,
+  };
   if (!held.pictures) {
     // Cards without their picture would be plain squares.
     if (asked.leaves === "cards") options.leaves = "simple";
+    delete options.textures;
     return { ...options, ...atLevel(shown) };
   }
   const { id, triangles, billboard } = budget;
-  options.textures = TEXTURES;
+  options.textures = asked.textures ?? TEXTURES[0];
   if (id === "view") return { ...options, ...atLevel(shown) };
   if (id === "whole") return { ...options, finest: true };
   // How leaves are drawn follows from the budget.
   if (options.leaves !== "none") delete options.leaves;
   // The library's own choice for a GLB, which also takes trees that do not fit into it.
   if (id === "near" && format === "glb") return options;
-  options.triangles = held.levels ? triangles : triangles.slice(0, 1);
-  if (held.levels) options.billboard = billboard;
+  options.triangles = held.meshes ? triangles : triangles.slice(0, 1);
+  if (held.meshes) options.billboard = billboard;
   return options;
 }
 
@@ -86,11 +101,24 @@ export async function exportToml(): Promise<void> {
   download(fileName(speciesName.peek(), "toml"), await toToml(), "application/toml");
 }
 
-export async function exportMesh(format: MeshFormat, budget: Budget, wind: boolean): Promise<void> {
-  const { seed, season } = recipes.peek();
+/** What the species room asks of a file. */
+export function optionsNow(format: MeshFormat, { budget, wind, textures, collision }: Asked): ExportOptions {
+  // The view may show a coarser level than it was asked for.
+  const shown = Math.max(level.value, mesh.value?.data.level ?? 0);
+  const asked = {
+    leaves: leavesAt(leaves.value, shown),
+    season: recipes.value.season || null,
+    wind,
+    textures,
+    collision,
+  };
+  return optionsFor(format, budget, asked, shown);
+}
+
+export async function exportMesh(format: MeshFormat, asked: Asked): Promise<void> {
+  const { seed } = recipes.peek();
   announce(`Writing ${format.toUpperCase()}`);
-  const asked = { leaves: leavesAt(leaves.peek(), level.peek()), season: season || null, wind };
-  const options = optionsFor(format, budget, asked, level.peek());
+  const options = optionsNow(format, asked);
   const name = fileName(`${speciesName.peek()}-${seed}`, format);
   const files = await saveMesh(name, { spec: spec.peek(), seed, format, options });
   say(`${name} is written: ${sizeOf(files)}.`);
@@ -101,7 +129,7 @@ export async function saveMesh(
   name: string,
   input: Omit<Ops["export"]["in"], "stem">,
 ): Promise<readonly NamedFile[]> {
-  const { files, note } = await treeClient.call("export", { ...input, stem: baseName(name) });
+  const { files, note } = await fileClient.call("export", { ...input, stem: baseName(name) });
   if (note) say(note);
   for (const file of files) download(file.name, file.bytes, TYPES[file.name.split(".").at(-1) ?? ""]);
   return files;
@@ -111,7 +139,7 @@ export async function saveMesh(
 export function sizeOf(files: readonly NamedFile[]): string {
   const bytes = files.reduce((sum, file) => sum + file.bytes.length, 0);
   const [mesh] = files;
-  return mesh?.name.endsWith(".glb") ? cost(trianglesIn(mesh.bytes), bytes) : megabytes(bytes);
+  return cost(mesh?.name.endsWith(".glb") ? new Glb(mesh.bytes).triangles : null, bytes);
 }
 
 export async function exportView(): Promise<void> {

@@ -2,7 +2,6 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { keepSpecies } from "../../state/library";
 import { sayError } from "../../state/notes";
 import { restored } from "../../state/route";
 import {
@@ -13,12 +12,11 @@ import {
   resetAll,
   speciesName,
   throwDice,
-  toToml,
   wanted,
 } from "../../state/species";
-import { Alert, Button, Check, Field, Segmented } from "../../ui/controls";
+import { Alert, Button, Field, Segmented } from "../../ui/controls";
 import { useUndoKeys } from "../../ui/keys";
-import { BUDGETS, type Budget, exportMesh, exportToml, exportView, FORMATS } from "./exports";
+import { Files } from "./files-part";
 import { Grammar } from "./grammar";
 import { Parameters } from "./parameters";
 import { Picker } from "./picker";
@@ -90,80 +88,6 @@ function Toolbar(): JSX.Element {
         </select>
       </span>
     </div>
-  );
-}
-
-function Files(): JSX.Element {
-  const budget = useSignal<Budget>(BUDGETS[0]);
-  const wind = useSignal(true);
-  return (
-    <section class="files" aria-label="Download">
-      <div class="keeprow">
-        <Button
-          icon="keep"
-          label="Keep in my species"
-          kind="primary"
-          onPress={() =>
-            void toToml()
-              .then((text) => keepSpecies(speciesName.peek(), text))
-              .catch(sayError)
-          }
-        />
-        <Button
-          icon="download"
-          label="TOML, the species file"
-          onPress={() => void exportToml().catch(sayError)}
-          testid="toml"
-        />
-      </div>
-      <ul class="formats">
-        {FORMATS.map(({ format, label, what }) => (
-          <li key={format}>
-            <Button
-              icon="download"
-              label={label}
-              testid={`export-${format}`}
-              onPress={() => void exportMesh(format, budget.value, wind.value).catch(sayError)}
-            />
-            <span>{what}</span>
-          </li>
-        ))}
-        <li>
-          <Button icon="download" label="PNG" onPress={() => void exportView().catch(sayError)} />
-          <span>this view, without a background</span>
-        </li>
-      </ul>
-      <Field label="Detail of GLB, OBJ and USDA">
-        {(id) => (
-          <select
-            id={id}
-            data-testid="budget"
-            value={budget.value.id}
-            onChange={(event) => {
-              const { value } = event.currentTarget;
-              budget.value = BUDGETS.find((one) => one.id === value) ?? BUDGETS[0];
-            }}
-          >
-            {BUDGETS.map((one) => (
-              <option key={one.id} value={one.id}>
-                {one.label}
-              </option>
-            ))}
-          </select>
-        )}
-      </Field>
-      <Check
-        label="With weights for wind"
-        checked={wind.value}
-        onChange={(on) => {
-          wind.value = on;
-        }}
-      />
-      <p class="hint">
-        Files are in metres with +Y up. They hold the tree of the seed and season that you see; PLY and STL
-        its level of detail too.
-      </p>
-    </section>
   );
 }
 

@@ -11,7 +11,19 @@ import { Thumb } from "../../ui/thumb";
 import { KEYS_IN_WORDS, setView, turnByKey } from "../../view3d/handle";
 import type { TreeView } from "../../view3d/tree-view";
 import { exportView } from "./exports";
-import { busy, cards, counts, failure, LEAVES, type Leaves, leaves, level, mesh } from "./tree-state";
+import {
+  busy,
+  cards,
+  coarser,
+  counts,
+  failure,
+  LEAVES,
+  type Leaves,
+  leaves,
+  level,
+  mesh,
+} from "./tree-state";
+import { tookToDraw, viewIsOpen } from "./view-budget";
 
 /** The picture where nothing is drawn in three dimensions: pixels per side, and milliseconds without a change before it. */
 const FLAT = { size: 640, wait: 300 };
@@ -36,9 +48,11 @@ export function Stage(): JSX.Element {
     import("../../view3d/tree-view")
       .then((module) => {
         if (gone || !canvas.current) return;
-        view.current = new module.TreeView(canvas.current, (isLost) => {
+        const setLost = (isLost: boolean) => {
           lost.value = isLost;
-        });
+        };
+        view.current = new module.TreeView(canvas.current, setLost, tookToDraw);
+        viewIsOpen(true);
         setView(view.current);
         ready.value = true;
       })
@@ -48,6 +62,7 @@ export function Stage(): JSX.Element {
     return () => {
       gone = true;
       view.current = null;
+      viewIsOpen(false);
       setView(null);
     };
   }, [ready, lost, broken]);
@@ -146,32 +161,40 @@ function Numbers({ text }: { text: string }): JSX.Element {
   if (!shown) return <p class="numbers">{text}</p>;
   const { bark, leaves: leafy, vertices } = counts(shown.data);
   const { height, width, stems } = shown.data.stats;
+  const less = coarser(shown);
   return (
-    <dl class="numbers" data-testid="counts">
-      <div>
-        <dt>Height</dt>
-        <dd>{height.toFixed(1)} m</dd>
-      </div>
-      <div>
-        <dt>Width</dt>
-        <dd>{width.toFixed(1)} m</dd>
-      </div>
-      <div>
-        <dt>Stems</dt>
-        <dd>{number.format(stems)}</dd>
-      </div>
-      <div>
-        <dt>Bark triangles</dt>
-        <dd>{number.format(bark)}</dd>
-      </div>
-      <div>
-        <dt>Leaf triangles</dt>
-        <dd>{number.format(leafy)}</dd>
-      </div>
-      <div>
-        <dt>Vertices</dt>
-        <dd>{number.format(vertices)}</dd>
-      </div>
-    </dl>
+    <div class="numbers">
+      {less && (
+        <p class="less" role="status" data-testid="coarser">
+          {less}
+        </p>
+      )}
+      <dl data-testid="counts">
+        <div>
+          <dt>Height</dt>
+          <dd>{height.toFixed(1)} m</dd>
+        </div>
+        <div>
+          <dt>Width</dt>
+          <dd>{width.toFixed(1)} m</dd>
+        </div>
+        <div>
+          <dt>Stems</dt>
+          <dd>{number.format(stems)}</dd>
+        </div>
+        <div>
+          <dt>Bark triangles</dt>
+          <dd>{number.format(bark)}</dd>
+        </div>
+        <div>
+          <dt>Leaf triangles</dt>
+          <dd>{number.format(leafy)}</dd>
+        </div>
+        <div>
+          <dt>Vertices</dt>
+          <dd>{number.format(vertices)}</dd>
+        </div>
+      </dl>
+    </div>
   );
 }

@@ -8,9 +8,15 @@ import type { CardPicture, MeshData, Spec, SpeciesSource } from "../../engine/pr
 import { sentence } from "../../state/notes";
 import { opened, recipes, spec, wanted } from "../../state/species";
 import { debounce } from "../../state/store";
+import { treeIsDrawn, vertexBudget } from "./view-budget";
 
 export const LEAVES = ["outline", "simple", "cards", "none"] as const;
 export type Leaves = (typeof LEAVES)[number];
+
+const number = new Intl.NumberFormat("en");
+
+/** As the switch above the tree calls them. */
+export const levelName = (level: number) => (level === 0 ? "The finest level" : `LOD ${level}`);
 
 /** How a file draws leaves at a level of detail: outlines are for the finest alone. */
 export const leavesAt = (kind: Leaves, level: number): Leaves =>
@@ -21,7 +27,8 @@ export const level = signal(matchMedia("(max-width: 820px)").matches ? 1 : 0);
 export const leaves = signal<Leaves>("outline");
 export interface Shown {
   data: MeshData;
-  level: number;
+  /** What was asked for: the mesh may be coarser. */
+  asked: number;
   /** Where it has cards, of which species they are. */
   cardsOf: string | null;
 }
@@ -126,16 +133,38 @@ function stepsTo({ leaves: kind, level: fine }: Wish): Pick<Wish, "leaves" | "le
   return fine < COARSE ? [{ leaves: kind, level: COARSE }, last] : [last];
 }
 
+/** When the tree that grows now was begun. */
+let begun: number | null = null;
+
+/** Milliseconds that a tree may take while another waits for it. */
+const PATIENCE = 800;
+
+/** Gives up the tree that grows if it takes long: another is wanted now. */
+function hurry(): void {
+  const since = begun;
+  if (since === null) return;
+  const left = Math.max(0, since + PATIENCE - performance.now());
+  setTimeout(() => {
+    if (begun === since) treeClient.cancel();
+  }, left);
+}
+
 const grower = new Latest<Wish>(
   async (wish, isStale) => {
     growing.value = true;
-    for (const [at, step] of stepsTo(wish).entries()) {
+    const steps = stepsTo(wish);
+    for (const [at, step] of steps.entries()) {
       // Cards take the graphics card longer than a slider may.
       if (at > 0 && step.leaves === "cards") await new Promise((go) => setTimeout(go, PAUSE));
       if (at > 0 && isStale()) return;
       const { leaves, level } = step;
-      const data = await treeClient.call("mesh", { ...wish, leaves: leavesAt(leaves, level), level });
-      mesh.value = { data, level, cardsOf: leaves === "cards" ? sourceOf(wish) : null };
+      begun = performance.now();
+      const input = { ...wish, leaves: leavesAt(leaves, level), level, most: vertexBudget() };
+      const data = await treeClient.call("mesh", input).finally(() => {
+        begun = null;
+      });
+      mesh.value = { data, asked: level, cardsOf: leaves === "cards" ? sourceOf(wish) : null };
+      if (at + 1 < steps.length) await treeIsDrawn();
       failure.value = null;
       failedLine.value = null;
     }
@@ -163,6 +192,7 @@ effect(() => {
   const wish = { spec: spec.value, seed, season, leaves: kind, level: level.value };
   if (!wanted.value) return;
   giveUpOthers(wish);
+  hurry();
   grower.ask(wish);
   if (leaves.value === "cards") drawCards();
 });
@@ -171,6 +201,17 @@ export interface Counts {
   bark: number;
   leaves: number;
   vertices: number;
+}
+
+/** In words, that what was asked for is too much for the view; null where it is not. */
+export function coarser({ data, asked }: Shown): string | null {
+  const drawn = data.indices.length / 3;
+  // What is coarse on the way to what was asked for is soon gone.
+  if (data.wanted <= drawn || asked !== level.value) return null;
+  const has = `${levelName(asked)} has ${number.format(data.wanted)} triangles, too many for this view.`;
+  const shown =
+    data.level > asked ? `${levelName(data.level)} is shown.` : `The thinnest stems are left out.`;
+  return `${has} ${shown}`;
 }
 
 export function counts(data: MeshData): Counts {
