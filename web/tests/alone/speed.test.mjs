@@ -38,7 +38,7 @@ const stalls = (page) => page.evaluate(() => window.stalls.splice(0));
  * Does something without a task of the page's own thread that takes 50 ms of the processor: what else the machine does is
  * not counted, as it is in [noteStalls].
  */
-async function unstalled({ page, context }, name, run) {
+async function withoutStall({ page, context }, name, run) {
   await atRest(page);
   const client = await context.newCDPSession(page);
   const events = [];
@@ -110,7 +110,7 @@ test("a photograph of twelve megapixels is masked, seen, boxed and painted on wi
   // From a file, as a person gives it: bytes from the test would be a task of the page.
   const file = join(folder, "phone.jpg");
   await writeFile(file, Buffer.from(pixels, "base64"));
-  await unstalled(opened, "reading it", async () => {
+  await withoutStall(opened, "reading it", async () => {
     const chooser = page.waitForEvent("filechooser");
     await page.getByRole("button", { name: "Choose a picture" }).click();
     await (await chooser).setFiles(file);
@@ -123,7 +123,7 @@ test("a photograph of twelve megapixels is masked, seen, boxed and painted on wi
   assert.match(await page.locator(".facts").textContent(), /4000 × 3000/);
   await page.getByRole("radio", { name: "Box" }).check({ force: true });
   const goal = await page.getByTestId("goal").boundingBox();
-  await unstalled(opened, "a box", async () => {
+  await withoutStall(opened, "a box", async () => {
     await page.mouse.move(goal.x + goal.width * 0.2, goal.y + goal.height * 0.03);
     await page.mouse.down();
     await page.mouse.move(goal.x + goal.width * 0.8, goal.y + goal.height * 0.99, { steps: 6 });
@@ -142,7 +142,7 @@ test("a photograph of twelve megapixels is masked, seen, boxed and painted on wi
   });
   assert.ok(sky[3] === 255 && sky[2] > sky[0] + 15, `${sky}`);
   const box = await page.getByTestId("goal").boundingBox();
-  await unstalled(opened, "painting", async () => {
+  await withoutStall(opened, "painting", async () => {
     for (let at = 0; at < 12; at++) {
       await page.mouse.move(box.x + 60, box.y + 20 + 10 * at);
       await page.mouse.down();
@@ -150,7 +150,7 @@ test("a photograph of twelve megapixels is masked, seen, boxed and painted on wi
       await page.mouse.up();
     }
   });
-  await unstalled(opened, "a handle", async () => {
+  await withoutStall(opened, "a handle", async () => {
     const handle = await page.getByRole("slider", { name: "Bare" }).boundingBox();
     const [x, y] = [handle.x + handle.width / 2, handle.y + handle.height / 2];
     await page.mouse.move(x, y);
