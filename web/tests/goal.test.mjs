@@ -173,6 +173,27 @@ test("a tree is found in a photograph by its colour", async () => {
   await context.close();
 });
 
+test("a tree that was cut out of a photograph is seen in its colours", async () => {
+  const { page, problems, context } = await fit();
+  const side = 64;
+  const tree = (await library()).Species.named("acer").grow(1, true).silhouette(side, 0, 0);
+  const at = (x, y) => (tree[y * side + x] ? [60, 140, 40, 255] : [200, 0, 0, 0]);
+  await drop(page, "cut.png", colorPng(side, side, at));
+  await page.locator(".facts", { hasText: "cut" }).waitFor();
+  await atRest(page);
+  const pixel = (at) =>
+    page.evaluate((at) => {
+      const canvas = document.querySelector('[data-testid="goal"]');
+      const side = canvas.width;
+      return [...canvas.getContext("2d").getImageData(at % side, Math.floor(at / side), 1, 1).data];
+    }, at);
+  const [red, green] = await pixel(tree.indexOf(1));
+  assert.ok(green > red + 10, `the leaves are ${[red, green]}`);
+  assert.deepEqual(await pixel(0), [255, 255, 255, 255], "what is clear is paper, whatever its colour");
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
 test("what was read in the goal is dragged, undone, and kept", async () => {
   const { page, problems, context } = await fit("#fit?goal=acer");
   await page.getByText("All measures").click();

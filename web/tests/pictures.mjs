@@ -17,12 +17,12 @@ export function plainPng(width, height, byte) {
   return png(width, height, { depth: 1, color: 0 }, Buffer.concat(Array.from({ length: height }, () => row)));
 }
 
-/** `at(x, y)` gives red, green and blue. */
+/** `at(x, y)` gives red, green and blue, and for pictures with clear parts alpha. */
 export function colorPng(width, height, at) {
   const rows = Array.from({ length: height }, (_, y) =>
     Buffer.from([0, ...Array.from({ length: width }, (_, x) => at(x, y)).flat()]),
   );
-  return png(width, height, { depth: 8, color: 2 }, Buffer.concat(rows));
+  return png(width, height, { depth: 8, color: at(0, 0).length === 4 ? 6 : 2 }, Buffer.concat(rows));
 }
 
 function png(width, height, { depth, color }, rows) {

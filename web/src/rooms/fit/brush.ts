@@ -95,9 +95,11 @@ function mixRow(
     const pixel = from + at;
     const kind = ink[pixel] === 0 ? 0 : 1 + isLayered * (layers[pixel] ?? 0);
     const table = 3 * VALUES * kind;
-    const red = MIXED[table + (photo[4 * pixel] ?? 0)] ?? 0;
-    const green = MIXED[table + VALUES + (photo[4 * pixel + 1] ?? 0)] ?? 0;
-    const blue = MIXED[table + 2 * VALUES + (photo[4 * pixel + 2] ?? 0)] ?? 0;
+    // What is clear has a colour too, which nobody is meant to see: it is paper.
+    const paper = (photo[4 * pixel + 3] ?? 0) < 128 ? 255 : 0;
+    const red = MIXED[table + ((photo[4 * pixel] ?? 0) | paper)] ?? 0;
+    const green = MIXED[table + VALUES + ((photo[4 * pixel + 1] ?? 0) | paper)] ?? 0;
+    const blue = MIXED[table + 2 * VALUES + ((photo[4 * pixel + 2] ?? 0) | paper)] ?? 0;
     words[to + at] = red | green | blue | 0xff000000;
   }
 }

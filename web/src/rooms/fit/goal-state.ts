@@ -5,6 +5,7 @@ import { thumbnails } from "../../engine/pool";
 import type { Corrections, GoalInfo, GoalPixels, MaskHints, MaskWay } from "../../engine/protocol";
 import { announce, sayError, sentence } from "../../state/notes";
 import { baseName } from "../../ui/files";
+import { isColored } from "./colored";
 import { type Mask, MaskHistory } from "./mask-history";
 import { places } from "./strokes";
 import { isSvg, paintSvg } from "./svg-picture";
@@ -140,8 +141,8 @@ async function read(
       width,
       height,
       full: goal.full,
-      // A silhouette is its own mask: there is nothing to see beneath it.
-      photo: masked || mask === "off" ? colored : null,
+      // A silhouette is its own mask: there is nothing to see beneath it, unless it was cut out of a photograph.
+      photo: colored && (masked || mask === "off" || isColored(colored, goal.ink)) ? colored : null,
       target: file.target,
       masked,
       confidence,
