@@ -2,14 +2,11 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::evolve::blank;
-use crate::generator::{GrammarGenerator, NAME};
+use crate::generator::{GRAMMAR, GrammarGenerator, NAME};
 use pleach_tree::param::Problem;
 use pleach_tree::species::{Form, Issue, Key, Value};
 use pleach_tree::{Family, Generator, SpeciesDoc};
 use std::sync::Arc;
-
-/// The key of the grammar.
-pub(crate) const GRAMMAR: &str = "grammar";
 
 /// Reads species files with a grammar in them.
 #[derive(Clone, Copy, Debug, Default)]

@@ -2,7 +2,6 @@
 
 use crate::derive::{DeriveError, Limits};
 use crate::diagnostic::{Diagnostic, Fault, Report};
-use crate::family::GRAMMAR;
 use crate::program::Command;
 use crate::syntax::{ExprKind, Grammar, ParamDecl, ParamUnit, SettingKey};
 use crate::system::{Derivation, LSystem};
@@ -13,6 +12,9 @@ use pleach_tree::{
     Blame, CheckedParams, Generator, GrowError, Growth, ParamSpace, Tree, Unit, Variation, Workspace,
 };
 use std::sync::Arc;
+
+/// The key of the grammar in species files.
+pub(crate) const GRAMMAR: &str = "grammar";
 
 /// The family's name in species files.
 pub(crate) const NAME: &str = "lsystem";

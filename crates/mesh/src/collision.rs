@@ -162,9 +162,10 @@ mod tests {
             let tree = tree(name);
             let prisms = Prism::around(&tree);
             assert!((1..=Prism::MAX).contains(&prisms.len()), "{name}: {}", prisms.len());
-            let trunk = tree.stems.iter().find(|stem| stem.parent.is_none()).unwrap();
-            let knot = tree.knots_of(trunk)[0];
-            assert!(prisms.iter().any(|prism| prism.ends[0] == knot.point), "{name}: the foot");
+            let feet = tree.stems.iter().filter(|stem| stem.parent.is_none());
+            let feet = feet.map(|stem| tree.knots_of(stem)[0]);
+            let thickest = feet.max_by(|a, b| a.radius.total_cmp(&b.radius)).unwrap();
+            assert!(prisms.iter().any(|prism| prism.ends[0] == thickest.point), "{name}: the foot");
             for prism in &prisms {
                 let mut block = Block::default();
                 Collision(prism).fill(Material::Collision, 0..1, &mut block);

@@ -1,8 +1,8 @@
 //! Grammars that are edited as text.
 
+use crate::grammar_text::grammar_of;
 use crate::species::Species;
-use pleach::{GrowError, SpeciesDoc};
-use pleach_lsystem::{Diagnostic, LSystem, Report, with_grammar};
+use pleach_lsystem::{Diagnostic, Report, with_grammar};
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -11,7 +11,7 @@ const MAX_REMARKS: usize = 50;
 
 #[wasm_bindgen]
 impl Species {
-    /// The grammar as it was written; none for species of other families.
+    /// The grammar as it was written. `undefined` of species of other families.
     #[must_use]
     pub fn grammar(&self) -> Option<String> {
         grammar_of(&self.inner)
@@ -32,11 +32,6 @@ impl Species {
     }
 }
 
-fn grammar_of(species: &pleach::Species) -> Option<String> {
-    let doc = SpeciesDoc::parse("species", &species.generator.written()).ok()?;
-    doc.text("grammar").ok().flatten().map(str::to_owned)
-}
-
 fn remarks(report: &Report) -> Vec<Value> {
     let remark = |Diagnostic { span, fault }: &Diagnostic| {
         let (line, column) = report.place(span.start);
@@ -52,18 +47,4 @@ fn remarks(report: &Report) -> Vec<Value> {
         })
     };
     report.diagnostics.iter().take(MAX_REMARKS).map(remark).collect()
-}
-
-/// The line of the grammar that keeps the species from growing, from 1; none where no grammar or no line does.
-pub(crate) fn line_of(species: &pleach::Species, error: &GrowError) -> Option<usize> {
-    let blame = match error {
-        GrowError::Rule { line, .. } => return Some(*line),
-        GrowError::TooManyStems { blame, .. }
-        | GrowError::TooManyLeaves { blame, .. }
-        | GrowError::TooManyKnots { blame, .. }
-        | GrowError::TooMuchWork { blame, .. } => blame,
-        _ => return None,
-    };
-    let system = LSystem::read("grammar", &grammar_of(species)?).ok()?;
-    blame.0.iter().find_map(|name| system.place_of(name)).map(|(line, _)| line)
 }

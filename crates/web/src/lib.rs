@@ -10,6 +10,7 @@ mod error;
 mod fit;
 mod goal;
 mod grammar;
+mod grammar_text;
 mod map;
 mod mesh;
 mod message;

@@ -1,7 +1,7 @@
 //! Species, and their numbers.
 
 use crate::error::{thrown, thrown_at};
-use crate::grammar::line_of;
+use crate::grammar_text::line_of;
 use crate::tree::Tree;
 use pleach::random::Key;
 use pleach::{Foliage, Freedom, Gene, Genome, Growth, SearchSpace, TreeSeed};
