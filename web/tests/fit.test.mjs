@@ -68,7 +68,7 @@ test("after a fit the tree that is exported stands in three dimensions beside it
     // As many trees as it takes to find one that is not just the kind's.
     fitted(page, { ...trees(40), from: "acer", individual: "200trees" }),
   ]);
-  await modelView(page, "shown").waitFor();
+  await modelView(page, "shown").waitFor({ timeout: PATIENCE });
   const [goal, tree] = await Promise.all(
     ["goal", "model"].map((name) => page.getByTestId(name).boundingBox()),
   );
