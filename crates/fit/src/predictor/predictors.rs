@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn intervals_hold_the_truth_nine_times_in_ten() {
-        let predictors = Predictors::from_bytes(&recorded(400)).unwrap();
+        let predictors = Predictors::from_bytes(&recorded(800)).unwrap();
         let palm = palm();
         let prior = Prior::new(&palm, &Freedom::default(), Prior::SPREAD).unwrap();
         let (mut held, mut all, mut shrunk) = (0, 0, 0);
