@@ -25,7 +25,12 @@ export function LookView(): JSX.Element | null {
   const places = new Places(seen.anchor, width, height);
   return (
     <>
-      <svg class="reading-lines" viewBox={`0 0 ${width} ${height}`} preserveAspectRatio="none" aria-hidden="true">
+      <svg
+        class="reading-lines"
+        viewBox={`0 0 ${width} ${height}`}
+        preserveAspectRatio="none"
+        aria-hidden="true"
+      >
         <Drawn found={seen.found} places={places} />
       </svg>
       <Handles found={seen.found} places={places} />
