@@ -66,7 +66,10 @@ export interface OpenedSpecies {
   /** Its text, with comments; null for species of other families. */
   grammar: string | null;
 }
-/** What there is to say about a place of a grammar's text. Lines and columns are from 1. */
+/**
+ * What there is to say about a place of a grammar's text. Lines and columns are from 1; columns count characters, and the
+ * end is behind the last.
+ */
 export interface Remark {
   line: number;
   column: number;

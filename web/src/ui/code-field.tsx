@@ -3,22 +3,12 @@ import { useSignal } from "@preact/signals";
 import type { JSX, RefObject } from "preact";
 import { memo } from "preact/compat";
 import { useEffect } from "preact/hooks";
-
-/** Lines and columns are from 1; columns count characters, and the end is behind the last. */
-export interface Mark {
-  line: number;
-  column: number;
-  end_line: number;
-  end_column: number;
-  warning: boolean;
-  message: string;
-  help: string | null;
-}
+import type { Remark } from "../engine/protocol";
 
 interface CodeFieldProps {
   label: string;
   text: string;
-  marks: readonly Mark[];
+  marks: readonly Remark[];
   /** The id of an element that says what the marks say. */
   describedBy: string;
   field: RefObject<HTMLTextAreaElement | null>;
@@ -26,15 +16,15 @@ interface CodeFieldProps {
 }
 
 /** What a mark says, as sentences. */
-export function inWords({ message, help }: Mark): string {
+export function inWords({ message, help }: Remark): string {
   return help ? `${message}. ${help.charAt(0).toUpperCase()}${help.slice(1)}` : message;
 }
 
-const NO_MARKS: readonly Mark[] = [];
+const NO_MARKS: readonly Remark[] = [];
 
 /** Marks by the line under which they are told. */
-function byLine(marks: readonly Mark[], lines: number): Map<number, readonly Mark[]> {
-  const found = new Map<number, readonly Mark[]>();
+function byLine(marks: readonly Remark[], lines: number): Map<number, readonly Remark[]> {
+  const found = new Map<number, readonly Remark[]>();
   for (const mark of marks) {
     // While one deletes lines, marks may be behind the end for a moment.
     const line = Math.min(mark.line, lines);
@@ -44,7 +34,7 @@ function byLine(marks: readonly Mark[], lines: number): Map<number, readonly Mar
 }
 
 /** The line's characters in pieces, with those of the marks underlined. */
-function pieces(text: string, marks: readonly Mark[]): JSX.Element[] {
+function pieces(text: string, marks: readonly Remark[]): JSX.Element[] {
   const chars = [...text];
   const ends = new Set([0, chars.length]);
   const spans = marks.map(({ line, column, end_line, end_column, warning }) => {
@@ -68,7 +58,7 @@ function pieces(text: string, marks: readonly Mark[]): JSX.Element[] {
 
 interface LineProps {
   text: string;
-  marks: readonly Mark[];
+  marks: readonly Remark[];
   /** The cursor stands in text that the words would cover. */
   isAside: boolean;
 }
@@ -98,7 +88,7 @@ function cursorLine(field: HTMLTextAreaElement | null): number {
 }
 
 /** Puts the cursor where a mark is. */
-export function goToMark(field: HTMLTextAreaElement, { line, column, end_line, end_column }: Mark): void {
+export function goToMark(field: HTMLTextAreaElement, { line, column, end_line, end_column }: Remark): void {
   const lines = field.value.split("\n");
   const place = (to: number, at: number) => {
     const before = lines.slice(0, to - 1).reduce((sum, each) => sum + each.length + 1, 0);

@@ -6,7 +6,7 @@ import { sayError } from "../../state/notes";
 import { openSource } from "../../state/species";
 import { BUDGETS, type Budget, optionsFor, TEXTURES, type Textures } from "../species/exports";
 import { DetailChoice, FormatChoice, TexturesChoice } from "../species/file-choices";
-import { ZipPart } from "../species/zip-part";
+import { ZipDetails, ZipPart } from "../species/zip-part";
 import { MANY, otherSeeds } from "../species/zip-state";
 import { season } from "./model-state";
 import { result, shownTree } from "./record";
@@ -77,17 +77,5 @@ function Inside(): JSX.Element {
 }
 
 export function EightTrees(): JSX.Element | null {
-  const open = useSignal(false);
-  if (!result.value) return null;
-  return (
-    <details
-      class="eighttrees"
-      onToggle={(event) => {
-        open.value = event.currentTarget.open;
-      }}
-    >
-      <summary data-testid="zip-open">Eight trees in a zip</summary>
-      {open.value && <Inside />}
-    </details>
-  );
+  return result.value && <ZipDetails>{() => <Inside />}</ZipDetails>;
 }

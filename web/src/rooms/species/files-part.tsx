@@ -19,7 +19,7 @@ import {
 } from "./exports";
 import { DetailChoice, FormatChoice, TexturesChoice } from "./file-choices";
 import { Turntable } from "./turntable";
-import { ZipPart } from "./zip-part";
+import { ZipDetails, ZipPart } from "./zip-part";
 import { MANY, otherSeeds, type ZipJob } from "./zip-state";
 
 function jobOf(format: MeshFormat, asked: Asked): ZipJob {
@@ -34,17 +34,10 @@ function jobOf(format: MeshFormat, asked: Asked): ZipJob {
 }
 
 function EightTrees({ asked }: { asked: Asked }): JSX.Element {
-  const open = useSignal(false);
   const format = useSignal<MeshFormat>("glb");
   return (
-    <details
-      class="eighttrees"
-      onToggle={(event) => {
-        open.value = event.currentTarget.open;
-      }}
-    >
-      <summary data-testid="zip-open">Eight trees in a zip</summary>
-      {open.value && (
+    <ZipDetails>
+      {() => (
         <>
           <FormatChoice
             value={format.value}
@@ -58,7 +51,7 @@ function EightTrees({ asked }: { asked: Asked }): JSX.Element {
           />
         </>
       )}
-    </details>
+    </ZipDetails>
   );
 }
 

@@ -3,10 +3,10 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useId, useRef } from "preact/hooks";
 import { loadCatalogue } from "../../engine/clients";
-import type { SpeciesEntry } from "../../engine/protocol";
+import type { Remark, SpeciesEntry } from "../../engine/protocol";
 import { sayError } from "../../state/notes";
 import { startOrSay } from "../../state/species";
-import { CodeField, goToMark, inWords, type Mark } from "../../ui/code-field";
+import { CodeField, goToMark, inWords } from "../../ui/code-field";
 import { Field } from "../../ui/controls";
 import { Icon } from "../../ui/icons";
 import { grammar, isBehind, remarks, type, watchGrammar } from "./grammar-state";
@@ -44,7 +44,7 @@ function Examples(): JSX.Element {
 }
 
 /** What each mark says, as a list that screen readers hear; each entry goes to its place. */
-function Remarks({ id, onPick }: { id: string; onPick: (mark: Mark) => void }): JSX.Element {
+function Remarks({ id, onPick }: { id: string; onPick: (mark: Remark) => void }): JSX.Element {
   return (
     <div id={id} class="remarks" role="status">
       {remarks.value.length > 0 && (

@@ -1,5 +1,6 @@
 // The button that saves several trees as one zip, what that costs, and how far it is.
-import type { JSX } from "preact";
+import { useSignal } from "@preact/signals";
+import type { ComponentChildren, JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { sayError } from "../../state/notes";
 import { Bar, Button } from "../../ui/controls";
@@ -42,5 +43,21 @@ export function ZipPart({ job, what }: { job: ZipJob; what: string }): JSX.Eleme
         onPress={() => void writeZip(job)}
       />
     </div>
+  );
+}
+
+/** What is asked for eight trees; it is made once somebody wants to see it. */
+export function ZipDetails({ children }: { children: () => ComponentChildren }): JSX.Element {
+  const open = useSignal(false);
+  return (
+    <details
+      class="eighttrees"
+      onToggle={(event) => {
+        open.value = event.currentTarget.open;
+      }}
+    >
+      <summary data-testid="zip-open">Eight trees in a zip</summary>
+      {open.value && children()}
+    </details>
   );
 }
