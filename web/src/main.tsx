@@ -4,6 +4,7 @@ import "./styles/base.css";
 import "./styles/controls.css";
 import "./styles/frame.css";
 import "./styles/fit.css";
+import "./styles/goal.css";
 import "./styles/kept.css";
 import "./styles/map.css";
 import "./styles/species.css";
