@@ -248,6 +248,26 @@ test("what was read in the goal is dragged, undone, and kept", async () => {
   await context.close();
 });
 
+test("what was not read in the goal is added to it", async () => {
+  const { page, problems, context } = await fit("#fit?goal=palm");
+  await page.getByText("All measures").click();
+  const row = page.getByTestId("reading-table").locator("tr", { hasText: "first fork" });
+  await row.filter({ hasText: "none seen" }).waitFor();
+  const fork = page.getByRole("slider", { name: "Fork", exact: true });
+  assert.equal(await fork.count(), 0);
+  // With the drawing hidden it would be an addition that nobody sees.
+  await page.getByLabel("Show it over the goal").uncheck();
+  await page.getByRole("button", { name: "Add a fork" }).click();
+  await fork.focus();
+  await page.keyboard.press("ArrowUp");
+  await row.filter({ hasText: "at 0.31 of the height" }).filter({ hasText: "100 %" }).waitFor();
+  assert.equal(await page.getByRole("button", { name: "Add a fork" }).count(), 0);
+  await page.getByRole("button", { name: "As it was read" }).click();
+  await row.filter({ hasText: "none seen" }).waitFor();
+  assert.deepEqual([await fork.count(), problems], [0, []]);
+  await context.close();
+});
+
 test("a fit has the colours of the picture that its mask is of", async () => {
   const { Evaluator, Fit, Goal, Species } = await library();
   const side = 128;

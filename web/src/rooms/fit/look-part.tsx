@@ -1,6 +1,6 @@
 // What was read in the goal, in words, with what can be said of it by number or colour.
 import type { JSX } from "preact";
-import type { Tint } from "../../engine/protocol";
+import type { Tint, Told } from "../../engine/protocol";
 import { Button, Check, Field, NumberInput } from "../../ui/controls";
 import { running } from "./fit-state";
 import { asRead, correct, corrections } from "./goal-state";
@@ -13,6 +13,36 @@ const TINTS: readonly { tint: Tint; label: string }[] = [
   { tint: "leaf", label: "Leaf colour" },
   { tint: "bark", label: "Bark colour" },
 ];
+
+/** Where the handle of a measure appears that was not read, in heights or degrees. */
+const MISSED: readonly { key: Told; label: string; from: number }[] = [
+  { key: "first_fork", label: "Add a fork", from: 0.3 },
+  { key: "bare_height", label: "Add a bare height", from: 0.2 },
+  { key: "lean_deg", label: "Add a lean", from: 0 },
+  { key: "trunk_width", label: "Add a trunk width", from: 0.04 },
+];
+
+/** Handles for what was not read. */
+function Missed({ found }: { found: Found }): JSX.Element | null {
+  const missed = MISSED.filter(({ key }) => measure(key, found) === null);
+  if (missed.length === 0) return null;
+  return (
+    <div class="row wrap">
+      {missed.map(({ key, label, from }) => (
+        <Button
+          key={key}
+          kind="quiet"
+          label={label}
+          disabled={running.value}
+          onPress={() => {
+            lookShown.value = true;
+            correct({ [key]: from });
+          }}
+        />
+      ))}
+    </div>
+  );
+}
 
 function Colors({ found }: { found: Found }): JSX.Element | null {
   const { colors } = found;
@@ -70,6 +100,7 @@ export function LookPart(): JSX.Element {
               />
             )}
           </Field>
+          {seen.anchor && <Missed found={seen.found} />}
           <Colors found={seen.found} />
           <details>
             <summary>All measures</summary>
