@@ -93,7 +93,7 @@ pub use method::{
 pub use posterior::{
     HeldOut, Interval, NoSample, Posterior, PosteriorModel, PosteriorNumber, PosteriorSettings, Prior,
 };
-pub use predictor::{Answer, PredictorError, Predictors};
+pub use predictor::{Answer, LearntParts, PredictorError, Predictors};
 pub use problem::{
     Accuracy, Agreement, AnyEvidence, Azimuth, Evidence, FitProblem, Genome, GoalView, MAX_OFFSET, MAX_SCALE,
     Nuisance, Objective, PlacedTree, Placement, ProblemError, ROUGH_AZIMUTH, Score, Scored, Size, Terms,

@@ -83,7 +83,7 @@ mod tests {
     fn a_search_starts_nearer_to_trees_that_no_library_has() {
         let palm = pleach_generators::preset("palm").unwrap().clone();
         let stop = AtomicBool::new(false);
-        let bytes = Predictors::record(std::slice::from_ref(&palm), 400, &stop, |_, _| ()).unwrap();
+        let bytes = Predictors::record(std::slice::from_ref(&palm), 400, &(), &stop, |_, _| ()).unwrap();
         let predictors = Predictors::from_bytes(&bytes).unwrap();
         let prior = Prior::new(&palm, &Freedom::default(), Prior::SPREAD).unwrap();
         let mut costs = [0.0; 2];

@@ -7,4 +7,4 @@ mod numbers;
 mod packed;
 mod predictors;
 
-pub use predictors::{Answer, PredictorError, Predictors};
+pub use predictors::{Answer, LearntParts, PredictorError, Predictors};

@@ -1,7 +1,7 @@
 //! What was learnt about several species.
 
 use super::basis::Basis;
-use super::examples::{examples, features};
+use super::examples::{Example, examples, features};
 use super::numbers::Numbers;
 use super::packed::Packed;
 use crate::error::FitError;
@@ -9,6 +9,7 @@ use crate::posterior::{PosteriorNumber, PosteriorSettings, Prior};
 use crate::space::Freedom;
 use pleach_silhouette::Bitmap;
 use pleach_tree::{Fnv, Foliage, Species};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -36,9 +37,33 @@ pub struct Predictors {
 /// As it is kept.
 #[derive(Serialize, Deserialize)]
 struct Stored {
+    directions: Directions,
+    known: Vec<(u64, Numbers)>,
+}
+
+/// A [`Basis`] as it is kept.
+#[derive(Serialize, Deserialize)]
+struct Directions {
     means: Vec<f32>,
     directions: Vec<Packed>,
-    known: Vec<(u64, Numbers)>,
+}
+
+impl From<&Basis> for Directions {
+    fn from(basis: &Basis) -> Self {
+        Self {
+            means: basis.means.iter().map(|&mean| mean as f32).collect(),
+            directions: basis.directions.iter().map(|one| Packed::new(one)).collect(),
+        }
+    }
+}
+
+impl From<&Directions> for Basis {
+    fn from(kept: &Directions) -> Self {
+        Self {
+            means: kept.means.iter().copied().map(f64::from).collect(),
+            directions: kept.directions.iter().map(|one| one.numbers().collect()).collect(),
+        }
+    }
 }
 
 /// What a picture says about the numbers of its tree, if that is one around a known species.
@@ -53,6 +78,24 @@ pub struct Answer {
     pub familiarity: f64,
 }
 
+/// Keeps what [`Predictors::record`] has learnt, so that a run that was stopped goes on where it was. What is kept is
+/// that of the same species, trees and program: nothing of it is checked.
+pub trait LearntParts {
+    /// The part of this `name`, if it is kept.
+    fn load(&self, name: &str) -> Option<Vec<u8>>;
+    /// Keeps a part.
+    fn save(&self, name: &str, part: &[u8]);
+}
+
+/// Keeps nothing.
+impl LearntParts for () {
+    fn load(&self, _: &str) -> Option<Vec<u8>> {
+        None
+    }
+
+    fn save(&self, _: &str, _: &[u8]) {}
+}
+
 /// The bytes are not of this version.
 #[derive(Debug, thiserror::Error)]
 #[error("no predictors of this version")]
@@ -63,7 +106,8 @@ const FOLIAGE: [Foliage; 2] = [Foliage::All, Foliage::None];
 impl Predictors {
     /// Learns from `trees` trees around each of `species`, at most [`PosteriorSettings::MAX_TREES`], with leaves and again
     /// without, and returns bytes for [`Predictors::from_bytes`]: a hundred kB, and some five for each species and kind
-    /// of foliage. `notify` is told how many kinds of trees were learnt, and of how many.
+    /// of foliage. What `parts` keep is not learnt again. `notify` is told how many kinds of trees were learnt, and of
+    /// how many.
     ///
     /// # Errors
     /// A species whose numbers cannot vary, [`FitError::Interrupted`] once `stop` is raised.
@@ -73,34 +117,42 @@ impl Predictors {
     pub fn record(
         species: &[Species],
         trees: u64,
+        parts: &dyn LearntParts,
         stop: &AtomicBool,
         mut notify: impl FnMut(usize, usize),
     ) -> Result<Vec<u8>, FitError> {
         let trees = u32::try_from(trees.min(PosteriorSettings::MAX_TREES as u64)).unwrap_or(u32::MAX);
         let mut kinds = Vec::new();
-        let mut rows = Vec::new();
         for one in species {
             for foliage in FOLIAGE {
                 let one = Species { foliage, ..one.clone() };
-                let prior = Prior::new(&one, &Freedom::default(), Prior::SPREAD)?;
-                let some = examples(&prior, 0..trees.min(FOR_DIRECTIONS), stop)?;
-                rows.extend(some.iter().map(|example| example.features.clone()));
-                kinds.push((one, prior, some));
+                kinds.push((key(&one, foliage), Prior::new(&one, &Freedom::default(), Prior::SPREAD)?));
             }
         }
         // What is stored is what coordinates are taken by, then and now.
-        let basis = Basis::learn(rows, DIRECTIONS);
-        let means: Vec<f32> = basis.means.iter().map(|&mean| mean as f32).collect();
-        let directions: Vec<Packed> = basis.directions.iter().map(|one| Packed::new(one)).collect();
-        let basis = unpacked(&means, &directions);
-        let all = kinds.len();
+        let mut first: Vec<Vec<Example>> = Vec::new();
+        let directions = kept(parts, "directions", || {
+            for (_, prior) in &kinds {
+                first.push(examples(prior, 0..trees.min(FOR_DIRECTIONS), stop)?);
+            }
+            let rows = first.iter().flatten().map(|example| example.features.clone()).collect();
+            Ok(Directions::from(&Basis::learn(rows, DIRECTIONS)))
+        })?;
+        let basis = Basis::from(&directions);
+        let mut first = first.into_iter();
         let mut known = Vec::new();
-        for (done, (species, prior, mut some)) in kinds.into_iter().enumerate() {
-            some.extend(examples(&prior, FOR_DIRECTIONS.min(trees)..trees, stop)?);
-            known.push((key(&species, species.foliage), Numbers::learn(&prior, &basis, &some)));
-            notify(done + 1, all);
+        for (done, (key, prior)) in kinds.iter().enumerate() {
+            let mut some = first.next().unwrap_or_default();
+            let learn = || {
+                // All of them, if the directions were kept.
+                let from = if some.is_empty() { 0 } else { trees.min(FOR_DIRECTIONS) };
+                some.extend(examples(prior, from..trees, stop)?);
+                Ok(Numbers::learn(prior, &basis, &some))
+            };
+            known.push((*key, kept(parts, &format!("{key:016x}"), learn)?));
+            notify(done + 1, kinds.len());
         }
-        Ok(postcard::to_allocvec(&Stored { means, directions, known }).expect("numbers can be stored"))
+        Ok(postcard::to_allocvec(&Stored { directions, known }).expect("numbers can be stored"))
     }
 
     /// Reads the bytes of [`Predictors::record`].
@@ -108,14 +160,15 @@ impl Predictors {
     /// # Errors
     /// [`PredictorError`] for other bytes.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, PredictorError> {
-        let Stored { means, directions, known } = postcard::from_bytes(bytes).map_err(|_| PredictorError)?;
+        let Stored { directions, known } = postcard::from_bytes(bytes).map_err(|_| PredictorError)?;
+        let Directions { means, directions: rows } = &directions;
         let is_whole = means.iter().all(|mean| mean.is_finite())
-            && directions.iter().all(|one| one.len() == means.len() && one.is_finite())
-            && known.iter().all(|(_, numbers)| numbers.are_sums_over(directions.len()));
+            && rows.iter().all(|one| one.len() == means.len() && one.is_finite())
+            && known.iter().all(|(_, numbers)| numbers.are_sums_over(rows.len()));
         if !is_whole {
             return Err(PredictorError);
         }
-        let basis = unpacked(&means, &directions);
+        let basis = Basis::from(&directions);
         Ok(Self { basis: Arc::new(basis), known: Arc::new(known.into_iter().collect()) })
     }
 
@@ -177,11 +230,18 @@ impl Predictors {
     }
 }
 
-fn unpacked(means: &[f32], directions: &[Packed]) -> Basis {
-    Basis {
-        means: means.iter().copied().map(f64::from).collect(),
-        directions: directions.iter().map(|one| one.numbers().collect()).collect(),
+/// What `parts` keep under `name`, or what `learn` returns, which is kept then.
+fn kept<T: Serialize + DeserializeOwned>(
+    parts: &dyn LearntParts,
+    name: &str,
+    learn: impl FnOnce() -> Result<T, FitError>,
+) -> Result<T, FitError> {
+    if let Some(part) = parts.load(name).and_then(|bytes| postcard::from_bytes(&bytes).ok()) {
+        return Ok(part);
     }
+    let part = learn()?;
+    parts.save(name, &postcard::to_allocvec(&part).expect("numbers can be stored"));
+    Ok(part)
 }
 
 fn key(species: &Species, foliage: Foliage) -> u64 {
@@ -194,13 +254,15 @@ mod tests {
     use super::*;
     use pleach_silhouette::{Frame, Rasterizer, View};
     use pleach_tree::Parts;
+    use std::sync::Mutex;
+    use std::sync::atomic::Ordering;
 
     fn palm() -> Species {
         pleach_generators::preset("palm").unwrap().clone()
     }
 
     fn recorded(trees: u64) -> Vec<u8> {
-        Predictors::record(&[palm()], trees, &AtomicBool::new(false), |_, _| ()).unwrap()
+        Predictors::record(&[palm()], trees, &(), &AtomicBool::new(false), |_, _| ()).unwrap()
     }
 
     fn picture(species: &Species, seed: u64) -> Bitmap {
@@ -288,15 +350,53 @@ mod tests {
         assert!(Predictors::from_bytes(&bytes[..bytes.len() / 2]).is_err());
         assert!(Predictors::from_bytes(&[0xff; 64]).is_err());
         // A number that is none.
-        let Stored { mut means, directions, known } = postcard::from_bytes(&bytes).unwrap();
-        means[0] = f32::NAN;
-        let bad = postcard::to_allocvec(&Stored { means, directions, known }).unwrap();
+        let mut stored: Stored = postcard::from_bytes(&bytes).unwrap();
+        stored.directions.means[0] = f32::NAN;
+        let bad = postcard::to_allocvec(&stored).unwrap();
         assert!(Predictors::from_bytes(&bad).is_err());
+    }
+
+    /// Stops after some parts.
+    #[derive(Default)]
+    struct Memory {
+        parts: Mutex<BTreeMap<String, Vec<u8>>>,
+        stop: AtomicBool,
+    }
+
+    impl LearntParts for Memory {
+        fn load(&self, name: &str) -> Option<Vec<u8>> {
+            self.parts.lock().unwrap().get(name).cloned()
+        }
+
+        fn save(&self, name: &str, part: &[u8]) {
+            self.parts.lock().unwrap().insert(name.to_owned(), part.to_vec());
+            self.stop.store(true, Ordering::Relaxed);
+        }
+    }
+
+    #[test]
+    fn a_run_that_was_stopped_goes_on() {
+        let memory = Memory::default();
+        let mut runs = 0;
+        let bytes = loop {
+            runs += 1;
+            memory.stop.store(false, Ordering::Relaxed);
+            match Predictors::record(&[palm()], 100, &memory, &memory.stop, |_, _| ()) {
+                Ok(bytes) => break bytes,
+                Err(error) => assert!(matches!(error, FitError::Interrupted)),
+            }
+        };
+        assert_eq!((runs, memory.parts.lock().unwrap().len()), (3, 3), "directions, with leaves, without");
+        assert_eq!(bytes, recorded(100));
+        // What is kept by another version is learnt again.
+        memory.parts.lock().unwrap().values_mut().for_each(|part| *part = vec![0xff; 64]);
+        let stop = AtomicBool::new(false);
+        assert_eq!(bytes, Predictors::record(&[palm()], 100, &memory, &stop, |_, _| ()).unwrap());
     }
 
     #[test]
     fn learning_ends_when_asked_to() {
-        let found = Predictors::record(&[palm()], 100, &AtomicBool::new(true), |_, _| ());
+        let found = Predictors::record(&[palm()], 100, &(), &AtomicBool::new(true), |_, _| ());
         assert!(matches!(found, Err(FitError::Interrupted)));
     }
 }

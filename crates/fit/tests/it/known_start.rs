@@ -13,7 +13,7 @@ use std::time::Duration;
 fn a_search_from_a_known_species_starts_from_its_prediction_too_but_for_what_is_fixed() {
     let palm = pleach_generators::preset("palm").unwrap().clone();
     let stop = AtomicBool::new(false);
-    let bytes = Predictors::record(std::slice::from_ref(&palm), 200, &stop, |_, _| ()).unwrap();
+    let bytes = Predictors::record(std::slice::from_ref(&palm), 200, &(), &stop, |_, _| ()).unwrap();
     let predictors = Predictors::from_bytes(&bytes).unwrap();
     let (_, tree) = Prior::new(&palm, &Freedom::default(), 0.2).unwrap().sample(9, 1).unwrap();
     let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 96, 96);
