@@ -58,6 +58,24 @@ impl Wind {
     }
 }
 
+/// When a vertex comes to be, and from where; see [`crate::growth`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Emergence {
+    /// When the place that it comes from is there, 0 to [`crate::growth::LAST`].
+    pub time: f32,
+    /// From the vertex to that place, in metres.
+    pub toward: Vec3,
+}
+
+impl Emergence {
+    /// The four numbers as files have them.
+    #[must_use]
+    pub const fn to_array(&self) -> [f32; 4] {
+        let Self { time, toward: t } = self;
+        [*time, t.x, t.y, t.z]
+    }
+}
+
 /// A run of a part's corners and triangles: what goes through a [`crate::Sink`] at a time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Block {
@@ -65,6 +83,8 @@ pub struct Block {
     pub vertices: Vec<Vertex>,
     /// One entry per vertex if wind data was asked for, none otherwise.
     pub wind: Vec<Wind>,
+    /// One entry per vertex if growth data was asked for, none otherwise.
+    pub growth: Vec<Emergence>,
     /// One joint number per vertex if a rig was given, none otherwise.
     pub joints: Vec<u16>,
     /// Placements of the part's shape, if it is drawn by instances.
@@ -79,6 +99,7 @@ impl Block {
     pub fn clear(&mut self) {
         self.vertices.clear();
         self.wind.clear();
+        self.growth.clear();
         self.joints.clear();
         self.instances.clear();
         self.triangles.clear();

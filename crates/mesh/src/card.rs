@@ -22,7 +22,15 @@ impl Source for Cards<'_> {
     fn parts(&self, mesh: usize) -> Vec<Part> {
         let cards = self.0.len() as u64;
         let count = Count { vertices: 4 * cards, triangles: 2 * cards };
-        let part = Part { mesh, material: Material::Card, count, instances: 0, wind: false, rigged: false };
+        let part = Part {
+            mesh,
+            material: Material::Card,
+            count,
+            instances: 0,
+            wind: false,
+            growth: false,
+            rigged: false,
+        };
         if cards == 0 { Vec::new() } else { vec![part] }
     }
 

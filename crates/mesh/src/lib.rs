@@ -29,6 +29,7 @@
 //! | [`Pictures`] | pictures that materials show instead |
 //! | [`weld`] | all stems as one watertight surface |
 //! | [`wind`], [`rig`] | how stems sway |
+//! | [`growth`] | when each vertex comes to be |
 //!
 //! # Invariants
 //!
@@ -44,9 +45,11 @@ pub mod card;
 mod collision;
 mod foliage;
 pub mod forest;
+pub mod growth;
 pub mod lod;
 pub mod mesh;
 pub mod mesher;
+mod nearest;
 pub mod palette;
 pub mod part;
 mod pictures;
@@ -63,7 +66,7 @@ pub mod wind;
 pub mod write;
 
 pub use atlas::Atlas;
-pub use block::{Block, Placement, Vertex, Wind};
+pub use block::{Block, Emergence, Placement, Vertex, Wind};
 pub use card::{Card, Cards};
 pub use collision::{Collision, Prism};
 pub use foliage::blossom_spread;

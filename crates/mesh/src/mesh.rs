@@ -53,6 +53,7 @@ impl Sink for Mesh {
         let whole = &mut self.parts[part].1;
         whole.vertices.append(&mut block.vertices);
         whole.wind.append(&mut block.wind);
+        whole.growth.append(&mut block.growth);
         whole.joints.append(&mut block.joints);
         whole.instances.append(&mut block.instances);
         whole.triangles.append(&mut block.triangles);

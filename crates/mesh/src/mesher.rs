@@ -1,8 +1,9 @@
 //! From a tree to blocks of triangles: sizes first, then any run of stems or leaves.
 
 use crate::blobs;
-use crate::block::Block;
+use crate::block::{Block, Emergence};
 use crate::foliage::UnitMesh;
+use crate::growth::Ages;
 use crate::part::{Count, Material, Part, Source};
 use crate::placed::{self, Placed, Shapes};
 use crate::rig::Rig;
@@ -10,6 +11,7 @@ use crate::settings::{LeafStyle, MeshSettings};
 use crate::tube::{Rings, Tubes};
 use crate::twigs::Twigs;
 use crate::wind::Bodies;
+use glam::Vec3;
 use pleach_plant::{Leaf, Parts, Stem, StemKind, Tree};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -25,6 +27,8 @@ pub struct Mesher<'a> {
     rig: Option<&'a Rig>,
     /// What turns in wind, where that was asked for.
     bodies: Option<Bodies>,
+    /// When every place comes to be, where that was asked for.
+    ages: Option<Ages<'a>>,
     tubes: Tubes,
     leaves: Placed<'a>,
     blossoms: Placed<'a>,
@@ -105,6 +109,7 @@ impl<'a> Mesher<'a> {
             settings,
             rig: None,
             bodies: settings.wind.then(|| Bodies::new(tree)),
+            ages: settings.growth.then(|| Ages::new(tree)),
             leaves: Placed::new(leaves, leaf_shapes, BLOCK_VERTICES).rounded(heart),
             blossoms: Placed::new(blossoms, blossom_shapes, BLOCK_VERTICES).rounded(heart),
             cards: Placed::new(&[], Shapes::plain(Vec::new()), BLOCK_VERTICES),
@@ -132,6 +137,13 @@ impl<'a> Mesher<'a> {
         let shapes = twigs.cells().into_iter().map(UnitMesh::card).collect();
         self.cards = Placed::new(&twigs.cards, Shapes::plain(shapes), BLOCK_VERTICES);
         self.twigs = Some(twigs);
+        self
+    }
+
+    /// Grows at the pace of `whole`, of which the tree is what a level of detail has left.
+    #[must_use]
+    pub fn growing_with(mut self, whole: &Tree) -> Self {
+        self.ages = self.ages.map(|ages| ages.at_pace_of(&Ages::new(whole)));
         self
     }
 
@@ -177,20 +189,26 @@ impl<'a> Mesher<'a> {
     }
 
     fn fill_stems(&self, range: Range<usize>, block: &mut Block) {
-        let (mut rings, mut along) = (Rings::default(), Vec::new());
+        let (mut rings, mut spots) = (Rings::default(), Vec::new());
         for i in range {
             if !self.settings.parts.has_stem(self.tree.stems[i].kind) {
                 continue;
             }
             let StemStart { vertex, tiles } = self.stems[i];
             rings.sample(self.tree, &self.tree.stems[i], self.tubes.tolerance());
-            self.tubes.push(&rings, vertex as u32, tiles, block, &mut along);
+            self.tubes.push(&rings, vertex as u32, tiles, block, &mut spots);
             if let Some(bodies) = &self.bodies {
                 block.wind.resize(block.vertices.len(), bodies.of_stem(i));
             }
+            if let Some(ages) = &self.ages {
+                let new = block.vertices[block.growth.len()..].iter().zip(&spots);
+                block.growth.extend(new.map(|(vertex, spot)| Emergence {
+                    time: ages.at(i as u32, f64::from(spot.along)),
+                    toward: spot.center - vertex.position,
+                }));
+            }
             if let Some(rig) = self.rig {
-                let joint = |&along: &f32| rig.joint_at(i as u32, f64::from(along));
-                block.joints.extend(along.iter().map(joint));
+                block.joints.extend(spots.iter().map(|spot| rig.joint_at(i as u32, f64::from(spot.along))));
             }
         }
     }
@@ -278,6 +296,7 @@ impl Source for Mesher<'_> {
                 count,
                 instances: instances.unwrap_or(0),
                 wind: self.settings.wind && instances.is_none(),
+                growth: self.settings.growth && instances.is_none(),
                 rigged: self.rig.is_some() && instances.is_none(),
             }
         };
@@ -311,7 +330,7 @@ impl Source for Mesher<'_> {
                     let corners = block.vertices.iter_mut().rev().take(4);
                     corners.for_each(|corner| corner.normal = twigs.normal(corner.position));
                 }
-                self.sway_leaf(material, &placed.leaves[i], block);
+                self.add_of_leaf(material, &placed.leaves[i], block);
             });
         } else {
             self.fill_blobs(placed.count.vertices, block);
@@ -320,8 +339,8 @@ impl Source for Mesher<'_> {
 }
 
 impl Mesher<'_> {
-    /// Wind data and joints of the vertices of `leaf`, which were added last.
-    fn sway_leaf(&self, material: Material, leaf: &Leaf, block: &mut Block) {
+    /// Wind data, growth data and joints of the vertices of `leaf`, which were added last.
+    fn add_of_leaf(&self, material: Material, leaf: &Leaf, block: &mut Block) {
         if let Some(bodies) = &self.bodies {
             let first = block.wind.len();
             let along = leaf.along / leaf.along.length_squared().max(f32::MIN_POSITIVE);
@@ -332,6 +351,9 @@ impl Mesher<'_> {
                 let place = if material == Material::Twig { is_tip } else { along };
                 bodies.of_leaf(leaf, place)
             }));
+        }
+        if let Some(ages) = &self.ages {
+            come_from(leaf.position, ages.near(leaf.stem, leaf.position), block);
         }
         if let Some(rig) = self.rig {
             let joint = rig.joint_near(leaf.stem, leaf.position.as_dvec3());
@@ -347,9 +369,20 @@ impl Mesher<'_> {
             if let Some(bodies) = &self.bodies {
                 block.wind.resize(block.vertices.len(), bodies.of_stem(blob.stem as usize));
             }
+            if let Some(ages) = &self.ages {
+                let tip = self.tree.knots_of(&self.tree.stems[blob.stem as usize]).last();
+                let tip = tip.map_or(Vec3::ZERO, |knot| knot.point.as_vec3());
+                come_from(tip, ages.near(blob.stem, tip), block);
+            }
             if let Some(rig) = self.rig {
                 block.joints.resize(block.vertices.len(), rig.joint_at(blob.stem, f64::INFINITY));
             }
         }
     }
+}
+
+/// Growth data of the vertices that were added last, which come from `point` at `time`.
+fn come_from(point: Vec3, time: f32, block: &mut Block) {
+    let new = &block.vertices[block.growth.len()..];
+    block.growth.extend(new.iter().map(|vertex| Emergence { time, toward: point - vertex.position }));
 }

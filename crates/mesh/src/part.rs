@@ -67,6 +67,8 @@ pub struct Part {
     pub instances: u64,
     /// Whether wind data come with the corners.
     pub wind: bool,
+    /// Whether growth data come with the corners.
+    pub growth: bool,
     /// Whether joint numbers come with the corners.
     pub rigged: bool,
 }

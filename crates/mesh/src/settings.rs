@@ -42,6 +42,8 @@ pub struct MeshSettings {
     pub rounded: bool,
     /// Whether each corner carries wind data.
     pub wind: bool,
+    /// Whether each corner carries growth data.
+    pub growth: bool,
     /// What of the tree becomes triangles.
     pub parts: Parts,
 }
@@ -84,7 +86,7 @@ impl LeafStyle {
 }
 
 impl Default for MeshSettings {
-    /// Two millimetres, 4 to 48 sides, leaves as outlines with rounded normals, no wind; everything but roots.
+    /// Two millimetres, 4 to 48 sides, leaves as outlines with rounded normals, neither wind nor growth; everything but roots.
     fn default() -> Self {
         Self {
             tolerance: 0.002,
@@ -95,6 +97,7 @@ impl Default for MeshSettings {
             pictured: false,
             rounded: true,
             wind: false,
+            growth: false,
             parts: Parts::LEAFY,
         }
     }

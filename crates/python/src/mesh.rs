@@ -27,6 +27,10 @@ pub(crate) struct MeshPart {
     /// How wind moves each corner, if that was asked for with `wind=True`; `None` otherwise, and of cards that show the whole
     /// tree.
     wind: Option<Py<Wind>>,
+    /// When each corner comes to be in a tree that grows, and from where, float32 of shape (corners, 4), if that was asked
+    /// for with `growth=True`: a time from 0 to 0.9, then the way from the corner back to the place that it comes from, in
+    /// metres. `None` otherwise, and of cards that show the whole tree.
+    growth: Option<Py<PyArray2<f32>>>,
 }
 
 #[pymethods]
@@ -78,6 +82,8 @@ pub(crate) fn of_tree(
         for ((part, block), tangents) in mesh.parts.into_iter().zip(tangents) {
             let vertices = &block.vertices;
             let wind = (!block.wind.is_empty()).then(|| Py::new(py, Wind::new(block.wind))).transpose()?;
+            let numbers = || rows(py, block.growth.iter().map(pleach::Emergence::to_array));
+            let growth = (!block.growth.is_empty()).then(numbers).transpose()?;
             let part_of = MeshPart {
                 positions: rows(py, vertices.iter().map(|vertex| vertex.position.to_array()))?,
                 normals: rows(py, vertices.iter().map(|vertex| vertex.normal.to_array()))?,
@@ -85,6 +91,7 @@ pub(crate) fn of_tree(
                 tangents: rows(py, tangents.into_iter())?,
                 triangles: rows(py, block.triangles.iter().copied())?,
                 wind,
+                growth,
             };
             parts.set_item(part.material.name(), Py::new(py, part_of)?)?;
         }

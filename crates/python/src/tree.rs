@@ -343,7 +343,7 @@ impl Tree {
     /// `textures` (pictures of bark and leaves, 512, 1024 or 2048 pixels a side, or 0 for none: colour and normals, of bark also
     /// roughness and occlusion),
     /// `compress` ("quantize": vertices of 16 and 8 bits), `season` (spring, summer, autumn, winter), `weld` (one surface on a grid with cells of this many millimetres) and
-    /// `fillet`, `roots`, `wind`, `sway`, `collision` (convex pieces that things bump into). A format that cannot hold an option refuses it with `PleachError`.
+    /// `fillet`, `roots`, `wind`, `growth`, `sway`, `collision` (convex pieces that things bump into). A format that cannot hold an option refuses it with `PleachError`.
     ///
     /// >>> import pleach, tempfile, pathlib
     /// >>> folder = pathlib.Path(tempfile.mkdtemp())

@@ -140,6 +140,10 @@ def test_wind_of_stems_is_that_of_their_bark() -> None:
     bark = tree.mesh(wind=True).levels[0]["bark"]
     assert bark.wind is not None and len(bark.wind) == len(bark.positions)
     assert tree.mesh().levels[0]["bark"].wind is None
+    growing = tree.mesh(growth=True).levels[0]["leaves"]
+    assert growing.growth is not None and growing.growth.shape == (len(growing.positions), 4)
+    assert (growing.growth[:, 0] >= 0).all() and (growing.growth[:, 0] <= 0.9).all()
+    assert growing.wind is None and tree.mesh().levels[0]["leaves"].growth is None
     stems = tree.wind()
     assert len(stems) == len(tree.levels) and set(np.unique(stems.levels)) == {0, 1, 2}
 

@@ -366,6 +366,7 @@ export interface ExportOptions {
   leaves?: string;
   season?: string | null;
   wind?: boolean;
+  growth?: boolean;
   /** Convex pieces that things bump into. */
   collision?: boolean;
 }

@@ -63,7 +63,7 @@ pub(crate) struct MeshArgs {
     pub(super) lod_extension: bool,
     /// Weld all stems into one watertight surface, on a grid with cells of this many millimetres; what
     /// is thinner becomes as thick as a cell
-    #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "wind", "forest", "tolerance"])]
+    #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "wind", "growth", "forest", "tolerance"])]
     pub(super) weld: Option<f64>,
     /// Round the corners where welded stems meet: width of the fillet over the radius of the thinner
     /// stem, 0 to 4 [default: 0]
@@ -86,7 +86,7 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "512|1024|2048|none", value_parser = textures, conflicts_with = "weld")]
     pub(super) textures: Option<u32>,
     /// Make the file smaller (.glb); gltfpack makes it smaller still, for pages
-    #[arg(long, value_parser = one_of(COMPRESSIONS), value_name = "HOW", conflicts_with_all = ["wind", "sway"])]
+    #[arg(long, value_parser = one_of(COMPRESSIONS), value_name = "HOW", conflicts_with_all = ["wind", "growth", "sway"])]
     pub(super) compress: Option<Compression>,
     /// Season; by default the species file's own, or summer with all its blossom
     #[arg(long, value_parser = one_of(SEASONS))]
@@ -94,6 +94,9 @@ pub(crate) struct MeshArgs {
     /// Give each vertex the data that shaders need for wind (.glb, .ply)
     #[arg(long)]
     pub(super) wind: bool,
+    /// Give each vertex the data that shaders need to let the tree grow (.glb, .ply)
+    #[arg(long, conflicts_with = "wind")]
+    pub(super) growth: bool,
     /// Add joints and a looping animation of the tree in wind (.glb)
     #[arg(long, conflicts_with_all = ["lod", "forest", "billboard"])]
     pub(super) sway: bool,
@@ -188,6 +191,7 @@ impl MeshArgs {
             compress: self.compress,
             season: self.season,
             wind: self.wind,
+            growth: self.growth,
             sway: self.sway,
             collision: self.collision,
         }

@@ -124,6 +124,9 @@ fn sway_wind_and_instances_are_in_the_file() {
     assert_eq!(names(&glb(&dir.path("sway.glb"))["animations"]), ["sway"]);
     let _ = dir.run(["grow", "acer", "--wind", "-o", "wind.glb"]).ok();
     assert!(glb(&dir.path("wind.glb")).to_string().contains("TEXCOORD_7"));
+    let _ = dir.run(["grow", "acer", "--growth", "-o", "growth.glb"]).ok();
+    let json = glb(&dir.path("growth.glb")).to_string();
+    assert!(json.contains("TEXCOORD_2") && !json.contains("TEXCOORD_3"));
     let _ = dir.run(["grow", "acer", "--leaves", "instances", "-o", "leaves.glb"]).ok();
     assert_eq!(glb(&dir.path("leaves.glb"))["extensionsRequired"][0], "EXT_mesh_gpu_instancing");
 }

@@ -13,7 +13,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Directions in which pictures are compared: with twice as many hardly more of a number is explained.
 const DIRECTIONS: usize = 128;
@@ -142,6 +142,9 @@ impl Predictors {
         let mut first = first.into_iter();
         let mut known = Vec::new();
         for (done, (key, prior)) in kinds.iter().enumerate() {
+            if stop.load(Ordering::Relaxed) {
+                return Err(FitError::Interrupted);
+            }
             let mut some = first.next().unwrap_or_default();
             let learn = || {
                 // All of them, if the directions were kept.
@@ -255,7 +258,6 @@ mod tests {
     use pleach_silhouette::{Frame, Rasterizer, View};
     use pleach_tree::Parts;
     use std::sync::Mutex;
-    use std::sync::atomic::Ordering;
 
     fn palm() -> Species {
         pleach_generators::preset("palm").unwrap().clone()

@@ -123,7 +123,7 @@ fn level<'a>(
     let settings = settings.clamped();
     let whole = Mesher::new(tree, settings).count().triangles;
     if whole <= u64::from(budget) {
-        return Ok(Level { tree: Cow::Borrowed(tree), settings, twigs: None });
+        return Ok(Level { whole: tree, tree: Cow::Borrowed(tree), settings, twigs: None });
     }
     let mut bark = Bark::new(tree, settings);
     let for_bark = bark.finest().min((BARK * f64::from(budget)) as u64);
@@ -183,7 +183,12 @@ fn with_leaves<'a>(
     let finest = bark.settings.tolerance;
     let all = Kept::new(tree, 0.0);
     let (tolerance, _) = bark.within(for_bark, finest / FINER..10.0 * finest, |_| all.clone())?;
-    Some(Level { tree: Cow::Owned(coarse), settings: MeshSettings { tolerance, ..settings }, twigs: None })
+    Some(Level {
+        whole: tree,
+        tree: Cow::Owned(coarse),
+        settings: MeshSettings { tolerance, ..settings },
+        twigs: None,
+    })
 }
 
 /// Closed surfaces of foliage with fewer triangles, and the stems that are thick enough.
@@ -210,7 +215,12 @@ fn with_blobs<'a>(
     let fitted = bark.within(for_bark, bark.settings.tolerance / FINER..COARSEST, thick);
     let (tolerance, kept) = fitted.ok_or_else(|| bark.too_few(budget, foliage))?;
     kept.thin(&mut coarse);
-    Ok(Level { tree: Cow::Owned(coarse), settings: MeshSettings { tolerance, ..settings }, twigs: None })
+    Ok(Level {
+        whole: tree,
+        tree: Cow::Owned(coarse),
+        settings: MeshSettings { tolerance, ..settings },
+        twigs: None,
+    })
 }
 
 /// The thick stems, and cards for all others and the leaves.
@@ -250,7 +260,12 @@ fn with_cards<'a>(
     let settings = MeshSettings { tolerance, min_sides: 3, leaves: LeafStyle::None, ..bark.settings };
     let ink = ink.get_or_init(|| Ink::new(tree, bark.settings));
     ink.fit(&mut twigs, tree, &Mesher::new(&coarse, settings));
-    Ok(Level { tree: Cow::Owned(coarse), settings, twigs: (!twigs.cards.is_empty()).then_some(twigs) })
+    Ok(Level {
+        whole: tree,
+        tree: Cow::Owned(coarse),
+        settings,
+        twigs: (!twigs.cards.is_empty()).then_some(twigs),
+    })
 }
 
 /// The stems of a tree, counted at one tolerance after the other.

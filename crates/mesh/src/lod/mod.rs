@@ -32,6 +32,8 @@ pub const MAX_LEVELS: u32 = 6;
 /// A tree made ready for one level of detail.
 #[derive(Clone, Debug)]
 pub struct Level<'a> {
+    /// The tree that this is a level of.
+    pub whole: &'a Tree,
     /// What is left of the tree.
     pub tree: Cow<'a, Tree>,
     /// How it is meshed.
@@ -44,7 +46,7 @@ impl Level<'_> {
     /// What meshes it.
     #[must_use]
     pub fn mesher(&self) -> Mesher<'_> {
-        let mesher = Mesher::new(&self.tree, self.settings);
+        let mesher = Mesher::new(&self.tree, self.settings).growing_with(self.whole);
         match &self.twigs {
             Some(twigs) => mesher.with_twigs(twigs),
             None => mesher,
@@ -96,7 +98,7 @@ pub fn levels(tree: &Tree, settings: MeshSettings, count: u32) -> Vec<Level<'_>>
 #[must_use]
 pub fn level(tree: &Tree, settings: MeshSettings, level: u32) -> Level<'_> {
     let Some(recipe) = RECIPES.get(level as usize).filter(|_| level > 0) else {
-        return Level { tree: Cow::Borrowed(tree), settings, twigs: None };
+        return Level { whole: tree, tree: Cow::Borrowed(tree), settings, twigs: None };
     };
     let tolerance = settings.tolerance * recipe.tolerance;
     let leaves = match settings.leaves {
@@ -115,7 +117,7 @@ pub fn level(tree: &Tree, settings: MeshSettings, level: u32) -> Level<'_> {
     merge(&mut coarse.leaves, recipe.merged);
     merge(&mut coarse.blossoms, recipe.merged);
     Kept::new(&coarse, tolerance * recipe.twigs).thin(&mut coarse);
-    Level { tree: Cow::Owned(coarse), settings, twigs: None }
+    Level { whole: tree, tree: Cow::Owned(coarse), settings, twigs: None }
 }
 
 #[cfg(test)]

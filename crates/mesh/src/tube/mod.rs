@@ -5,8 +5,9 @@
 //! inside the parent (or below a trunk), the tip by a point or a low dome. Where a stem turns sharply it is
 //! several tubes, each but the last closed by half a ball. A polygon's corners stand a
 //! little outside the model's circle, so that the mean width of the tube, and so its ink in a
-//! silhouette, is the model's.
+//! silhouette, is the model's. Where a branch leaves the side of its parent it is wider, see [`collar`].
 
+mod collar;
 mod frame;
 mod path;
 mod rings;
@@ -22,7 +23,7 @@ pub use unroll::TILE;
 use crate::block::{Block, Vertex};
 use crate::part::Count;
 use crate::settings::MeshSettings;
-use glam::{Vec2, vec2};
+use glam::{DVec3, Vec2, Vec3, vec2};
 use path::Ring;
 use pleach_plant::trig::sin_cos;
 use rings::{End, Run};
@@ -47,14 +48,12 @@ impl Polygon {
         for (j, &(cos, sin)) in self.corners.iter().enumerate() {
             let out = x * cos + y * sin;
             let normal = (out - ring.tangent * slope) * level;
-            corners.push(
-                Vertex {
-                    position: (ring.center + out * radius).as_vec3(),
-                    normal: normal.as_vec3(),
-                    uv: bark.uv(j as f64 / n as f64, ring.tiles),
-                },
-                ring.along,
-            );
+            let vertex = Vertex {
+                position: (ring.center + out * radius).as_vec3(),
+                normal: normal.as_vec3(),
+                uv: bark.uv(j as f64 / n as f64, ring.tiles),
+            };
+            corners.push(vertex, ring.along, ring.center);
         }
     }
 }
@@ -76,16 +75,24 @@ impl Bark {
     }
 }
 
-/// Takes the corners of tubes, and how far along its stem each is.
+/// The place of a stem's axis around which a corner is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Spot {
+    /// Metres from the base of the stem.
+    pub(crate) along: f32,
+    pub(crate) center: Vec3,
+}
+
+/// Takes the corners of tubes, and where on its stem each is.
 struct Corners<'a> {
     vertices: &'a mut Vec<Vertex>,
-    along: &'a mut Vec<f32>,
+    spots: &'a mut Vec<Spot>,
 }
 
 impl Corners<'_> {
-    fn push(&mut self, vertex: Vertex, along: f64) {
+    fn push(&mut self, vertex: Vertex, along: f64, center: DVec3) {
         self.vertices.push(vertex);
-        self.along.push(along as f32);
+        self.spots.push(Spot { along: along as f32, center: center.as_vec3() });
     }
 }
 
@@ -154,21 +161,21 @@ impl Tubes {
     }
 
     /// Appends the tubes over `rings`; their corners count from `base`, and `before` texture tiles are below them.
-    /// `along` becomes how far along the stem each corner is, in metres.
+    /// `spots` become where on the stem each corner is.
     pub(crate) fn push(
         &self,
         rings: &Rings,
         base: u32,
         before: f64,
         block: &mut Block,
-        along: &mut Vec<f32>,
+        spots: &mut Vec<Spot>,
     ) {
         let n = self.sides(rings);
         let bark = Bark { around: f64::from(rings.tiles_around()), before };
-        along.clear();
+        spots.clear();
         for run in rings.runs() {
-            let first = base + along.len() as u32;
-            self.push_run(&run, n, &bark, &mut Corners { vertices: &mut block.vertices, along });
+            let first = base + spots.len() as u32;
+            self.push_run(&run, n, &bark, &mut Corners { vertices: &mut block.vertices, spots });
             faces(first, n, self.wide(&run, n), &mut block.triangles);
         }
     }
@@ -202,14 +209,10 @@ impl Tubes {
         }
         let ahead = tip.radius * height;
         let tiles = if ahead > 0.0 { tip.tiles + height * bark.around / TAU } else { tip.tiles };
-        corners.push(
-            Vertex {
-                position: (tip.center + tip.tangent * ahead).as_vec3(),
-                normal: tip.tangent.as_vec3(),
-                uv: bark.uv(0.5, tiles),
-            },
-            tip.along + ahead,
-        );
+        let point = tip.center + tip.tangent * ahead;
+        let vertex =
+            Vertex { position: point.as_vec3(), normal: tip.tangent.as_vec3(), uv: bark.uv(0.5, tiles) };
+        corners.push(vertex, tip.along + ahead, point);
     }
 }
 

@@ -4,6 +4,7 @@
 //! leaving such a ring out would move the axis, and where the stem turns sharply at a knot, the tube ends in half a
 //! ball and another begins at the same place: together they are what a ball that is moved along the axis covers.
 
+use super::collar;
 use super::frame::{perpendicular, transport};
 use super::path::{Corner, Path, Ring};
 use super::unroll::{self, unroll};
@@ -50,6 +51,9 @@ pub(crate) struct Rings {
     ends: Vec<usize>,
     /// Places in the path of the rings of the run that grows.
     places: Vec<usize>,
+    /// Radius of the widest ring without a collar, in metres.
+    widest: f64,
+    tiles_around: u32,
 }
 
 impl Rings {
@@ -58,6 +62,9 @@ impl Rings {
     pub(crate) fn sample(&mut self, tree: &Tree, stem: &Stem, tolerance: f64) {
         self.path.trace(tree, stem, tolerance);
         unroll(&mut self.path.rings);
+        self.widest = self.path.rings.iter().map(|ring| ring.radius).fold(0.0, f64::max);
+        self.tiles_around = unroll::around(self.widest);
+        collar::widen(tree, stem, tolerance, &mut self.path.rings, &mut self.path.corners);
         let last = self.path.rings.len() - 1;
         if self.path.is_pointed {
             self.path.rings[last].radius = 0.0;
@@ -93,14 +100,14 @@ impl Rings {
         })
     }
 
-    /// The widest ring's radius in metres.
-    pub(crate) fn widest(&self) -> f64 {
-        self.rings.iter().map(|ring| ring.radius).fold(0.0, f64::max)
+    /// The widest ring's radius in metres; what a collar adds is left out.
+    pub(crate) const fn widest(&self) -> f64 {
+        self.widest
     }
 
     /// How many texture tiles go around the stem.
-    pub(crate) fn tiles_around(&self) -> u32 {
-        unroll::tiles_around(&self.path.rings)
+    pub(crate) const fn tiles_around(&self) -> u32 {
+        self.tiles_around
     }
 
     /// Texture tiles from the base to `along` metres from it.

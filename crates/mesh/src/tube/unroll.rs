@@ -25,11 +25,6 @@ fn widest(rings: &[Ring]) -> f64 {
     rings.iter().map(|ring| ring.radius).fold(0.0, f64::max)
 }
 
-/// Tiles around a stem of these rings.
-pub(super) fn tiles_around(rings: &[Ring]) -> u32 {
-    around(widest(rings))
-}
-
 /// Sets the tiles along a stem of each of its rings.
 pub(super) fn unroll(rings: &mut [Ring]) {
     let widest = widest(rings).max(f64::MIN_POSITIVE);

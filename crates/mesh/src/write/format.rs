@@ -26,6 +26,8 @@ pub enum Feature {
     LeafInstances,
     /// Data for shaders of wind at each vertex.
     Wind,
+    /// Data for shaders of growth at each vertex.
+    Growth,
     /// So many triangles, which may need cards with pictures of twigs.
     Budget,
     /// Levels of detail.
@@ -82,7 +84,7 @@ impl Format {
         match self {
             Self::Glb => true,
             Self::Obj => matches!(feature, Feature::Budget | Feature::LeafCards | Feature::Textures),
-            Self::Ply => matches!(feature, Feature::Wind),
+            Self::Ply => matches!(feature, Feature::Wind | Feature::Growth),
             Self::Stl => false,
             Self::Usda => matches!(
                 feature,

@@ -1,5 +1,5 @@
 //! Binary little-endian PLY: corners with normal, texture coordinates, colour and (if asked for)
-//! wind, then triangles; z up, metres.
+//! wind or growth, then triangles; z up, metres.
 //!
 //! The format wants all corners before the first triangle, so the triangles of earlier parts are kept
 //! until the end: 12 bytes each.
@@ -55,6 +55,11 @@ impl<W: Write> Sink for Ply<W> {
             let numbers = ["level_and_phase", "flutter_and_parent_phase"].map(str::to_owned);
             axes.chain(numbers).for_each(|name| head.push_str(&format!("property float wind_{name}\n")));
         }
+        if parts.iter().any(|p| p.growth) {
+            for name in ["time", "toward_x", "toward_y", "toward_z"] {
+                head.push_str(&format!("property float growth_{name}\n"));
+            }
+        }
         head.push_str(&format!(
             "element face {triangles}\nproperty list uchar uint vertex_indices\nend_header\n"
         ));
@@ -70,6 +75,9 @@ impl<W: Write> Sink for Ply<W> {
             self.bytes.extend_from_slice(&color);
             if let Some(wind) = block.wind.get(i) {
                 self.bytes.extend_from_slice(bytemuck::cast_slice(&wind.to_array()));
+            }
+            if let Some(emergence) = block.growth.get(i) {
+                self.bytes.extend_from_slice(bytemuck::cast_slice(&emergence.to_array()));
             }
         }
         let first = self.firsts[part];

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod files;
+mod growth;
 mod leaves;
 mod levels;
 mod mesh;

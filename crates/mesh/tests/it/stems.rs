@@ -59,8 +59,11 @@ fn worst(tree: &Tree, settings: MeshSettings) -> f64 {
         if !settings.parts.has_stem(stem.kind) || (own.is_empty() && tree.length_of(stem) < 2e-4) {
             continue;
         }
+        let collar = collar(tree, stem);
+        let base = tree.knots_of(stem)[0].point;
         for knot in tree.knots_of(stem) {
-            let reach = knot.radius.max(2e-4) + settings.tolerance;
+            let swell = if knot.point.distance(base) < collar { 1.6 } else { 1.0 };
+            let reach = swell * knot.radius.max(2e-4) + settings.tolerance;
             // Far triangles are not looked at closely.
             let mut nearest = f64::INFINITY;
             for t in &own {
@@ -73,6 +76,14 @@ fn worst(tree: &Tree, settings: MeshSettings) -> f64 {
         }
     }
     worst
+}
+
+/// How far from its base a stem may be wider than it is, where it leaves the side of its parent, in metres.
+fn collar(tree: &Tree, stem: &Stem) -> f64 {
+    let Some(parent) = stem.parent.filter(|_| stem.kind == StemKind::Branch) else { return 0.0 };
+    let radius = |stem: &Stem| tree.knots_of(stem).iter().map(|knot| knot.radius).fold(0.0, f64::max);
+    let beyond = radius(&tree.stems[parent as usize]) / 0.35 + 2.0 * radius(stem);
+    beyond.min(tree.length_of(stem) / 2.0)
 }
 
 fn settings() -> MeshSettings {

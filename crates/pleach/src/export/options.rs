@@ -147,6 +147,8 @@ pub struct Export {
     pub season: Option<Season>,
     /// Whether each vertex has the data that shaders need for wind.
     pub wind: bool,
+    /// Whether each vertex has the data that shaders need to let the tree grow, in the place of `wind`.
+    pub growth: bool,
     /// Whether there are joints, and a looping animation of the tree in wind.
     pub sway: bool,
     /// Whether there are convex pieces around trunk and thick limbs that things bump into, as nodes and meshes of their
@@ -264,6 +266,7 @@ impl Export {
             ("billboard", self.billboard > 0),
             ("sway", self.sway),
             ("wind", self.wind),
+            ("growth", self.growth),
         ];
         let asked = |names: &[&str]| {
             asks.iter().find(|(name, asked)| *asked && names.contains(name)).map(|(name, _)| *name)
@@ -272,7 +275,7 @@ impl Export {
             return Err(OptionError::new("textures", "cannot be laid on one surface, which `weld` makes"));
         }
         if self.weld.is_some()
-            && let Some(other) = asked(&["lod", "triangles", "sway", "wind"])
+            && let Some(other) = asked(&["lod", "triangles", "sway", "wind", "growth"])
         {
             return Err(OptionError::new("weld", format!("makes one surface, which `{other}` cannot have")));
         }
@@ -282,10 +285,19 @@ impl Export {
             return Err(OptionError::new("sway", format!("is of one mesh: leave out `{other}`")));
         }
         if self.compress.is_some()
-            && let Some(other) = asked(&["wind", "sway"])
+            && let Some(other) = asked(&["wind", "growth", "sway"])
         {
             let problem = format!("moves vertices into a frame that `{other}` does not know: leave one out");
             return Err(OptionError::new("compress", problem));
+        }
+        if self.growth && self.wind {
+            return Err(OptionError::new("growth", "takes the texture coordinates of `wind`: leave one out"));
+        }
+        if self.growth && self.leaf_form() == LeafForm::Instances {
+            return Err(OptionError::new(
+                "growth",
+                "is of vertices, which `leaves` as instances do not have",
+            ));
         }
         if self.fillet > 0.0 && self.weld.is_none() {
             return Err(OptionError::new("fillet", "is about welded stems, and `weld` is not given"));
@@ -299,6 +311,7 @@ impl Export {
             ("leaves", self.leaf_form().feature()),
             ("textures", self.side().map(|_| Feature::Textures)),
             ("wind", self.wind.then_some(Feature::Wind)),
+            ("growth", self.growth.then_some(Feature::Growth)),
             ("triangles", (!self.triangles.is_empty()).then_some(Feature::Budget)),
             ("triangles", (self.triangles.len() > 1 && self.level.is_none()).then_some(Feature::Levels)),
             ("lod", (self.lod.is_some_and(|lod| lod > 1) && self.level.is_none()).then_some(Feature::Levels)),
@@ -369,6 +382,7 @@ impl Export {
             },
             pictured: self.shows_leaves(),
             wind: self.wind,
+            growth: self.growth,
             parts: self.parts(),
             ..MeshSettings::default()
         }
@@ -382,7 +396,7 @@ mod tests {
     #[test]
     fn options_read_back_from_json_and_unknown_ones_are_refused() {
         let other = r#"{ "finest": true, "lod": 2, "triangles": [900], "level": 0, "lod_extension": true, "billboard": 3, "tolerance": 5.0, "weld": 30.0, "fillet": 1.0, "roots": true,
-            "leaves": "cards", "textures": 512, "compress": "quantize", "season": "autumn", "wind": true, "sway": true, "collision": true }"#;
+            "leaves": "cards", "textures": 512, "compress": "quantize", "season": "autumn", "wind": true, "growth": true, "sway": true, "collision": true }"#;
         let other = Export::from_json(other).unwrap();
         let written = serde_json::to_value(&other).unwrap();
         assert_eq!(serde_json::from_value::<Export>(written.clone()).unwrap(), other);
@@ -436,6 +450,11 @@ mod tests {
             assert_eq!(wrong(format, |e| (e.weld, e.wind) = (Some(5.0), true)), "weld");
             let small = Some(Compression::Quantize);
             assert_eq!(wrong(format, |e| (e.compress, e.wind) = (small, true)), "compress");
+            assert_eq!(wrong(format, |e| (e.compress, e.growth) = (small, true)), "compress");
+            assert_eq!(wrong(format, |e| (e.weld, e.growth) = (Some(5.0), true)), "weld");
+            assert_eq!(wrong(format, |e| (e.wind, e.growth) = (true, true)), "growth");
+            let instances = Some(LeafForm::Instances);
+            assert_eq!(wrong(format, |e| (e.leaves, e.growth) = (instances, true)), "growth");
             assert_eq!(wrong(format, |e| (e.compress, e.sway) = (small, true)), "compress");
             assert_eq!(wrong(format, |e| (e.sway, e.lod) = (true, Some(2))), "sway");
         }
@@ -445,6 +464,7 @@ mod tests {
         let one_level = Export { triangles: vec![4_000, 2_000], level: Some(1), ..Export::default() };
         assert_eq!(one_level.check(Format::Obj), Ok(()));
         assert_eq!(wrong(Format::Obj, |e| e.wind = true), "wind");
+        assert_eq!(wrong(Format::Stl, |e| e.growth = true), "growth");
         assert_eq!(wrong(Format::Ply, |e| e.leaves = Some(LeafForm::Cards)), "leaves");
         assert_eq!(wrong(Format::Usda, |e| e.billboard = 2), "billboard");
         assert_eq!(wrong(Format::Usda, |e| e.compress = Some(Compression::Quantize)), "compress");

@@ -68,6 +68,7 @@ class Species(Mapping[str, Any]):
         compress: Optional[Literal["quantize"]] = None,
         season: Optional[_Season] = None,
         wind: bool = False,
+        growth: bool = False,
     ) -> int: ...
     def keys(self) -> list[str]: ...  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]
     def values(self) -> list[Any]: ...  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]
@@ -198,6 +199,7 @@ class Tree:
         compress: Optional[Literal["quantize"]] = None,
         season: Optional[_Season] = None,
         wind: bool = False,
+        growth: bool = False,
         sway: bool = False,
         collision: bool = False,
     ) -> list[Path]: ...
@@ -219,6 +221,7 @@ class Tree:
         compress: Optional[Literal["quantize"]] = None,
         season: Optional[_Season] = None,
         wind: bool = False,
+        growth: bool = False,
         sway: bool = False,
         collision: bool = False,
     ) -> bytes: ...
@@ -237,6 +240,7 @@ class Tree:
         textures: Optional[int] = None,
         season: Optional[_Season] = None,
         wind: bool = False,
+        growth: bool = False,
     ) -> Mesh: ...
     def wind(self, parts: Literal["stems", "leaves", "blossoms", "blobs"] = "stems") -> Wind: ...
     def _repr_png_(self) -> bytes: ...
@@ -255,6 +259,8 @@ class MeshPart:
     def triangles(self) -> npt.NDArray[np.uint32]: ...
     @property
     def wind(self) -> Optional[Wind]: ...
+    @property
+    def growth(self) -> Optional[npt.NDArray[np.float32]]: ...
 
 @final
 class Wind:

@@ -17,13 +17,13 @@ export const FORMATS = [
   { format: "usda", label: "USDA", what: "USD as text" },
 ] as const;
 
-/** Of what the rooms ask for, what a format can hold: wind, pictures, several meshes for levels and collision. */
-const HOLDS: Record<MeshFormat, { wind: boolean; pictures: boolean; meshes: boolean }> = {
-  glb: { wind: true, pictures: true, meshes: true },
-  obj: { wind: false, pictures: true, meshes: false },
-  ply: { wind: true, pictures: false, meshes: false },
-  stl: { wind: false, pictures: false, meshes: false },
-  usda: { wind: false, pictures: true, meshes: false },
+/** Of what the rooms ask for, what a format can hold: data for shaders, pictures, several meshes for levels and collision. */
+const HOLDS: Record<MeshFormat, { data: boolean; pictures: boolean; meshes: boolean }> = {
+  glb: { data: true, pictures: true, meshes: true },
+  obj: { data: false, pictures: true, meshes: false },
+  ply: { data: true, pictures: false, meshes: false },
+  stl: { data: false, pictures: false, meshes: false },
+  usda: { data: false, pictures: true, meshes: false },
 };
 
 /** How many triangles a file may have, level by level. */
@@ -45,11 +45,15 @@ export type Budget = (typeof BUDGETS)[number];
 export const TEXTURES = [1024, 512, 2048, 0] as const;
 export type Textures = (typeof TEXTURES)[number];
 
+/** What shaders are to do with a tree, by the numbers at its vertices. */
+export const SHADERS = { wind: "Wind", growth: "Growth", none: "None" } as const;
+export type Shaders = keyof typeof SHADERS;
+
 /** What is chosen for files, besides what the view shows. */
 export interface Asked {
   readonly budget: Budget;
   readonly textures: Textures;
-  readonly wind: boolean;
+  readonly shaders: Shaders;
   readonly collision: boolean;
 }
 
@@ -66,7 +70,8 @@ export function optionsFor(
   const held = HOLDS[format];
   const options: ExportOptions = {
     ...asked,
-    wind: Boolean(asked.wind) && held.wind,
+    wind: Boolean(asked.wind) && held.data,
+    growth: Boolean(asked.growth) && held.data,
     collision: Boolean(asked.collision) && held.meshes,
   };
   if (!held.pictures) {
@@ -102,13 +107,17 @@ export async function exportToml(): Promise<void> {
 }
 
 /** What the species room asks of a file. */
-export function optionsNow(format: MeshFormat, { budget, wind, textures, collision }: Asked): ExportOptions {
+export function optionsNow(
+  format: MeshFormat,
+  { budget, shaders, textures, collision }: Asked,
+): ExportOptions {
   // The view may show a coarser level than it was asked for.
   const shown = Math.max(level.value, mesh.value?.data.level ?? 0);
   const asked = {
     leaves: leavesAt(leaves.value, shown),
     season: recipes.value.season || null,
-    wind,
+    wind: shaders === "wind",
+    growth: shaders === "growth",
     textures,
     collision,
   };

@@ -2,7 +2,7 @@
 import type { JSX } from "preact";
 import type { MeshFormat } from "../../engine/protocol";
 import { Field } from "../../ui/controls";
-import { BUDGETS, type Budget, FORMATS, TEXTURES, type Textures } from "./exports";
+import { BUDGETS, type Budget, FORMATS, SHADERS, type Shaders, TEXTURES, type Textures } from "./exports";
 
 interface Choice<T> {
   value: T;
@@ -54,6 +54,27 @@ export function TexturesChoice({ value, onPick }: Choice<Textures>): JSX.Element
           {TEXTURES.map((side) => (
             <option key={side} value={side}>
               {pixels(side)}
+            </option>
+          ))}
+        </select>
+      )}
+    </Field>
+  );
+}
+
+export function ShadersChoice({ value, onPick }: Choice<Shaders>): JSX.Element {
+  return (
+    <Field label="Numbers for shaders">
+      {(id) => (
+        <select
+          id={id}
+          data-testid="shaders"
+          value={value}
+          onChange={(event) => onPick(event.currentTarget.value as Shaders)}
+        >
+          {Object.entries(SHADERS).map(([kind, label]) => (
+            <option key={kind} value={kind}>
+              {label}
             </option>
           ))}
         </select>

@@ -17,7 +17,7 @@ import {
   optionsNow,
   TEXTURES,
 } from "./exports";
-import { DetailChoice, FormatChoice, TexturesChoice } from "./file-choices";
+import { DetailChoice, FormatChoice, ShadersChoice, TexturesChoice } from "./file-choices";
 import { Turntable } from "./turntable";
 import { ZipDetails, ZipPart } from "./zip-part";
 import { MANY, otherSeeds, type ZipJob } from "./zip-state";
@@ -47,7 +47,7 @@ function EightTrees({ asked }: { asked: Asked }): JSX.Element {
           />
           <ZipPart
             job={jobOf(format.value, asked)}
-            what="The tree that you see and seven of other seeds, with the detail, pictures and wind from above."
+            what="The tree that you see and seven of other seeds, with the detail, pictures and numbers from above."
           />
         </>
       )}
@@ -59,13 +59,13 @@ export function Files(): JSX.Element {
   const asked = useSignal<Asked>({
     budget: BUDGETS[0],
     textures: TEXTURES[0],
-    wind: true,
+    shaders: "wind",
     collision: false,
   });
   const ask = (part: Partial<Asked>) => {
     asked.value = { ...asked.peek(), ...part };
   };
-  const { budget, textures, wind, collision } = asked.value;
+  const { budget, textures, shaders, collision } = asked.value;
   return (
     <section class="files" aria-label="Download">
       <div class="keeprow">
@@ -113,7 +113,7 @@ export function Files(): JSX.Element {
         onPick={(next) => ask({ budget: next })}
       />
       <TexturesChoice value={textures} onPick={(next) => ask({ textures: next })} />
-      <Check label="With weights for wind" checked={wind} onChange={(next) => ask({ wind: next })} />
+      <ShadersChoice value={shaders} onPick={(next) => ask({ shaders: next })} />
       <Check
         label="GLB with pieces that things bump into"
         checked={collision}

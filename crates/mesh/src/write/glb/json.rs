@@ -1,6 +1,6 @@
 //! The JSON part of a GLB file.
 
-use super::layout::{Layout, PartLayout, Placements, SKIN_BYTES, WIND_BYTES};
+use super::layout::{self, Layout, PartLayout, Placements, SKIN_BYTES};
 use super::materials::{
     TRANSFORM, TRANSMISSION, Textures, has_picture, material, transform_textures, transmitted,
 };
@@ -256,10 +256,11 @@ impl File {
             let view = self.view(place.tangents, count * bytes, Some(bytes), Some(ARRAY_BUFFER));
             attributes.insert("TANGENT".into(), json!(self.normalized(view, 0, small, "VEC4", count)));
         }
-        if part.wind {
-            let view = self.view(place.wind, count * WIND_BYTES, Some(WIND_BYTES), Some(ARRAY_BUFFER));
+        let (sets, bytes) = (layout::data_sets(&part), layout::data_bytes(&part));
+        if sets > 0 {
+            let view = self.view(place.data, count * bytes, Some(bytes), Some(ARRAY_BUFFER));
             // Engines read these sets, and not attributes of other names.
-            for set in 1..=7 {
+            for set in 1..=sets {
                 let accessor = self.accessor(view, 8 * (set - 1), FLOAT, "VEC2", count);
                 attributes.insert(format!("TEXCOORD_{set}"), json!(accessor));
             }

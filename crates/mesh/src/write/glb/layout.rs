@@ -10,15 +10,29 @@ use glam::Vec3;
 /// Bytes of a vertex' joint numbers and weights.
 pub(super) const SKIN_BYTES: u64 = 12;
 
-/// Bytes of a vertex' wind data.
-pub(super) const WIND_BYTES: u64 = 56;
+/// Sets of texture coordinates that hold a vertex' wind or growth data, from the second one on.
+pub(super) const fn data_sets(part: &Part) -> u64 {
+    if part.wind {
+        7
+    } else if part.growth {
+        2
+    } else {
+        0
+    }
+}
+
+/// Bytes of a vertex' wind or growth data.
+pub(super) const fn data_bytes(part: &Part) -> u64 {
+    8 * data_sets(part)
+}
 
 /// Offsets of a part's data in the binary chunk; those of data that it does not have are unused.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Place {
     pub(super) vertices: u64,
     pub(super) tangents: u64,
-    pub(super) wind: u64,
+    /// Wind or growth data.
+    pub(super) data: u64,
     pub(super) skin: u64,
     pub(super) indices: u64,
     pub(super) placements: Placements,
@@ -90,7 +104,7 @@ impl PartLayout {
         let vertices = block.vertices.len() as u64;
         self.next.vertices += vertices * self.form.stride();
         self.next.tangents += vertices * self.form.tangent_bytes();
-        self.next.wind += vertices * WIND_BYTES;
+        self.next.data += vertices * data_bytes(&self.part);
         self.next.skin += vertices * SKIN_BYTES;
         self.next.indices += block.triangles.len() as u64 * self.index_bytes();
         self.next.placements.advance(block.instances.len() as u64);
@@ -143,7 +157,7 @@ impl Layout {
                 let place = Place {
                     vertices: take(vertices * form.stride()),
                     tangents: take(if has_tangents { vertices * form.tangent_bytes() } else { 0 }),
-                    wind: take(if part.wind { vertices * WIND_BYTES } else { 0 }),
+                    data: take(vertices * data_bytes(&part)),
                     skin: take(if part.rigged { vertices * SKIN_BYTES } else { 0 }),
                     indices: take(part.count.triangles * layout.index_bytes()),
                     placements: Placements::new(part.instances, &mut take),

@@ -5,7 +5,7 @@
 //!
 //! | what | how |
 //! | --- | --- |
-//! | corners | interleaved position, normal, texture coordinates; tangents where there is a picture of normals; wind in `TEXCOORD_1` to `TEXCOORD_7` |
+//! | corners | interleaved position, normal, texture coordinates; tangents where there is a picture of normals; wind in `TEXCOORD_1` to `TEXCOORD_7`, or growth in `TEXCOORD_1` and `TEXCOORD_2` |
 //! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided; cards show pictures with alpha masks, bark tiles with normals, roughness and occlusion |
 //! | corners with a [`Grid`] | positions and texture coordinates of 16 bits, the latter where a picture is shown, normals and tangents of 8 (`KHR_mesh_quantization`, then required); nodes and `KHR_texture_transform` put them where they belong |
 //! | levels of detail | nodes and meshes `NAME_LOD0`, `NAME_LOD1`, … under one of the tree's name, all in the scene; or, if asked for, `MSFT_lod` on the node of the finest |
@@ -22,7 +22,7 @@ mod quantize;
 
 pub use quantize::Grid;
 
-use crate::block::{Block, Placement, Wind};
+use crate::block::{Block, Emergence, Placement, Wind};
 use crate::mesher::Mesher;
 use crate::palette::Palette;
 use crate::part::{MeshError, Part, Sink};
@@ -110,8 +110,8 @@ pub struct Scene<'a> {
     /// Whether the coarser levels of detail hang on the finest by `MSFT_lod`, outside the scene, instead of standing
     /// in it as nodes.
     pub lod_extension: bool,
-    /// What whole numbers stand for, where vertices are to be written as such: that of all meshes, which have neither
-    /// wind data nor joints.
+    /// What whole numbers stand for, where vertices are to be written as such: that of all meshes, which have no wind
+    /// data, growth data or joints.
     pub grid: Option<Grid>,
     /// Joints and their sway, for a mesh that was made with this rig.
     pub rig: Option<&'a Rig>,
@@ -199,7 +199,11 @@ impl<W: Write + Seek> Sink for Glb<'_, W> {
         }
         if !block.wind.is_empty() {
             let wind: Vec<[f32; 14]> = block.wind.iter().map(Wind::to_array).collect();
-            self.write_at(place.wind, bytemuck::cast_slice(&wind))?;
+            self.write_at(place.data, bytemuck::cast_slice(&wind))?;
+        }
+        if !block.growth.is_empty() {
+            let growth: Vec<[f32; 4]> = block.growth.iter().map(Emergence::to_array).collect();
+            self.write_at(place.data, bytemuck::cast_slice(&growth))?;
         }
         if !block.joints.is_empty() {
             let bytes: Vec<u8> = block.joints.iter().flat_map(|&joint| layout::skin(joint)).collect();
@@ -239,6 +243,9 @@ fn turn_upright(block: &mut Block) {
     for wind in &mut block.wind {
         (wind.pivot, wind.bend) = (upright(wind.pivot), upright(wind.bend));
         (wind.parent_pivot, wind.parent_bend) = (upright(wind.parent_pivot), upright(wind.parent_bend));
+    }
+    for emergence in &mut block.growth {
+        emergence.toward = upright(emergence.toward);
     }
     for placement in &mut block.instances {
         let [x, y, z, w] = placement.rotation.to_array();
