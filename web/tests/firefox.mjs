@@ -153,13 +153,19 @@ export async function openFirefox(path) {
     screenshot: async () =>
       Buffer.from((await call("WebDriver:TakeScreenshot", { full: false })).value, "base64"),
     /** The bytes of the next file that ends so, once it is whole. */
-    downloaded: async (ending) => {
-      const name = await until(() => {
+    downloaded: (ending) =>
+      until(() => {
         const names = readdirSync(downloads);
-        return !names.some((each) => each.endsWith(".part")) && names.find((each) => each.endsWith(ending));
-      }, `a file ${ending}`);
-      return readFileSync(join(downloads, name));
-    },
+        const name = names.find((each) => each.endsWith(ending));
+        if (!name || names.some((each) => each.endsWith(".part"))) return null;
+        try {
+          return readFileSync(join(downloads, name));
+        } catch (error) {
+          // It has another name while it is written.
+          if (error.code === "ENOENT") return null;
+          throw error;
+        }
+      }, `a file ${ending}`),
     /** Mistakes of scripts, and what they wrote as errors, of pages below an address. */
     problems: (address) =>
       inBrowser(

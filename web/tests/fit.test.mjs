@@ -254,9 +254,11 @@ test("a race between families shows its trees and may be stopped", async () => {
 test("a search can be paused, continued and stopped", async () => {
   const { page, context } = await fit();
   await start(page, endless("palm"));
+  const numbers = page.locator(".livenumbers dd").nth(1);
+  await numbers.waitFor({ timeout: PATIENCE });
   await page.getByTestId("pause").click();
   await page.getByText("Paused").waitFor();
-  const tried = () => page.locator(".livenumbers dd").nth(1).textContent();
+  const tried = () => numbers.textContent();
   // Workers end what they have begun.
   await atRest(page);
   const held = await tried();
