@@ -52,7 +52,8 @@ impl Collar {
         // The surfaces meet earlier than that on the side of the obtuse angle, and where the parent's turns away at both
         // sides. A ring that is widest later would stand out there.
         let wide = (1.0 + swell) * radius;
-        let turned = (1.0 - (wide / thick).powi(2)).max(0.0).sqrt();
+        let part = wide / thick;
+        let turned = (1.0 - part * part).max(0.0).sqrt();
         let surface = (axis_leaves * turned - wide * cos / sin).max(0.0);
         let end = axis_leaves + LENGTH * radius;
         (end < rings.last()?.along / 2.0).then_some(Self { surface, end, swell })
