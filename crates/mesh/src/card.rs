@@ -22,15 +22,7 @@ impl Source for Cards<'_> {
     fn parts(&self, mesh: usize) -> Vec<Part> {
         let cards = self.0.len() as u64;
         let count = Count { vertices: 4 * cards, triangles: 2 * cards };
-        let part = Part {
-            mesh,
-            material: Material::Card,
-            count,
-            instances: 0,
-            wind: false,
-            growth: false,
-            rigged: false,
-        };
+        let part = Part::plain(mesh, Material::Card, count);
         if cards == 0 { Vec::new() } else { vec![part] }
     }
 

@@ -120,15 +120,7 @@ impl Source for Collision<'_> {
         let sides = u64::from(SIDES);
         // Two for each side, and what is left of the two ends.
         let count = Count { vertices: 2 * sides, triangles: 2 * sides + 2 * (sides - 2) };
-        vec![Part {
-            mesh,
-            material: Material::Collision,
-            count,
-            instances: 0,
-            wind: false,
-            growth: false,
-            rigged: false,
-        }]
+        vec![Part::plain(mesh, Material::Collision, count)]
     }
 
     fn ranges(&self, _: Material) -> Vec<Range<usize>> {

@@ -73,6 +73,14 @@ pub struct Part {
     pub rigged: bool,
 }
 
+impl Part {
+    /// A part of triangles whose corners have neither wind data nor growth data nor joints.
+    #[must_use]
+    pub const fn plain(mesh: usize, material: Material, count: Count) -> Self {
+        Self { mesh, material, count, instances: 0, wind: false, growth: false, rigged: false }
+    }
+}
+
 /// Why a mesh could not be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

@@ -25,15 +25,7 @@ impl Source for Welded<'_> {
     fn parts(&self, mesh: usize) -> Vec<Part> {
         let Block { vertices, triangles, .. } = self.bark;
         let count = Count { vertices: vertices.len() as u64, triangles: triangles.len() as u64 };
-        let bark = Part {
-            mesh,
-            material: Material::Bark,
-            count,
-            instances: 0,
-            wind: false,
-            growth: false,
-            rigged: false,
-        };
+        let bark = Part::plain(mesh, Material::Bark, count);
         let foliage = self.foliage.parts(mesh).into_iter().filter(|part| part.material != Material::Bark);
         std::iter::once(bark).filter(|bark| bark.count.triangles > 0).chain(foliage).collect()
     }

@@ -62,7 +62,7 @@ impl Rings {
     pub(crate) fn sample(&mut self, tree: &Tree, stem: &Stem, tolerance: f64) {
         self.path.trace(tree, stem, tolerance);
         unroll(&mut self.path.rings);
-        self.widest = self.path.rings.iter().map(|ring| ring.radius).fold(0.0, f64::max);
+        self.widest = unroll::widest(&self.path.rings);
         self.tiles_around = unroll::around(self.widest);
         collar::widen(tree, stem, tolerance, &mut self.path.rings, &mut self.path.corners);
         let last = self.path.rings.len() - 1;

@@ -21,7 +21,8 @@ pub(crate) fn around(widest: f64) -> u32 {
     (TAU * widest / TILE).round().clamp(1.0, 1e4) as u32
 }
 
-fn widest(rings: &[Ring]) -> f64 {
+/// Radius of the widest of some rings, in metres.
+pub(super) fn widest(rings: &[Ring]) -> f64 {
     rings.iter().map(|ring| ring.radius).fold(0.0, f64::max)
 }
 

@@ -46,8 +46,12 @@ export const TEXTURES = [1024, 512, 2048, 0] as const;
 export type Textures = (typeof TEXTURES)[number];
 
 /** What shaders are to do with a tree, by the numbers at its vertices. */
-export const SHADERS = { wind: "Wind", growth: "Growth", none: "None" } as const;
-export type Shaders = keyof typeof SHADERS;
+export const SHADERS = [
+  { id: "wind", label: "Wind" },
+  { id: "growth", label: "Growth" },
+  { id: "none", label: "None" },
+] as const;
+export type Shaders = (typeof SHADERS)[number]["id"];
 
 /** What is chosen for files, besides what the view shows. */
 export interface Asked {

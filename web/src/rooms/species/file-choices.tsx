@@ -1,4 +1,4 @@
-// What files are to have: their detail, the pictures in them, their format.
+// What files are to have: their detail, the pictures and numbers in them, their format.
 import type { JSX } from "preact";
 import type { MeshFormat } from "../../engine/protocol";
 import { Field } from "../../ui/controls";
@@ -9,23 +9,28 @@ interface Choice<T> {
   onPick: (value: T) => void;
 }
 
-export function DetailChoice(
-  props: Choice<Budget> & { label: string; budgets?: readonly Budget[] },
-): JSX.Element {
-  const { label, value, budgets = BUDGETS, onPick } = props;
+interface Picked<T> extends Choice<T> {
+  label: string;
+  testid: string;
+  options: readonly { id: T; label: string }[];
+}
+
+/** A list of which one is picked. */
+function Pick<T extends string | number>(props: Picked<T>): JSX.Element {
+  const { label, testid, options, value, onPick } = props;
   return (
     <Field label={label}>
       {(id) => (
         <select
           id={id}
-          data-testid="budget"
-          value={value.id}
+          data-testid={testid}
+          value={value}
           onChange={(event) => {
-            const picked = budgets.find((one) => one.id === event.currentTarget.value);
-            if (picked) onPick(picked);
+            const picked = options.find((one) => String(one.id) === event.currentTarget.value);
+            if (picked) onPick(picked.id);
           }}
         >
-          {budgets.map((one) => (
+          {options.map((one) => (
             <option key={one.id} value={one.id}>
               {one.label}
             </option>
@@ -36,73 +41,36 @@ export function DetailChoice(
   );
 }
 
-const pixels = (side: Textures) => (side === 0 ? "None" : `${side.toLocaleString("en")} pixels a side`);
-
-export function TexturesChoice({ value, onPick }: Choice<Textures>): JSX.Element {
+export function DetailChoice(
+  props: Choice<Budget> & { label: string; budgets?: readonly Budget[] },
+): JSX.Element {
+  const { label, value, budgets = BUDGETS, onPick } = props;
   return (
-    <Field label="Pictures of bark and leaves">
-      {(id) => (
-        <select
-          id={id}
-          data-testid="textures"
-          value={value}
-          onChange={(event) => {
-            const picked = TEXTURES.find((side) => String(side) === event.currentTarget.value);
-            if (picked !== undefined) onPick(picked);
-          }}
-        >
-          {TEXTURES.map((side) => (
-            <option key={side} value={side}>
-              {pixels(side)}
-            </option>
-          ))}
-        </select>
-      )}
-    </Field>
+    <Pick
+      label={label}
+      testid="budget"
+      options={budgets}
+      value={value.id}
+      onPick={(id) => onPick(budgets.find((one) => one.id === id) ?? value)}
+    />
   );
 }
 
-export function ShadersChoice({ value, onPick }: Choice<Shaders>): JSX.Element {
-  return (
-    <Field label="Numbers for shaders">
-      {(id) => (
-        <select
-          id={id}
-          data-testid="shaders"
-          value={value}
-          onChange={(event) => onPick(event.currentTarget.value as Shaders)}
-        >
-          {Object.entries(SHADERS).map(([kind, label]) => (
-            <option key={kind} value={kind}>
-              {label}
-            </option>
-          ))}
-        </select>
-      )}
-    </Field>
-  );
+const PIXELS = TEXTURES.map((id) => ({
+  id,
+  label: id === 0 ? "None" : `${id.toLocaleString("en")} pixels a side`,
+}));
+
+export function TexturesChoice(props: Choice<Textures>): JSX.Element {
+  return <Pick label="Pictures of bark and leaves" testid="textures" options={PIXELS} {...props} />;
 }
 
-export function FormatChoice({ value, onPick }: Choice<MeshFormat>): JSX.Element {
-  return (
-    <Field label="Format">
-      {(id) => (
-        <select
-          id={id}
-          data-testid="zip-format"
-          value={value}
-          onChange={(event) => {
-            const picked = FORMATS.find(({ format }) => format === event.currentTarget.value);
-            if (picked) onPick(picked.format);
-          }}
-        >
-          {FORMATS.map(({ format, label, what }) => (
-            <option key={format} value={format}>
-              {label}, {what}
-            </option>
-          ))}
-        </select>
-      )}
-    </Field>
-  );
+export function ShadersChoice(props: Choice<Shaders>): JSX.Element {
+  return <Pick label="Numbers for shaders" testid="shaders" options={SHADERS} {...props} />;
+}
+
+const FILES = FORMATS.map(({ format, label, what }) => ({ id: format, label: `${label}, ${what}` }));
+
+export function FormatChoice(props: Choice<MeshFormat>): JSX.Element {
+  return <Pick label="Format" testid="zip-format" options={FILES} {...props} />;
 }
