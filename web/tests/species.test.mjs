@@ -122,15 +122,24 @@ test("a species file that is bare grows no leaves", async () => {
   await context.close();
 });
 
-test("the GLB is valid", async () => {
+test("the GLB is valid, and has the numbers for shaders that were chosen", async () => {
   const { page, context } = await species();
   await page.getByLabel("Download", { exact: true }).first().check();
-  const waiting = page.waitForEvent("download");
-  await page.getByTestId("export-glb").click();
-  const file = await (await waiting).path();
-  const report = await validator.validateBytes(new Uint8Array(await readFile(file)));
-  assert.equal(report.issues.numErrors, 0, JSON.stringify(report.issues.messages.slice(0, 5)));
-  assert.ok(report.info.totalTriangleCount > 1000);
+  for (const [shaders, sets] of [
+    ["wind", 8],
+    ["growth", 3],
+    ["none", 1],
+  ]) {
+    await page.getByTestId("shaders").selectOption(shaders);
+    const waiting = page.waitForEvent("download");
+    await page.getByTestId("export-glb").click();
+    const bytes = new Uint8Array(await readFile(await (await waiting).path()));
+    const report = await validator.validateBytes(bytes);
+    assert.equal(report.issues.numErrors, 0, JSON.stringify(report.issues.messages.slice(0, 5)));
+    assert.ok(report.info.totalTriangleCount > 1000);
+    const json = new TextDecoder().decode(bytes.subarray(20, 20_000));
+    assert.equal(new Set(json.match(/TEXCOORD_\d/g)).size, sets, shaders);
+  }
   await context.close();
 });
 
