@@ -2,12 +2,13 @@
 import { computed, signal, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
-import { type Area, joined, type Point, paint, stroke } from "./brush";
+import { type Area, joined, NOTHING, type Point, stroke } from "./brush";
 import { running } from "./fit-state";
 import { canReadAgain, type GoalPicture, info, masks, picture, readInBox, setMask } from "./goal-state";
 import { Handle } from "./handle";
 import { layers } from "./look-state";
 import { LookView } from "./look-view";
+import { MaskCanvas } from "./mask-canvas";
 
 /**
  * What dragging over the picture does: nothing, paint the tree, paint what is not the tree, or draw a box around the tree.
@@ -78,11 +79,9 @@ function edges({ from, to }: Corners, width: number, height: number): Record<str
   };
 }
 
-/** Joined with any area it is that one. */
-const NOTHING: Area = { left: Infinity, top: Infinity, right: 0, bottom: 0 };
-
 export function GoalEditor(): JSX.Element | null {
   const canvas = useRef<HTMLCanvasElement>(null);
+  const onCanvas = useRef(new MaskCanvas());
   const stroking = useRef<Stroke | null>(null);
   const frame = useRef(0);
   /** What the canvas shows. */
@@ -101,7 +100,7 @@ export function GoalEditor(): JSX.Element | null {
     const isThere = last?.ink === ink && last.on === now && last.layers === kinds;
     // One that goes on paints by itself, and ends with all of it.
     if (!canvas.current || !now || isThere || stroking.current) return;
-    paint(canvas.current, now, { ink, layers: kinds });
+    onCanvas.current.paint(canvas.current, now, { ink, layers: kinds });
     painted.current = { ink, on: now, layers: kinds };
   });
 
@@ -128,7 +127,7 @@ export function GoalEditor(): JSX.Element | null {
     frame.current = requestAnimationFrame(() => {
       const drawn = stillOn(stroking.current);
       if (!canvas.current || !drawn) return;
-      paint(canvas.current, shown, { ink: drawn.ink, layers: kinds() }, drawn.dirty);
+      onCanvas.current.paint(canvas.current, shown, { ink: drawn.ink, layers: kinds() }, drawn.dirty);
       drawn.dirty = NOTHING;
     });
   };
@@ -140,7 +139,7 @@ export function GoalEditor(): JSX.Element | null {
     if (now) {
       cancelAnimationFrame(frame.current);
       const drawn = { ink: now.ink, layers: kinds() };
-      if (canvas.current) paint(canvas.current, shown, drawn, now.dirty);
+      if (canvas.current) onCanvas.current.paint(canvas.current, shown, drawn, now.dirty);
       painted.current = { ...drawn, on: shown };
       const { value, points } = now;
       setMask({ ink: now.ink, strokes: [...masks.peek().strokes, { value, points }] });
@@ -155,7 +154,7 @@ export function GoalEditor(): JSX.Element | null {
     stroking.current = null;
     box.value = null;
     const drawn = { ink: masks.peek().ink, layers: layers.peek() };
-    if (canvas.current) paint(canvas.current, shown, drawn);
+    if (canvas.current) onCanvas.current.paint(canvas.current, shown, drawn);
     painted.current = { ...drawn, on: shown };
   };
   const idle = running.value || brush.value === "off";
