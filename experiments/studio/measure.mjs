@@ -1,18 +1,19 @@
-// What the page weighs and how fast it is, beside the program: node experiments/studio/measure.mjs PLEACH
-// PLEACH is the program, built for release; web/dist has to be built. Writes results.csv beside this file.
+// What the page weighs and how fast it is, beside the program: node experiments/studio/measure.mjs PLEACH PICTURE...
+// PLEACH is the program, built for release; web/dist has to be built. PICTURE is a photograph of a tree, whose name in the
+// results is that of its file. Writes results.csv beside this file.
 
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
+import { dirname, join, parse } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = dirname(dirname(here));
 const { newPage, open } = await import(join(root, "web/tests/browser.mjs"));
-const [pleach] = process.argv.slice(2);
-if (!pleach) throw new Error("usage: node experiments/studio/measure.mjs PLEACH");
+const [pleach, ...photographs] = process.argv.slice(2);
+if (!pleach) throw new Error("usage: node experiments/studio/measure.mjs PLEACH PICTURE...");
 
 /** Goals whose trees take little, middling and much time to grow. */
 const GOALS = ["palm", "quaking_aspen", "silver_birch", "weeping_willow"];
@@ -82,49 +83,65 @@ note("first tree of the gallery, after the address", median(firsts), "s");
 
 // Fits: trees a second, and tasks of the page's own thread above 50 ms.
 const folder = mkdtempSync(join(tmpdir(), "studio-"));
-for (const goal of GOALS) {
-  const { page, context } = await newPage(studio, {}, `#fit?goal=${goal}`);
-  await page.getByTestId("goal").waitFor();
-  await page.waitForFunction(() => document.querySelector('[data-testid="goal"]').width > 2);
-  await page.evaluate(() => {
+
+/** Notes from now on the tasks of the page's own thread above 50 ms. */
+const noteStalls = (page) =>
+  page.evaluate(() => {
     window.stalls = [];
     const watch = (list) => window.stalls.push(...list.getEntries().map((entry) => entry.duration));
     new PerformanceObserver(watch).observe({ type: "longtask" });
   });
+
+/** A fit of the goal that the page shows, and one of the same file by the program. */
+async function compare(name, file, page) {
   await page.getByRole("radio", { name: `${SECONDS} s` }).check();
   const height = await page.getByRole("spinbutton", { name: /Height/ }).inputValue();
+  const pressed = Date.now();
   await page.getByTestId("start").click();
-  await page.getByTestId("score").waitFor({ timeout: 4 * SECONDS * 1000 });
+  await page.waitForFunction(() =>
+    document.querySelector('[data-testid="overlay"]')?.getAttribute("aria-label").includes("Likeness"),
+  );
+  note(`${name}: first tree, after Start`, (Date.now() - pressed) / 1000, "s");
+  await page.getByTestId("score").waitFor({ timeout: 8 * SECONDS * 1000 });
   const likeness = Number(await page.locator(".score .big").textContent());
   const { trees, seconds } = await page.evaluate(() => window.studio.search());
   const stalls = await page.evaluate(() => window.stalls);
-  await context.close();
-  const run = spawnSync(
-    pleach,
-    [
-      "fit",
-      join(root, "targets", `${goal}.png`),
-      "--height",
-      height,
-      "--timeout",
-      `${SECONDS}s`,
-      "--individual",
-      "off",
-      "--out",
-      join(folder, goal),
-      "--quiet",
-    ],
-    { encoding: "utf8" },
-  );
+  const options = ["--height", height, "--timeout", `${SECONDS}s`, "--individual", "off"];
+  const out = ["--out", join(folder, name), "--quiet"];
+  const run = spawnSync(pleach, ["fit", file, ...options, ...out], { encoding: "utf8" });
   if (run.status !== 0) throw new Error(run.stderr);
-  const summary = JSON.parse(readFileSync(join(folder, goal, "summary.json"), "utf8"));
+  const summary = JSON.parse(readFileSync(join(folder, name, "summary.json"), "utf8"));
   const native = summary.evaluations / summary.search_seconds;
-  note(`${goal}: likeness after ${SECONDS} s in the page`, likeness, "");
-  note(`${goal}: trees a second in the page`, trees / seconds, "1/s");
-  note(`${goal}: trees a second by the program`, native, "1/s");
-  note(`${goal}: page over program`, trees / seconds / native, "");
-  note(`${goal}: tasks above 50 ms on the page's own thread`, stalls.length, "tasks");
-  if (stalls.length > 0) note(`${goal}: the longest of them`, Math.max(...stalls), "ms");
+  note(`${name}: likeness after ${SECONDS} s in the page`, likeness, "");
+  note(`${name}: trees a second in the page`, trees / seconds, "1/s");
+  note(`${name}: trees a second by the program`, native, "1/s");
+  note(`${name}: page over program`, trees / seconds / native, "");
+  note(`${name}: tasks above 50 ms on the page's own thread`, stalls.length, "tasks");
+  if (stalls.length > 0) note(`${name}: the longest of them`, Math.max(...stalls), "ms");
+}
+
+for (const goal of GOALS) {
+  const { page, context } = await newPage(studio, {}, `#fit?goal=${goal}`);
+  await page.getByTestId("goal").waitFor();
+  await page.waitForFunction(() => document.querySelector('[data-testid="goal"]').width > 2);
+  await noteStalls(page);
+  await compare(goal, join(root, "targets", `${goal}.png`), page);
+  await context.close();
+}
+for (const file of photographs) {
+  const { page, context } = await newPage(studio, {}, "#fit");
+  const { name } = parse(file);
+  const choose = page.getByRole("button", { name: "Choose a picture" });
+  await choose.waitFor();
+  await noteStalls(page);
+  const chooser = page.waitForEvent("filechooser");
+  await choose.click();
+  const given = Date.now();
+  await (await chooser).setFiles(file);
+  await page.locator(".facts", { hasText: name }).waitFor();
+  note(`${name}: read, after it was given`, (Date.now() - given) / 1000, "s");
+  await compare(name, file, page);
+  await context.close();
 }
 await studio.close();
 writeFileSync(join(here, "results.csv"), `${rows.map((row) => row.map(cell).join(",")).join("\n")}\n`);

@@ -17,6 +17,8 @@ const LENGTH: f64 = 2.0;
 const WIDEST: f64 = 0.9;
 /// A branch leaves its parent as if at an angle of at least this sine.
 const FLATTEST: f64 = 0.35;
+/// Metres: a swelling of less is not worth its triangles, since one has to come close to see it.
+const SLIGHTEST: f64 = 0.004;
 /// Where rings stand on the collar, in parts of its length.
 const RINGS: [f64; 4] = [0.0, 0.22, 0.5, 1.0];
 
@@ -30,7 +32,7 @@ struct Collar {
 
 impl Collar {
     /// The collar of `stem`, `None` if it needs none: trunks, forks, and branches on which it would be less than
-    /// `tolerance` metres or longer than half of the branch.
+    /// `tolerance` or [`SLIGHTEST`] or longer than half of the branch.
     fn new(tree: &Tree, stem: &Stem, rings: &[Ring], tolerance: f64) -> Option<Self> {
         if stem.kind != StemKind::Branch {
             return None;
@@ -42,7 +44,7 @@ impl Collar {
         let axis = (to.point - from.point).try_normalize()?;
         let thick = from.radius + (to.radius - from.radius) * place.part;
         let swell = SWELL.min(WIDEST * thick / radius - 1.0);
-        if swell * radius < tolerance {
+        if swell * radius < tolerance.max(SLIGHTEST) {
             return None;
         }
         let depth = thick - center.distance(from.point.lerp(to.point, place.part));

@@ -65,25 +65,26 @@ impl Crown {
             })
             .collect();
         let total: f32 = directions.iter().map(|d| d.1).sum();
-        let UVec3 { x: nx, y: ny, .. } = self.size;
+        let size = self.size.as_ivec3();
+        let ways: Vec<(Way, f32)> =
+            directions.into_iter().map(|(direction, weight)| (Way::new(direction, size), weight)).collect();
+        let (nx, ny) = (size.x as usize, size.y as usize);
         (0..density.len())
             .into_par_iter()
             .map(|i| {
-                let i = i as u32;
-                let cell = ivec3((i % nx) as i32, (i / nx % ny) as i32, (i / (nx * ny)) as i32);
-                let start = cell.as_vec3() + 0.5;
-                let through = |&(direction, weight): &(Vec3, f32)| {
+                let cell = [i % nx, i / nx % ny, i / (nx * ny)];
+                let through = |(way, weight): &(Way, f32)| {
                     // Half of the cell itself, then one step per cell.
-                    let mut depth = self.index(cell).map_or(0.0, |i| density[i] * 0.5);
-                    let mut at = start + direction;
-                    while depth < 4.0 {
-                        let Some(index) = self.index(floor(at)) else { break };
-                        depth += density[index];
-                        at += direction;
+                    let mut depth = density[i] * 0.5;
+                    for offset in way.from(cell) {
+                        depth += density[i.wrapping_add_signed(*offset)];
+                        if depth >= 4.0 {
+                            break;
+                        }
                     }
                     weight * (-depth).exp()
                 };
-                directions.iter().map(through).sum::<f32>() / total
+                ways.iter().map(through).sum::<f32>() / total
             })
             .collect()
     }
@@ -101,6 +102,36 @@ impl Crown {
             sum += sky * weight(0) * weight(1) * weight(2);
         }
         sum
+    }
+}
+
+/// The cells that lie in one direction from the middle of a cell, one step of a cell's side after the other. They are the
+/// same from every cell, but for how soon the grid ends.
+struct Way {
+    /// From the number of the first cell to those of the others.
+    offsets: Vec<isize>,
+    /// By axis, and by where the first cell is on it: how many of the others are inside.
+    inside: [Vec<usize>; 3],
+}
+
+impl Way {
+    fn new(direction: Vec3, size: IVec3) -> Self {
+        let longest = size.max_element();
+        let cells: Vec<IVec3> =
+            (1..=2 * longest).map(|step| floor(Vec3::splat(0.5) + direction * step as f32)).collect();
+        let inside = [0, 1, 2].map(|axis| {
+            let is_inside =
+                |first: i32| cells.partition_point(|cell| (0..size[axis]).contains(&(first + cell[axis])));
+            (0..size[axis]).map(is_inside).collect()
+        });
+        let number = |cell: IVec3| ((cell.z * size.y + cell.y) * size.x + cell.x) as isize;
+        Self { offsets: cells.into_iter().map(number).collect(), inside }
+    }
+
+    /// Those that are inside of the grid, seen from a cell.
+    fn from(&self, cell: [usize; 3]) -> &[isize] {
+        let inside = self.inside.iter().zip(cell).map(|(inside, at)| inside[at]);
+        &self.offsets[..inside.min().unwrap_or(0)]
     }
 }
 
@@ -123,6 +154,33 @@ mod tests {
         }
         for v in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 3e9, -3e9, f32::MIN] {
             assert_eq!(floor(Vec3::splat(v)), Vec3::splat(v).floor().as_ivec3(), "{v}");
+        }
+    }
+
+    #[test]
+    fn a_way_ends_where_the_grid_does() {
+        let size = ivec3(5, 4, 3);
+        let east = Way::new(Vec3::X, size);
+        assert_eq!([0, 2, 4].map(|x| east.from([x, 1, 1])), [&[1, 2, 3, 4][..], &[1, 2], &[]]);
+        let down = Way::new(Vec3::NEG_Z, size);
+        assert_eq!([0, 2].map(|z| down.from([4, 3, z])), [&[][..], &[-20, -40]]);
+        // From corner to corner, at a slant: every cell that a march would pass.
+        for direction in [vec3(1.0, 0.8, 0.5), vec3(-0.2, 0.9, -0.6)].map(Vec3::normalize) {
+            let way = Way::new(direction, size);
+            for cell in [[0, 0, 0], [4, 0, 2], [2, 1, 1]] {
+                let start = Vec3::from(cell.map(|at| at as f32 + 0.5));
+                let number = |at: Vec3| {
+                    let at = floor(at);
+                    (at.cmpge(IVec3::ZERO).all() && at.cmplt(size).all())
+                        .then(|| ((at.z * size.y + at.y) * size.x + at.x) as isize)
+                };
+                let first = number(start).unwrap();
+                let passed: Vec<isize> = (1..20)
+                    .map_while(|step| number(start + direction * step as f32))
+                    .map(|n| n - first)
+                    .collect();
+                assert_eq!(way.from(cell), passed, "{cell:?} {direction}");
+            }
         }
     }
 

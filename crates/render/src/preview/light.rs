@@ -65,6 +65,11 @@ impl Sun {
     pub(crate) fn at(&self, p: Vec3, reach: i32, stride: f32) -> f32 {
         let at = self.place(p);
         let bias = 2.5 / self.scale;
+        let margin = reach as f32 * stride;
+        let is_beside = |x: f32, side: u32| x < -margin || x > side as f32 + margin;
+        if is_beside(at.x, self.width) || is_beside(at.y, self.height) {
+            return 1.0;
+        }
         let mut lit = 0.0;
         for dy in -reach..=reach {
             for dx in -reach..=reach {

@@ -103,9 +103,12 @@ impl View<'_> {
 
     fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
         let mut sum = Vec4::ZERO;
+        // It is soft, so that one look at it does for all samples.
+        let mut ground = None;
         for j in 0..SAMPLES {
             for i in 0..SAMPLES {
-                sum += self.sample(x * SAMPLES + i, y * SAMPLES + j);
+                let tree = self.sample(x * SAMPLES + i, y * SAMPLES + j);
+                sum += tree.unwrap_or_else(|| *ground.get_or_insert_with(|| self.ground(x, y)));
             }
         }
         let mut color = sum / (SAMPLES * SAMPLES) as f32;
@@ -131,21 +134,19 @@ impl View<'_> {
         }
     }
 
-    /// Shown light and coverage of one sample, multiplied.
-    fn sample(&self, x: u32, y: u32) -> Vec4 {
+    /// Shown light and coverage of one sample of the tree, multiplied; `None` where the ground is seen.
+    fn sample(&self, x: u32, y: u32) -> Option<Vec4> {
         let ray = self.camera.ray(x as f32 + 0.5, y as f32 + 0.5);
-        let Some(Hit { at, normal, material, triangle, uv, .. }) = self.hit(x, y, ray) else {
-            return self.ground(ray) * self.margin(x, y);
-        };
+        let Hit { at, normal, material, triangle, uv, .. } = self.hit(x, y, ray)?;
         if self.scene.has_roots && at.z < 0.0 && self.settings.ground != Ground::None {
-            return self.ground(ray) * self.margin(x, y);
+            return None;
         }
         let light = match material {
             Material::Bark => self.bark(at, normal, ray, self.scene.stem_of(triangle.first_corner), uv),
             Material::Leaf if self.scene.blobs.contains(&triangle.number) => self.blob(at, normal),
             _ => self.leaf(at, normal, ray, material, uv),
         };
-        if self.sun.is_some() { shown(light).extend(1.0) } else { light.extend(1.0) }
+        Some(if self.sun.is_some() { shown(light) } else { light }.extend(1.0))
     }
 
     /// What is seen at a sample along `ray`.
@@ -303,20 +304,22 @@ impl View<'_> {
         (SKY * (0.35 + 0.65 * up) + BOUNCE * (1.0 - up)) * (0.06 + 0.94 * open)
     }
 
-    /// How much of the ground is shown at a sample: a picture that will stand on a page ends softly,
+    /// How much of the ground is shown in a pixel: a picture that will stand on a page ends softly,
     /// where a studio's wall goes on behind the frame.
     fn margin(&self, x: u32, y: u32) -> f32 {
         if self.settings.background == Background::Studio {
             return 1.0;
         }
-        let [width, height] = [self.settings.width, self.settings.height].map(|side| (side * SAMPLES) as f32);
+        let [width, height] = [self.settings.width, self.settings.height].map(|side| side as f32);
         let (left, above) = (x as f32 + 0.5, y as f32 + 0.5);
         let edge = left.min(width - left).min(height - above);
         smooth(0.0, 0.16 * width.min(height), edge)
     }
 
-    /// The ground where a ray meets it: grass, or its shadow alone.
-    fn ground(&self, ray: Vec3) -> Vec4 {
+    /// The ground in a pixel: grass, or its shadow alone.
+    fn ground(&self, x: u32, y: u32) -> Vec4 {
+        let middle = |pixel: u32| (pixel as f32 + 0.5) * SAMPLES as f32;
+        let ray = self.camera.ray(middle(x), middle(y));
         let Some(sun) = self.sun.as_ref().filter(|_| self.settings.ground != Ground::None && ray.z < -1e-4)
         else {
             return Vec4::ZERO;
@@ -324,21 +327,24 @@ impl View<'_> {
         let scene = self.scene;
         let at = self.camera.eye - ray * (self.camera.eye.z / ray.z);
         let away = (at - vec3(0.0, 0.0, at.z)).length() / (scene.high - scene.low).max_element().max(1e-3);
+        let shown_part = (1.0 - smooth(0.9, 2.2, away)) * self.margin(x, y);
+        if shown_part <= 0.0 {
+            return Vec4::ZERO;
+        }
         let open = scene.crown.sky_at(at + Vec3::Z * 0.05);
         let shadow = sun.at(at, 2, 1.6);
         let sunlit = SUN * (sun.towards.z * shadow);
         let light = sunlit + SKY * open;
         let full = SUN * sun.towards.z + SKY;
-        let fade = 1.0 - smooth(0.9, 2.2, away);
         match self.settings.ground {
             Ground::Grass => {
                 let blade = 0.8 + 0.2 * (at.x * 9.0 + (at.y * 7.0).sin() * 2.0).sin() * (at.y * 8.0).cos();
                 let grass = vec3(0.115, 0.155, 0.05) * blade;
-                (shown(grass * light) * fade).extend(fade)
+                shown(grass * light).extend(1.0) * shown_part
             }
             _ => {
                 let dark = 1.0 - (light.element_sum() / full.element_sum()).clamp(0.0, 1.0);
-                let alpha = 0.62 * dark * fade;
+                let alpha = 0.62 * dark * shown_part;
                 (vec3(0.10, 0.11, 0.14) * alpha).extend(alpha)
             }
         }
