@@ -87,14 +87,13 @@ fn a_wrong_request_is_told_before_anything_is_done() {
 fn whether_a_goal_has_leaves_is_seen_and_said() {
     let dir = Dir::new();
     let draw = |name: &str, more: &[&str]| {
-        let args = ["silhouette", "acer", "--seed", "21", "--size", "160", "-o", name];
+        let args = ["silhouette", "acer", "--seed", "21", "--size", "96", "-o", name];
         let _ = dir.run([&args[..], more].concat()).ok();
     };
     draw("leafy.png", &[]);
     draw("bare.png", &["--no-leaves"]);
     let fit = |goal: &str, out: &str, more: &[&str]| {
-        // From this size on a goal is compared with drawings that are kept, and nothing has to be grown for that.
-        let args = ["fit", goal, "--out", out, "--size", "128", "--evaluations", "20", "--individual", "off"];
+        let args = ["fit", goal, "--out", out, "--size", "64", "--evaluations", "20", "--individual", "off"];
         let run = dir.run([&args[..], more].concat());
         let _ = run.ok();
         (summary(&dir, out), run.stderr())
