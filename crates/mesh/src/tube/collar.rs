@@ -126,7 +126,8 @@ mod tests {
                 assert_eq!(path.rings.len(), before.len());
                 continue;
             }
-            branches += 1;
+            // Twigs have none, which would stand out by less than is seen.
+            branches += usize::from(before[0].radius * SWELL > SLIGHTEST);
             let is_wider = |(a, b): (&Ring, &Ring)| a.radius > 1.3 * b.radius;
             let last = |rings: &[Ring]| rings[rings.len() - 1].radius;
             assert_eq!(last(&path.rings), last(&before));
@@ -140,6 +141,6 @@ mod tests {
                 assert!(!path.rings.iter().zip(&before).any(is_wider));
             }
         }
-        assert!(4 * with > branches, "{with} of {branches}");
+        assert!(branches > 20 && 4 * with > branches, "{with} of {branches}");
     }
 }
