@@ -37,7 +37,7 @@ note(
 );
 const named = (part) => weight(assets.find((name) => name.includes(part)));
 note("of it the library", named("pleach_web_bg"), "MB");
-note("of it three.js (the room Species)", named("tree-view"), "MB");
+note("of it three.js, for views in three dimensions", named("scene-view"), "MB");
 note(
   "drawings for the first guess, loaded with the first fit",
   statSync(join(dist, "known.bin")).size / 1e6,
