@@ -138,7 +138,7 @@ for (const file of photographs) {
   await choose.click();
   const given = Date.now();
   await (await chooser).setFiles(file);
-  await page.locator(".facts", { hasText: name }).waitFor();
+  await page.locator(".facts", { hasText: name.replaceAll("_", " ") }).waitFor();
   note(`${name}: read, after it was given`, (Date.now() - given) / 1000, "s");
   await compare(name, file, page);
   await context.close();
