@@ -59,8 +59,8 @@ impl Picture {
     }
 }
 
-/// Each of `pictures` as the bytes of a PNG file, several at a time. They are packed fast: pictures of bark and leaves in a
-/// tenth of the time, and 6 % larger.
+/// Each of `pictures` as the bytes of a PNG file, several at a time. They are packed fast: those of the acer's
+/// bark and leaves in a tenth of the time, and 6 % larger.
 ///
 /// # Errors
 /// If one is not a rectangle of pixels.
