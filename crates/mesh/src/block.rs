@@ -13,7 +13,7 @@ pub struct Vertex {
     /// [`crate::BARK_TILE`] metres: u from 0 to a whole number of them around the stem, and v against its direction of
     /// growth, so that pictures stand upright; a fork goes on where its parent is left. Tiles get smaller with the
     /// stem, so that they keep their form. On leaves u runs across and v from the tip (0) to the base (1); both stay
-    /// within 0 to 1.
+    /// within 0 to 1. On blobs they count tiles of [`crate::BLOB_TILE`] metres where there are pictures and no leaves.
     pub uv: Vec2,
 }
 

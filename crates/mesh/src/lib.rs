@@ -43,6 +43,7 @@ mod blobs;
 pub mod block;
 pub mod card;
 mod collision;
+mod decimate;
 mod foliage;
 pub mod forest;
 pub mod growth;
@@ -66,6 +67,7 @@ pub mod wind;
 pub mod write;
 
 pub use atlas::Atlas;
+pub use blobs::TILE as BLOB_TILE;
 pub use block::{Block, Emergence, Placement, Vertex, Wind};
 pub use card::{Card, Cards};
 pub use collision::{Collision, Prism};

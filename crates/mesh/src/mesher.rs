@@ -1,6 +1,6 @@
 //! From a tree to blocks of triangles: sizes first, then any run of stems or leaves.
 
-use crate::blobs;
+use crate::blobs::{self, Cover};
 use crate::block::{Block, Emergence};
 use crate::foliage::UnitMesh;
 use crate::growth::Ages;
@@ -24,6 +24,8 @@ const BLOCK_VERTICES: u64 = 16_384;
 pub struct Mesher<'a> {
     tree: &'a Tree,
     settings: MeshSettings,
+    /// Whether each stem is left out; none after the end of the list.
+    left_out: &'a [bool],
     rig: Option<&'a Rig>,
     /// What turns in wind, where that was asked for.
     bodies: Option<Bodies>,
@@ -37,6 +39,8 @@ pub struct Mesher<'a> {
     twigs: Option<&'a Twigs>,
     /// Vertices and triangles of the blobs, which follow the leaves.
     blobs: Count,
+    /// What blobs show.
+    cover: Cover,
     /// Corners before each stem's, and texture tiles below it.
     stems: Vec<StemStart>,
     bark: Count,
@@ -62,6 +66,12 @@ impl<'a> Mesher<'a> {
     /// Measures `tree`; settings out of range are moved into it.
     #[must_use]
     pub fn new(tree: &'a Tree, settings: MeshSettings) -> Self {
+        Self::without(tree, settings, &[])
+    }
+
+    /// The same without the stems for which `left_out` says so. What hangs on them is drawn.
+    #[must_use]
+    pub fn without(tree: &'a Tree, settings: MeshSettings, left_out: &'a [bool]) -> Self {
         let settings = settings.clamped();
         let tubes = Tubes::new(settings);
         let forks = Forks::new(tree);
@@ -70,7 +80,7 @@ impl<'a> Mesher<'a> {
             .par_iter()
             .enumerate()
             .map_init(Rings::default, |rings, (i, stem)| {
-                if !settings.parts.has_stem(stem.kind) {
+                if !is_drawn(settings, left_out, i, stem) {
                     return Measured::default();
                 }
                 rings.sample(tree, stem, tubes.tolerance());
@@ -103,18 +113,24 @@ impl<'a> Mesher<'a> {
         let blossom_shapes = blossom_shapes(tree, settings);
         let heart = if settings.rounded { placed::heart(leaves.iter().chain(blossoms)) } else { None };
         let shows_blobs = has(Parts::BLOBS) && settings.leaves != LeafStyle::None;
-        let blobs = if shows_blobs { blobs::count(tree) } else { Count::default() };
+        let leaves = Placed::new(leaves, leaf_shapes, BLOCK_VERTICES).rounded(heart);
+        // Leaves have a sheet of pictures, on which nothing repeats.
+        let has_tiles = settings.pictured && leaves.leaves.is_empty();
+        let cover = if has_tiles { Cover::Tiles } else { Cover::Spot(leaves.somewhere()) };
+        let blobs = if shows_blobs { blobs::count(tree, cover) } else { Count::default() };
         Self {
             tree,
             settings,
+            left_out,
             rig: None,
             bodies: settings.wind.then(|| Bodies::new(tree)),
             ages: settings.growth.then(|| Ages::new(tree)),
-            leaves: Placed::new(leaves, leaf_shapes, BLOCK_VERTICES).rounded(heart),
+            leaves,
             blossoms: Placed::new(blossoms, blossom_shapes, BLOCK_VERTICES).rounded(heart),
             cards: Placed::new(&[], Shapes::plain(Vec::new()), BLOCK_VERTICES),
             twigs: None,
             blobs,
+            cover,
             tubes,
             stems,
             bark,
@@ -162,6 +178,12 @@ impl<'a> Mesher<'a> {
         count
     }
 
+    /// Corners and triangles of the stems.
+    #[must_use]
+    pub const fn bark(&self) -> Count {
+        self.bark
+    }
+
     /// Number of the first corner of stem number `stem` in the bark.
     ///
     /// # Panics
@@ -191,7 +213,7 @@ impl<'a> Mesher<'a> {
     fn fill_stems(&self, range: Range<usize>, block: &mut Block) {
         let (mut rings, mut spots) = (Rings::default(), Vec::new());
         for i in range {
-            if !self.settings.parts.has_stem(self.tree.stems[i].kind) {
+            if !is_drawn(self.settings, self.left_out, i, &self.tree.stems[i]) {
                 continue;
             }
             let StemStart { vertex, tiles } = self.stems[i];
@@ -212,6 +234,11 @@ impl<'a> Mesher<'a> {
             }
         }
     }
+}
+
+/// Whether stem number `i` is among what is drawn.
+fn is_drawn(settings: MeshSettings, left_out: &[bool], i: usize, stem: &Stem) -> bool {
+    settings.parts.has_stem(stem.kind) && !left_out.get(i).copied().unwrap_or(false)
 }
 
 /// The meshes of a tree's leaves.
@@ -364,8 +391,7 @@ impl Mesher<'_> {
     /// All blobs, whose vertices count from `base`. A blob moves with the tip of its stem.
     fn fill_blobs(&self, base: u64, block: &mut Block) {
         for blob in &self.tree.blobs {
-            let uv = self.leaves.somewhere();
-            blobs::push(self.tree, blob, uv, (base + block.vertices.len() as u64) as u32, block);
+            blobs::push(self.tree, blob, self.cover, (base + block.vertices.len() as u64) as u32, block);
             if let Some(bodies) = &self.bodies {
                 block.wind.resize(block.vertices.len(), bodies.of_stem(blob.stem as usize));
             }

@@ -5,8 +5,10 @@ use crate::part::Material;
 /// Pictures of one material: the bytes of PNG files, or their names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pictures<P> {
-    /// Whose they are. Those of bark are tiles that repeat.
+    /// Whose they are.
     pub material: Material,
+    /// Whether they are tiles that repeat.
+    pub repeats: bool,
     /// Whether what is not opaque in the colours is cut out.
     pub is_cut_out: bool,
     /// Colours, as sRGB.
@@ -18,16 +20,14 @@ pub struct Pictures<P> {
 }
 
 impl<P> Pictures<P> {
-    /// A picture of colours alone, cut out unless it is of bark.
-    pub const fn colors(material: Material, color: P) -> Self {
-        let is_cut_out = !matches!(material, Material::Bark);
-        Self { material, is_cut_out, color, normal: None, roughness: None }
+    /// A picture of colours alone that is cut out.
+    pub const fn cut_out(material: Material, color: P) -> Self {
+        Self { material, repeats: false, is_cut_out: true, color, normal: None, roughness: None }
     }
 
-    /// Whether the picture repeats.
-    #[must_use]
-    pub const fn repeats(&self) -> bool {
-        matches!(self.material, Material::Bark)
+    /// A picture of colours alone whose tiles repeat.
+    pub const fn tiles(material: Material, color: P) -> Self {
+        Self { material, repeats: true, is_cut_out: false, color, normal: None, roughness: None }
     }
 
     /// Those that there are, with what each is called.
@@ -40,17 +40,24 @@ impl<P> Pictures<P> {
     /// The same by reference.
     #[must_use]
     pub const fn as_ref(&self) -> Pictures<&P> {
-        let Self { material, is_cut_out, color, normal, roughness } = self;
-        let (material, is_cut_out) = (*material, *is_cut_out);
-        Pictures { material, is_cut_out, color, normal: normal.as_ref(), roughness: roughness.as_ref() }
+        let Self { material, repeats, is_cut_out, color, normal, roughness } = self;
+        Pictures {
+            material: *material,
+            repeats: *repeats,
+            is_cut_out: *is_cut_out,
+            color,
+            normal: normal.as_ref(),
+            roughness: roughness.as_ref(),
+        }
     }
 
     /// The same with each picture replaced by what `replace` makes of what it is called and of it, in the order of
     /// [`Pictures::all`].
     pub fn map<Q>(self, mut replace: impl FnMut(&'static str, P) -> Q) -> Pictures<Q> {
-        let Self { material, is_cut_out, color, normal, roughness } = self;
+        let Self { material, repeats, is_cut_out, color, normal, roughness } = self;
         Pictures {
             material,
+            repeats,
             is_cut_out,
             color: replace("color", color),
             normal: normal.map(|picture| replace("normal", picture)),
@@ -66,9 +73,10 @@ impl<P> Pictures<P> {
         self,
         mut replace: impl FnMut(&'static str, P) -> Result<Q, E>,
     ) -> Result<Pictures<Q>, E> {
-        let Pictures { material, is_cut_out, color, normal, roughness } = self.map(&mut replace);
+        let Pictures { material, repeats, is_cut_out, color, normal, roughness } = self.map(&mut replace);
         Ok(Pictures {
             material,
+            repeats,
             is_cut_out,
             color: color?,
             normal: normal.transpose()?,

@@ -1,48 +1,59 @@
-//! A tree whose stems are one surface.
+//! A tree whose thick stems are one surface.
 
 use crate::block::Block;
 use crate::mesher::Mesher;
 use crate::part::{Count, Material, Part, Source};
 use std::ops::Range;
 
-/// A meshed tree with a welded surface instead of a tube for each stem. The surface has neither wind data
-/// nor joints.
+/// A meshed tree with a welded surface instead of a tube for each stem that is part of it. The surface has neither wind
+/// data nor joints.
 #[derive(Debug)]
 pub struct Welded<'a> {
     bark: &'a Block,
-    foliage: Mesher<'a>,
+    rest: Mesher<'a>,
 }
 
 impl<'a> Welded<'a> {
-    /// `bark`, from [`crate::weld::surface`] of the tree of `mesher`, with the leaves of `mesher`.
+    /// `bark`, of a [`crate::weld::Skin`] of the tree of `rest`, with what `rest` draws: leaves, and the stems that are not
+    /// part of the surface.
     #[must_use]
-    pub const fn new(bark: &'a Block, mesher: Mesher<'a>) -> Self {
-        Self { bark, foliage: mesher }
+    pub const fn new(bark: &'a Block, rest: Mesher<'a>) -> Self {
+        Self { bark, rest }
     }
 }
 
 impl Source for Welded<'_> {
     fn parts(&self, mesh: usize) -> Vec<Part> {
         let Block { vertices, triangles, .. } = self.bark;
-        let count = Count { vertices: vertices.len() as u64, triangles: triangles.len() as u64 };
+        let mut count = Count { vertices: vertices.len() as u64, triangles: triangles.len() as u64 };
+        count += self.rest.bark();
         let bark = Part::plain(mesh, Material::Bark, count);
-        let foliage = self.foliage.parts(mesh).into_iter().filter(|part| part.material != Material::Bark);
-        std::iter::once(bark).filter(|bark| bark.count.triangles > 0).chain(foliage).collect()
+        let rest = self.rest.parts(mesh).into_iter().filter(|part| part.material != Material::Bark);
+        std::iter::once(bark).filter(|bark| bark.count.triangles > 0).chain(rest).collect()
     }
 
+    /// The surface, and then the stems, counted from 1.
     fn ranges(&self, material: Material) -> Vec<Range<usize>> {
-        if material == Material::Bark {
-            return std::iter::once(0..1).collect();
+        let rest = self.rest.ranges(material);
+        if material != Material::Bark {
+            return rest;
         }
-        self.foliage.ranges(material)
+        std::iter::once(0..1).chain(rest.into_iter().map(|range| range.start + 1..range.end + 1)).collect()
     }
 
     fn fill(&self, material: Material, range: Range<usize>, block: &mut Block) {
-        if material == Material::Bark {
+        if material != Material::Bark {
+            return self.rest.fill(material, range, block);
+        }
+        if range.start == 0 {
             block.vertices.extend_from_slice(&self.bark.vertices);
             block.triangles.extend_from_slice(&self.bark.triangles);
-        } else {
-            self.foliage.fill(material, range, block);
+            return;
         }
+        let first = block.triangles.len();
+        self.rest.fill(material, range.start - 1..range.end - 1, block);
+        let before = self.bark.vertices.len() as u32;
+        let new = block.triangles[first..].iter_mut().flatten();
+        new.for_each(|corner| *corner += before);
     }
 }

@@ -5,11 +5,11 @@
 
 use crate::picture::Picture;
 use crate::preview::bark::{shade, smooth};
-use crate::srgb;
+use crate::tile::{Heights, Tones, byte};
+use glam::Vec3;
 use pleach_mesh::palette::{BarkPattern, linear};
 use pleach_mesh::{BARK_TILE, Material, Pictures};
 use pleach_plant::Color;
-use rayon::prelude::*;
 
 /// Sides of pictures in pixels that are offered.
 pub const SIDES: [u32; 3] = [512, 1024, 2048];
@@ -28,63 +28,16 @@ const fn depth(pattern: BarkPattern) -> f32 {
 /// The tile of bark of this pattern and colour, `side` pixels a side.
 #[must_use]
 pub fn bark(pattern: BarkPattern, color: Color, side: u32) -> Pictures<Picture> {
-    let side = side.max(1);
-    let at = |i: u32| (i as f32 + 0.5) / side as f32;
-    let row = |y: u32| (0..side).map(move |x| shade(pattern, at(x), at(y))).collect::<Vec<f32>>();
-    let heights: Vec<f32> = (0..side).into_par_iter().flat_map_iter(row).collect();
-    let height = |x: u32, y: u32| heights[((y % side) * side + x % side) as usize];
-    let tones = Tones::new(color);
-    // Pixels a tile over metres a tile, for differences over two pixels.
-    let steep = depth(pattern) * side as f32 / (2.0 * BARK_TILE as f32);
-    let normal = |x: u32, y: u32| {
-        let right = height(x + 1, y) - height(x + side - 1, y);
-        let up = height(x, y + side - 1) - height(x, y + 1);
-        let (dx, dy) = (-right * steep, -up * steep);
-        let length = (dx * dx + dy * dy + 1.0).sqrt();
-        [dx, dy, 1.0].map(|part| byte(0.5 + 0.5 * part / length))
-    };
-    let roughness = |x: u32, y: u32| {
-        let height = height(x, y);
+    let heights = Heights::new(side, |u, v| shade(pattern, u, v));
+    let own = Vec3::from(linear(color));
+    let tones = Tones::new(|shade| own * shade);
+    let roughness = |height: f32| {
         [byte(0.55 + 0.45 * smooth(0.4, 0.9, height)), byte(0.95 - 0.15 * smooth(0.6, 1.2, height)), 0]
     };
     Pictures {
-        normal: Some(picture(side, normal)),
-        roughness: Some(picture(side, roughness)),
-        ..Pictures::colors(Material::Bark, picture(side, |x, y| tones.tone(height(x, y))))
-    }
-}
-
-fn picture(side: u32, pixel: impl Fn(u32, u32) -> [u8; 3] + Sync) -> Picture {
-    let opaque = |[r, g, b]: [u8; 3]| [r, g, b, 255];
-    let row = |y: u32| (0..side).flat_map(|x| opaque(pixel(x, y))).collect::<Vec<u8>>();
-    let rgba = (0..side).into_par_iter().flat_map_iter(row).collect();
-    Picture { width: side, height: side, rgba }
-}
-
-fn byte(part: f32) -> u8 {
-    (part.clamp(0.0, 1.0) * 255.0).round() as u8
-}
-
-/// A colour in every shade, as sRGB.
-struct Tones(Vec<[u8; 3]>);
-
-impl Tones {
-    /// Steps of the table, and the lightest shade.
-    const STEPS: usize = 2048;
-    const LIGHTEST: f32 = 2.0;
-
-    fn new(color: Color) -> Self {
-        let own = linear(color);
-        let of = |step: usize| {
-            let shade = Self::LIGHTEST * step as f32 / Self::STEPS as f32;
-            own.map(|channel| srgb::encode(channel * shade))
-        };
-        Self((0..=Self::STEPS).map(of).collect())
-    }
-
-    fn tone(&self, shade: f32) -> [u8; 3] {
-        let step = (shade / Self::LIGHTEST * Self::STEPS as f32).round().max(0.0) as usize;
-        self.0[step.min(Self::STEPS)]
+        normal: Some(heights.normals(depth(pattern) / BARK_TILE as f32)),
+        roughness: Some(heights.picture(roughness)),
+        ..Pictures::tiles(Material::Bark, heights.picture(|height| tones.tone(height)))
     }
 }
 

@@ -93,7 +93,7 @@ impl Billboards {
             cards.push(if is_seen { own } else { Vec::new() });
         }
         color.bleed();
-        let pictures = Pictures { normal: Some(normal), ..Pictures::colors(Material::Card, color) };
+        let pictures = Pictures { normal: Some(normal), ..Pictures::cut_out(Material::Card, color) };
         Self { pictures, cards }
     }
 

@@ -149,7 +149,7 @@ impl Sheet {
                 normal.paste(&place(cell.normals.iter().flat_map(opaque).collect()), x, y);
             }
         }
-        Pictures { normal, ..Pictures::colors(material, color) }
+        Pictures { normal, ..Pictures::cut_out(material, color) }
     }
 }
 

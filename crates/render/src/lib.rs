@@ -19,6 +19,7 @@
 //! | [`billboard`] | a tree from a few sides, for the cards of a last level of detail |
 //! | [`twig_sheet`] | some of a tree's twigs, for the cards of a level with few triangles |
 //! | [`bark_picture`] | pictures of bark that repeat: colour, relief, roughness |
+//! | [`blob_picture`] | pictures of foliage that repeat, for blobs: colour, relief |
 //! | [`leaf_atlas`] | pictures of leaves and blossoms that differ from each other |
 //! | [`picture`], [`png_file`] | pixels in memory and in files |
 //!
@@ -31,6 +32,7 @@
 pub mod bark_picture;
 pub mod billboard;
 mod blade;
+pub mod blob_picture;
 mod few_colors;
 pub mod leaf_atlas;
 mod petals;
@@ -38,6 +40,7 @@ pub mod picture;
 pub mod png_file;
 pub mod preview;
 mod srgb;
+mod tile;
 pub mod twig_sheet;
 
 pub use billboard::Billboards;

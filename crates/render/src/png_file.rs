@@ -59,15 +59,17 @@ impl Picture {
     }
 }
 
-/// Each of `pictures` as the bytes of a PNG file, several at a time. They are packed fast: those of the acer's
-/// bark and leaves in a tenth of the time, and 6 % larger.
+/// Each of `pictures` as the bytes of a PNG file, several at a time. What is opaque is packed fast: bark and leaves of the
+/// acer in a tenth of the time, and 6 % larger. What has gaps would be larger by a quarter.
 ///
 /// # Errors
 /// If one is not a rectangle of pixels.
 pub fn all_bytes(pictures: &[&Picture]) -> io::Result<Vec<Vec<u8>>> {
     let bytes = |picture: &&Picture| {
         let mut bytes = Vec::new();
-        pack(&mut bytes, std::slice::from_ref(*picture), 0, png::Compression::Fast)?;
+        let is_opaque = picture.rgba.chunks_exact(4).all(|pixel| pixel[3] == 255);
+        let compression = if is_opaque { png::Compression::Fast } else { png::Compression::Balanced };
+        pack(&mut bytes, std::slice::from_ref(*picture), 0, compression)?;
         Ok(bytes)
     };
     pictures.par_iter().map(bytes).collect()

@@ -48,7 +48,7 @@ pub fn paint<'a>(
         }
     }
     color.bleed();
-    Pictures::colors(Material::Twig, color)
+    Pictures::cut_out(Material::Twig, color)
 }
 
 /// One twig, stretched so that its card fills a cell but for the margin.

@@ -52,7 +52,7 @@ pub(crate) struct MeshArgs {
     pub(super) lod: Option<u32>,
     /// Levels of detail of so many triangles each, such as 30000,8000,2000: one or, in a .glb, up to 6. Where leaves
     /// have no room, twigs become cards that show pictures of them (.glb, .obj, .usda)
-    #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = budget, conflicts_with_all = ["lod", "weld", "sway"])]
+    #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = budget, conflicts_with_all = ["lod", "sway"])]
     pub(super) triangles: Vec<u32>,
     /// Write each level of detail into a file of its own, NAME_LOD0 and so on
     #[arg(long, conflicts_with = "forest")]
@@ -61,8 +61,8 @@ pub(crate) struct MeshArgs {
     /// NAME_LOD0, NAME_LOD1, … (.glb)
     #[arg(long, conflicts_with = "lod_files")]
     pub(super) lod_extension: bool,
-    /// Weld all stems into one watertight surface, on a grid with cells of this many millimetres; what
-    /// is thinner becomes as thick as a cell
+    /// Weld all stems into one surface, on a grid with cells of this many millimetres; what is thinner becomes as thick as
+    /// a cell. It is watertight unless --textures cut it. With --triangles stems thinner than a cell stay tubes
     #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "wind", "growth", "forest", "tolerance"])]
     pub(super) weld: Option<f64>,
     /// Round the corners where welded stems meet: width of the fillet over the radius of the thinner
@@ -83,7 +83,7 @@ pub(crate) struct MeshArgs {
     pub(super) leaves: Option<LeafForm>,
     /// Pictures of bark and leaves of so many pixels a side: colour and normals, of bark also roughness and occlusion, in
     /// the file or beside it (.glb, .obj, .usda) [default: 1024 in a .glb]
-    #[arg(long, value_name = "512|1024|2048|none", value_parser = textures, conflicts_with = "weld")]
+    #[arg(long, value_name = "512|1024|2048|none", value_parser = textures)]
     pub(super) textures: Option<u32>,
     /// Make the file smaller (.glb); gltfpack makes it smaller still, for pages
     #[arg(long, value_parser = one_of(COMPRESSIONS), value_name = "HOW", conflicts_with_all = ["wind", "growth", "sway"])]

@@ -46,7 +46,13 @@ impl Level<'_> {
     /// What meshes it.
     #[must_use]
     pub fn mesher(&self) -> Mesher<'_> {
-        let mesher = Mesher::new(&self.tree, self.settings).growing_with(self.whole);
+        self.mesher_without(&[])
+    }
+
+    /// The same without the stems for which `left_out` says so.
+    #[must_use]
+    pub fn mesher_without<'m>(&'m self, left_out: &'m [bool]) -> Mesher<'m> {
+        let mesher = Mesher::without(&self.tree, self.settings, left_out).growing_with(self.whole);
         match &self.twigs {
             Some(twigs) => mesher.with_twigs(twigs),
             None => mesher,

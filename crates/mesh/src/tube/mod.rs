@@ -16,9 +16,11 @@ mod rings;
 mod shape_tests;
 mod unroll;
 
+pub(crate) use frame::{perpendicular, transport};
 pub(crate) use path::Path;
 pub(crate) use rings::Rings;
 pub use unroll::TILE;
+pub(crate) use unroll::unroll;
 
 use crate::block::{Block, Vertex};
 use crate::part::Count;

@@ -26,10 +26,11 @@ pub(super) fn widest(rings: &[Ring]) -> f64 {
     rings.iter().map(|ring| ring.radius).fold(0.0, f64::max)
 }
 
-/// Sets the tiles along a stem of each of its rings.
-pub(super) fn unroll(rings: &mut [Ring]) {
+/// Sets the tiles along a stem of each of its rings, and returns how many go around it.
+pub(crate) fn unroll(rings: &mut [Ring]) -> u32 {
     let widest = widest(rings).max(f64::MIN_POSITIVE);
-    let n = f64::from(around(widest));
+    let around = around(widest);
+    let n = f64::from(around);
     let thick = |ring: &Ring| ring.radius.max(THINNEST * widest);
     let mut tiles = 0.0;
     for i in 1..rings.len() {
@@ -41,6 +42,7 @@ pub(super) fn unroll(rings: &mut [Ring]) {
         tiles += (b.along - a.along) * mean * n / TAU;
         rings[i].tiles = tiles;
     }
+    around
 }
 
 /// Tiles from the base to `along` metres from it, on a line between rings.

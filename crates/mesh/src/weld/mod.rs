@@ -4,14 +4,17 @@
 //! finer than a cell cannot be seen by the grid, so stems whose radius is less than a cell are as thick
 //! as one, which is also what a printer needs; forks meet in an edge that a cell or two round off.
 
+mod boxes;
 mod cone;
 mod grid;
 mod joint;
 mod local;
 mod nearby;
 mod shells;
+mod skin;
 mod stitch;
 mod tetrahedra;
+mod unroll;
 
 use crate::block::{Block, Vertex};
 use crate::tube::Path;
@@ -22,6 +25,7 @@ use joint::Joint;
 use nearby::Stems;
 use pleach_plant::Bounds;
 use pleach_plant::{Parts, StemKind, Tree};
+pub use skin::Skin;
 use std::ops::Range;
 use stitch::Surface;
 
@@ -64,27 +68,63 @@ impl WeldSettings {
     pub const fn new(cell: f64) -> Self {
         Self { cell, fillet: 0.0, parts: Parts::BARE }
     }
+
+    fn check(&self) -> Result<(), WeldError> {
+        let Self { cell, .. } = *self;
+        let is_right = cell.is_finite() && cell > 0.0;
+        if is_right { Ok(()) } else { Err(WeldError::NotPositive { cell }) }
+    }
 }
 
 /// The stems of `tree` as one closed surface, found on a grid; nothing for a tree without stems. Texture
-/// coordinates are 0 and the height in metres: a surface without seams cannot be unrolled, so that it shows no pictures
-/// of bark.
+/// coordinates are 0 and the height in metres: [`Skin::whole`] lays pictures of bark on it.
 ///
 /// # Errors
 /// See [`WeldError`].
 pub fn surface(tree: &Tree, settings: &WeldSettings) -> Result<Block, WeldError> {
-    let cell = settings.cell;
-    if !(cell.is_finite() && cell > 0.0) {
-        return Err(WeldError::NotPositive { cell });
+    Ok(Skin::whole(tree, settings, false)?.bark)
+}
+
+/// What is welded: pieces of stems, and the corners between them that are filled.
+#[derive(Clone, Debug)]
+struct Shape {
+    cell: f64,
+    stems: Stems,
+    pieces: Pieces,
+}
+
+/// Where the cones come from.
+#[derive(Clone, Debug, Default)]
+struct Pieces {
+    /// The cones of each stem of the tree, by their numbers.
+    of_stems: Vec<Range<usize>>,
+    /// Radii of the stem at the ends of each cone, in metres, which may be less than a cell.
+    radii: Vec<[f64; 2]>,
+}
+
+impl Shape {
+    /// Those of `tree` for which `is_welded` says so.
+    fn new(tree: &Tree, settings: &WeldSettings, is_welded: &[bool]) -> Result<Self, WeldError> {
+        settings.check()?;
+        let cell = settings.cell;
+        let (cones, pieces) = cones(tree, settings, is_welded)?;
+        let fillet = settings.fillet.clamp(0.0, WeldSettings::MAX_FILLET);
+        let joints = Joint::find(tree, &pieces.of_stems, &cones, fillet);
+        Ok(Self { cell, stems: Stems { cones, joints }, pieces })
     }
-    let (cones, pieces) = cones(tree, settings)?;
-    if cones.is_empty() {
-        return Ok(Block::default());
+
+    fn surface(&self) -> Result<(Vec<Vec3>, Vec<[u32; 3]>), WeldError> {
+        if self.stems.cones.is_empty() {
+            return Ok(Default::default());
+        }
+        let grid = Grid::new(&self.stems, self.cell)?;
+        let Surface { corners, triangles } = Surface::new(&grid, &self.stems).without_hollows();
+        Ok((corners, triangles))
     }
-    let fillet = settings.fillet.clamp(0.0, WeldSettings::MAX_FILLET);
-    let joints = Joint::find(tree, &pieces, &cones, fillet);
-    let stems = Stems { cones, joints };
-    let Surface { corners, triangles } = Surface::new(&Grid::new(&stems, cell)?, &stems).without_hollows();
+}
+
+/// The surface of these triangles with smooth normals.
+fn closed(corners: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Block {
     let mut normals = vec![Vec3::ZERO; corners.len()];
     for t in &triangles {
         let [a, b, c] = t.map(|i| corners[i as usize]);
@@ -96,31 +136,34 @@ pub fn surface(tree: &Tree, settings: &WeldSettings) -> Result<Block, WeldError>
         Vertex { position, normal: normal.try_normalize().unwrap_or(Vec3::Z), uv }
     };
     let vertices = corners.into_iter().zip(normals).map(corner).collect();
-    Ok(Block { vertices, triangles, ..Block::default() })
+    Block { vertices, triangles, ..Block::default() }
 }
 
+/// Stems are traced with this part of a cell as tolerance.
+const TRACED: f64 = 0.25;
 /// More pieces of stems are not welded.
 const MAX_PIECES: usize = 2_000_000;
 
-/// The stems in short pieces, and which pieces are each stem's.
-fn cones(tree: &Tree, settings: &WeldSettings) -> Result<(Vec<Cone>, Vec<Range<usize>>), WeldError> {
+/// The stems in short pieces.
+fn cones(tree: &Tree, settings: &WeldSettings, is_welded: &[bool]) -> Result<(Vec<Cone>, Pieces), WeldError> {
     let &WeldSettings { cell, parts, .. } = settings;
-    let (mut cones, mut pieces_of) = (Vec::new(), Vec::new());
+    let (mut cones, mut pieces) = (Vec::new(), Pieces::default());
     let extent = Bounds::new(tree, parts).map_or(0.0, |b| (b.max - b.min).max_element());
     if extent > cell * f64::from(grid::MAX_ALONG) {
         return Err(WeldError::TooFine { cell });
     }
     let mut path = Path::default();
-    for stem in &tree.stems {
+    for (stem, is_welded) in tree.stems.iter().zip(is_welded) {
         let first = cones.len();
-        if !parts.has_stem(stem.kind) {
-            pieces_of.push(first..first);
+        if !is_welded || !parts.has_stem(stem.kind) {
+            pieces.of_stems.push(first..first);
             continue;
         }
         // Not only what a tube can show: a trunk without a height still is a ball that its roots begin in.
-        path.trace(tree, stem, 0.25 * cell);
+        path.trace(tree, stem, TRACED * cell);
         for pair in path.rings.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);
+            pieces.radii.push([a.radius, b.radius]);
             cones.push(Cone::new(a.center, b.center, [a.radius, b.radius].map(|r| r.max(cell))));
         }
         if stem.parent.is_none() && stem.kind != StemKind::Fork {
@@ -129,9 +172,9 @@ fn cones(tree: &Tree, settings: &WeldSettings) -> Result<(Vec<Cone>, Vec<Range<u
         if cones.len() > MAX_PIECES {
             return Err(WeldError::TooFine { cell });
         }
-        pieces_of.push(first..cones.len());
+        pieces.of_stems.push(first..cones.len());
     }
-    Ok((cones, pieces_of))
+    Ok((cones, pieces))
 }
 
 #[cfg(test)]

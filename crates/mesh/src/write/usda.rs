@@ -114,7 +114,7 @@ impl<'a, W: Write> Usda<'a, W> {
 
     /// The textures of a material at `path`, and what places them.
     fn pictures(&mut self, pictures: &Pictures<String>, path: &str) -> Result<(), MeshError> {
-        let wrap = if pictures.repeats() { "repeat" } else { "clamp" };
+        let wrap = if pictures.repeats { "repeat" } else { "clamp" };
         for (what, file) in pictures.all() {
             // Directions are from -1 to 1, and no colours.
             let kind = match what {

@@ -8,7 +8,7 @@ use pleach_mesh::{Material, MeshSettings, Mesher, Palette, Pictures, send};
 
 /// Bark with a colour, a relief and a roughness.
 pub(crate) fn bark() -> Pictures<Vec<u8>> {
-    Pictures { normal: Some(dot()), roughness: Some(dot()), ..Pictures::colors(Material::Bark, dot()) }
+    Pictures { normal: Some(dot()), roughness: Some(dot()), ..Pictures::tiles(Material::Bark, dot()) }
 }
 
 /// A tree whose bark shows them.
@@ -55,7 +55,7 @@ fn relief_comes_with_tangents() {
 fn bark_shows_tiles_with_their_relief() {
     let (species, tree) = grow("acer");
     let bark = bark();
-    let card = Pictures::colors(Material::Card, dot());
+    let card = Pictures::cut_out(Material::Card, dot());
     let scene = Scene { pictures: vec![card, bark], ..scene(&species, &tree, 1) };
     let bytes = glb(&[Mesher::new(&tree, MeshSettings::default())], &scene);
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
@@ -80,6 +80,7 @@ fn bark_shows_tiles_with_their_relief() {
     let of = |what: &str| format!("acer-{what}.png");
     let named = Pictures {
         material: Material::Bark,
+        repeats: true,
         is_cut_out: false,
         color: of("bark"),
         normal: Some(of("normal")),

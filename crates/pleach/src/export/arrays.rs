@@ -37,10 +37,10 @@ impl Export {
         }
         let palette = self.palette(species);
         let tree = &*palette.dressed(tree);
-        let bark = self.welded(tree)?;
         let levels = self.levels(&[tree])?;
+        let skins = self.skins(&levels[0])?;
         let billboards = self.billboards(&[tree], &palette);
-        let mut sources = self.sources(&levels[0], None, bark.as_ref());
+        let mut sources = self.sources(&levels[0], None, &skins);
         sources.extend(billboards.iter().map(|billboards| super::tree::cards(&billboards.cards[0])));
         let mut meshes = Vec::with_capacity(sources.len());
         for source in &sources {

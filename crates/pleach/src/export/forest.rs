@@ -111,7 +111,7 @@ impl Export {
         let billboards = export.billboards(&trees, &palette);
         let mut sources = Vec::new();
         for (i, levels) in levels.iter().enumerate() {
-            sources.extend(export.sources(levels, None, None));
+            sources.extend(export.sources(levels, None, &[]));
             sources.extend(billboards.iter().map(|billboards| cards(&billboards.cards[i])));
         }
         let each = sources.len() / trees.len().max(1);

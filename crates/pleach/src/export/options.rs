@@ -127,8 +127,9 @@ pub struct Export {
     /// How far bark may stray from its true surface, in millimetres, 0.01 to 1000; by default 2, or as a budget of
     /// triangles allows.
     pub tolerance: Option<f64>,
-    /// Weld all stems into one watertight surface, on a grid with cells of this many millimetres, 1 to 1000; what is
-    /// thinner becomes as thick as a cell.
+    /// Weld all stems into one surface, on a grid with cells of this many millimetres, 1 to 1000; what is thinner becomes as
+    /// thick as a cell. Without `textures` it is watertight; with them corners are there more than once. With
+    /// `triangles` only stems that are thicker than a cell are welded, into as many triangles as their tubes have.
     pub weld: Option<f64>,
     /// Round the corners where welded stems meet: width of the fillet over the radius of the thinner stem, 0 to 4.
     pub fillet: f64,
@@ -137,8 +138,8 @@ pub struct Export {
     /// How leaves are drawn; by default their outlines, or as a budget of triangles allows.
     pub leaves: Option<LeafForm>,
     /// Pictures of bark, leaves and blossoms of so many pixels a side, 512, 1024 or 2048, or 0 for none: colour and normals,
-    /// and of bark roughness and occlusion. By default 1024 in a GLB file, but for the finest and for welded stems, and none
-    /// in others.
+    /// and of bark roughness and occlusion. By default 1024 in a GLB file, but for the finest and for welded stems without a
+    /// budget, and none in others.
     pub textures: Option<u32>,
     /// How the file is made smaller; by default not at all.
     pub compress: Option<Compression>,
@@ -271,13 +272,14 @@ impl Export {
         let asked = |names: &[&str]| {
             asks.iter().find(|(name, asked)| *asked && names.contains(name)).map(|(name, _)| *name)
         };
-        if self.weld.is_some() && self.side().is_some() {
-            return Err(OptionError::new("textures", "cannot be laid on one surface, which `weld` makes"));
-        }
         if self.weld.is_some()
-            && let Some(other) = asked(&["lod", "triangles", "sway", "wind", "growth"])
+            && let Some(other) = asked(&["lod", "sway", "wind", "growth"])
         {
-            return Err(OptionError::new("weld", format!("makes one surface, which `{other}` cannot have")));
+            let problem = match other {
+                "lod" => "is drawn in levels by budgets: give `triangles` in the place of `lod`".to_owned(),
+                other => format!("makes one surface, which `{other}` cannot move"),
+            };
+            return Err(OptionError::new("weld", problem));
         }
         if self.sway
             && let Some(other) = asked(&["lod", "triangles", "billboard"])
@@ -439,7 +441,7 @@ mod tests {
                 "triangles"
             );
             assert_eq!(wrong(format, |e| (e.triangles, e.finest) = (vec![2_000], true)), "triangles");
-            assert_eq!(wrong(format, |e| (e.triangles, e.weld) = (vec![2_000], Some(5.0))), "weld");
+            assert_eq!(wrong(format, |e| (e.lod, e.weld) = (Some(2), Some(5.0))), "weld");
             assert_eq!(wrong(format, |e| e.level = Some(1)), "level");
             assert_eq!(wrong(format, |e| e.lod_extension = true), "lod_extension");
             assert_eq!(wrong(format, |e| e.tolerance = Some(f64::NAN)), "tolerance");

@@ -4,15 +4,14 @@ use super::ExportError;
 use super::extras::extras;
 use super::options::{Compression, Export, LeafForm};
 use pleach_mesh::lod::{self, Level};
-use pleach_mesh::weld::{self, WeldSettings};
+use pleach_mesh::weld::{Skin, WeldSettings};
 use pleach_mesh::write::glb::{Glb, Grid, Placed, Scene, Site, level_name};
 use pleach_mesh::write::{Format, obj, ply, stl, usda};
 use pleach_mesh::{
-    Block, Card, Cards, Collision, LeafStyle, Material, Mesher, Palette, Pictures, Prism, Rig, Source,
-    Welded, send,
+    Card, Cards, Collision, LeafStyle, Material, Mesher, Palette, Pictures, Prism, Rig, Source, Welded, send,
 };
 use pleach_render::picture::Relief;
-use pleach_render::{Billboards, Picture, bark_picture, leaf_atlas, png_file, twig_sheet};
+use pleach_render::{Billboards, Picture, bark_picture, blob_picture, leaf_atlas, png_file, twig_sheet};
 use pleach_tree::{Species, Tree};
 use serde_json::json;
 use std::io::{Cursor, Seek, Write};
@@ -52,11 +51,15 @@ pub struct ExportedFile {
 /// Pixels a side of the pictures of leaves that are cards, where no other size is asked for.
 const CARDS_SIDE: u32 = 512;
 
-/// `mesher` with `bark` instead of its tubes, if there is one.
-fn with_bark<'a>(mesher: Mesher<'a>, bark: Option<&'a Block>) -> Box<dyn Source + 'a> {
-    match bark {
-        Some(bark) => Box::new(Welded::new(bark, mesher)),
-        None => Box::new(mesher),
+/// What meshes `level`, with `skin` in the place of the tubes that it stands for.
+fn source<'a>(
+    level: &'a Level<'a>,
+    skin: Option<&'a Skin>,
+    change: impl FnOnce(Mesher<'a>) -> Mesher<'a>,
+) -> Box<dyn Source + 'a> {
+    match skin {
+        Some(Skin { bark, stems }) => Box::new(Welded::new(bark, change(level.mesher_without(stems)))),
+        None => Box::new(change(level.mesher())),
     }
 }
 
@@ -86,16 +89,16 @@ impl Export {
         self.check(format)?;
         let palette = self.palette(species);
         let tree = &*palette.dressed(tree);
-        let bark = self.welded(tree)?;
         let Planned { export, levels, note } = self.planned(format, &[tree])?;
         let export = &export;
-        let one = One { export, species, seed, tree, levels: &levels, palette, bark: bark.as_ref(), stem };
+        let skins = export.skins(&levels[0])?;
+        let one = One { export, species, seed, tree, levels: &levels, palette, skins: &skins, stem };
         let mut beside = Vec::new();
         match format {
             Format::Glb => one.write_glb(out)?,
             Format::Obj => beside = one.write_obj(out)?,
-            Format::Ply => send(&[one.source()], &mut ply::Ply::new(out, palette))?,
-            Format::Stl => send(&[one.source()], &mut stl::Stl::new(out))?,
+            Format::Ply => send(&[one.source(|mesher| mesher)], &mut ply::Ply::new(out, palette))?,
+            Format::Stl => send(&[one.source(|mesher| mesher)], &mut stl::Stl::new(out))?,
             Format::Usda => beside = one.write_usda(out)?,
         }
         Ok(Written { beside, trees: 1, note })
@@ -118,11 +121,19 @@ impl Export {
         Ok(ExportedFile { bytes: out.into_inner(), beside, note })
     }
 
-    pub(super) fn welded(&self, tree: &Tree) -> Result<Option<Block>, ExportError> {
-        let Some(cell) = self.weld else { return Ok(None) };
+    /// The welded stems of each level, where that is asked for: all of them, or, within a budget, the thick ones.
+    pub(super) fn skins(&self, levels: &[Level<'_>]) -> Result<Vec<Skin>, ExportError> {
+        let Some(cell) = self.weld else { return Ok(Vec::new()) };
         let settings =
             WeldSettings { fillet: self.fillet, parts: self.parts(), ..WeldSettings::new(cell / 1000.0) };
-        Ok(Some(weld::surface(tree, &settings)?))
+        let has_pictures = self.side().is_some();
+        let weld = |level: &Level<'_>| {
+            if self.triangles.is_empty() {
+                return Skin::whole(&level.tree, &settings, has_pictures);
+            }
+            Skin::of_level(level, &settings, has_pictures)
+        };
+        Ok(levels.iter().map(weld).collect::<Result<_, _>>()?)
     }
 
     /// One mesh for each level.
@@ -130,19 +141,19 @@ impl Export {
         &self,
         levels: &'a [Level<'a>],
         rig: Option<&'a Rig>,
-        bark: Option<&'a Block>,
+        skins: &'a [Skin],
     ) -> Vec<Box<dyn Source + 'a>> {
-        let mesher = |level: &'a Level<'a>| {
-            let mut mesher = level.mesher();
+        let change = |mut mesher: Mesher<'a>| {
             if let Some(rig) = rig {
                 mesher = mesher.with_rig(rig);
             }
             if self.leaf_form() == LeafForm::Instances {
                 mesher = mesher.with_instanced_leaves();
             }
-            with_bark(mesher, bark)
+            mesher
         };
-        levels.iter().map(mesher).collect()
+        let numbered = levels.iter().enumerate();
+        numbered.map(|(number, level)| source(level, skins.get(number), change)).collect()
     }
 
     /// What is written of `trees`.
@@ -197,6 +208,10 @@ impl Export {
         let mut pictures = Vec::new();
         if let Some(side) = self.side() {
             pictures.push(bark_picture::bark(palette.pattern, palette.bark, side));
+            let has_tiles = |tree: &&Tree| tree.leaves.is_empty() && !tree.blobs.is_empty();
+            if self.leaf_form() != LeafForm::None && trees.iter().any(has_tiles) {
+                pictures.push(blob_picture::foliage(palette.leaf, side));
+            }
         }
         // Of a level with cards for twigs no leaf is drawn by itself.
         let has_leaves = |level: &Level<'_>| level.settings.leaves != LeafStyle::None;
@@ -244,18 +259,18 @@ struct One<'a> {
     tree: &'a Tree,
     levels: &'a [Vec<Level<'a>>],
     palette: Palette,
-    bark: Option<&'a Block>,
+    /// The welded stems of each level of the tree, or none.
+    skins: &'a [Skin],
     stem: Option<&'a str>,
 }
 
 impl One<'_> {
     /// The one level of formats that hold one.
-    fn mesher(&self) -> Mesher<'_> {
-        self.levels[0].first().map_or_else(|| Mesher::new(self.tree, self.export.settings()), Level::mesher)
-    }
-
-    fn source(&self) -> Box<dyn Source + '_> {
-        with_bark(self.mesher(), self.bark)
+    fn source<'s>(&'s self, change: impl FnOnce(Mesher<'s>) -> Mesher<'s>) -> Box<dyn Source + 's> {
+        match self.levels[0].first() {
+            Some(level) => source(level, self.skins.first(), change),
+            None => Box::new(change(Mesher::new(self.tree, self.export.settings()))),
+        }
     }
 
     fn write_glb<W: Write + Seek + ?Sized>(&self, out: &mut W) -> Result<(), ExportError> {
@@ -268,7 +283,7 @@ impl One<'_> {
         } else {
             Vec::new()
         };
-        let mut sources = export.sources(&levels[0], rig.as_ref(), self.bark);
+        let mut sources = export.sources(&levels[0], rig.as_ref(), self.skins);
         sources.extend(billboards.iter().map(|billboards| cards(&billboards.cards[0])));
         let mut placed = vec![Placed::at_origin(&self.mesh_name(), sources.len())];
         let finest = placed[0].level_name(0);
@@ -299,7 +314,7 @@ impl One<'_> {
     fn write_obj<W: Write + ?Sized>(&self, out: &mut W) -> Result<Vec<Beside>, ExportError> {
         let materials = self.stem.map(|stem| format!("{stem}.mtl"));
         let name = materials.as_deref().unwrap_or_default();
-        send(&[self.source()], &mut obj::Obj::new(out, &self.mesh_name(), name))?;
+        send(&[self.source(|mesher| mesher)], &mut obj::Obj::new(out, &self.mesh_name(), name))?;
         let Some(name) = materials else { return Ok(Vec::new()) };
         let (mut beside, pictures) = self.pictures_beside()?;
         let bytes = obj::materials(&self.palette, &pictures).into_bytes();
@@ -309,7 +324,6 @@ impl One<'_> {
 
     fn write_usda<W: Write + ?Sized>(&self, out: &mut W) -> Result<Vec<Beside>, ExportError> {
         let (beside, pictures) = self.pictures_beside()?;
-        let mesher = self.mesher().with_instanced_leaves();
         let about = [
             ("generator", self.species.generator.family().to_owned()),
             ("seed", self.seed.to_string()),
@@ -320,7 +334,7 @@ impl One<'_> {
             about: about.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
             pictures,
         };
-        send(&[with_bark(mesher, self.bark)], &mut usda::Usda::new(out, &notes, self.palette))?;
+        send(&[self.source(Mesher::with_instanced_leaves)], &mut usda::Usda::new(out, &notes, self.palette))?;
         Ok(beside)
     }
 
@@ -331,7 +345,7 @@ impl One<'_> {
         for pictures in self.export.pictures(&[self.tree], self.levels, &self.palette, None)? {
             let is_shown = match pictures.material {
                 Material::Blossom => !self.tree.blossoms.is_empty(),
-                Material::Leaf => !self.tree.leaves.is_empty(),
+                Material::Leaf => !self.tree.leaves.is_empty() || !self.tree.blobs.is_empty(),
                 Material::Bark | Material::Twig | Material::Card | Material::Collision => true,
             };
             if !is_shown {

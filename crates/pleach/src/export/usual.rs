@@ -29,7 +29,7 @@ impl Export {
         if self.has_usual_budget(format) {
             export.triangles = vec![Self::USUAL_TRIANGLES];
         }
-        if format == Format::Glb && !self.finest && self.weld.is_none() {
+        if format == Format::Glb && !self.finest && (self.weld.is_none() || !self.triangles.is_empty()) {
             export.textures = self.textures.or(Some(SIDE));
         }
         export
@@ -61,6 +61,8 @@ mod tests {
         assert_eq!(usual(|e| e.leaves = Some(LeafForm::Outline)), (false, Some(1024)));
         assert_eq!(usual(|e| e.sway = true), (false, Some(1024)));
         assert_eq!(usual(|e| e.weld = Some(30.0)), (false, None));
+        assert_eq!(usual(|e| (e.weld, e.textures) = (Some(30.0), Some(512))), (false, Some(512)));
+        assert_eq!(usual(|e| (e.weld, e.triangles) = (Some(30.0), vec![900])), (false, Some(1024)));
         assert_eq!(usual(|e| e.finest = true), (false, None));
         assert_eq!(usual(|e| (e.finest, e.textures) = (true, Some(512))), (false, Some(512)));
     }

@@ -6,6 +6,7 @@
 
 pub(crate) mod bark;
 mod camera;
+pub(crate) mod clumps;
 mod crown;
 mod flat;
 mod foliage;

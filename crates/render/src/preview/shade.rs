@@ -2,6 +2,7 @@
 
 use super::bark::{self, smooth};
 use super::camera::Camera;
+use super::clumps;
 use super::light::Sun;
 use super::scene::Scene;
 use super::seen::{Seen, Triangle};
@@ -143,7 +144,7 @@ impl View<'_> {
         }
         let light = match material {
             Material::Bark => self.bark(at, normal, ray, self.scene.stem_of(triangle.first_corner), uv),
-            Material::Leaf if self.scene.blobs.contains(&triangle.number) => self.blob(at, normal),
+            Material::Leaf if self.scene.blobs.contains(&triangle.number) => self.blob(at, normal, uv),
             _ => self.leaf(at, normal, ray, material, uv),
         };
         Some(if self.sun.is_some() { shown(light) } else { light }.extend(1.0))
@@ -261,9 +262,9 @@ impl View<'_> {
             + SUN * gloss * 0.5
     }
 
-    /// A closed surface of foliage: one flat colour in soft light.
-    fn blob(&self, at: Vec3, normal: Vec3) -> Vec3 {
-        let color = self.scene.colors.leaf;
+    /// A closed surface of foliage, in soft light.
+    fn blob(&self, at: Vec3, normal: Vec3, uv: Vec2) -> Vec3 {
+        let color = self.scene.colors.leaf * clumps::tint(clumps::height(uv.x, uv.y));
         // Seen from outside only. A smooth normal at the rim may look away, and is still the right one.
         let sky = self.scene.crown.sky_at(at + normal * 0.05);
         let Some(sun) = &self.sun else { return color * self.even(at, normal, sky) };

@@ -44,6 +44,8 @@ const EXAMPLES: &str = "Examples:
   pleach grow acer --seeds 0..9 -o forest/ --format glb
   pleach grow acer -o - --format ply > tree.ply
   pleach grow stylised_oak --weld 30 --fillet 2 -o oak.glb   one soft skin
+  pleach grow acer --weld 20 --fillet 2 --triangles 30000,8000 -o maple.glb
+                                                             soft forks, with bark, within a budget
 
 A .png from here is a flat drawing in two colours; `pleach render` makes shaded pictures, with bark, \
 light, seasons and views.

@@ -1,6 +1,7 @@
 //! Welded trees are closed, whatever is welded.
 
 mod random;
+mod skin;
 mod sound;
 
 use super::*;
@@ -142,8 +143,8 @@ fn turned_faces_are_found() {
     let settings = WeldSettings::new(0.1);
     let mut block = surface(&cross(), &settings).unwrap();
     block.triangles.iter_mut().for_each(|t| t.swap(0, 1));
-    let (cones, _) = cones(&cross(), &settings).unwrap();
-    check_outwards(&block, &Stems { cones, joints: Vec::new() }, settings.cell);
+    let shape = Shape::new(&cross(), &settings, &[true; 9]).unwrap();
+    check_outwards(&block, &shape.stems, settings.cell);
 }
 
 #[test]

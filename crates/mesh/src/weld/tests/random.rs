@@ -28,9 +28,8 @@ fn check_skin(tree: &Tree, settings: &WeldSettings, case: u64) {
     assert_eq!(pieces(&block), 1);
     if case.is_multiple_of(20) {
         check_apart(&block);
-        let (cones, pieces) = cones(tree, settings).unwrap();
-        let joints = Joint::find(tree, &pieces, &cones, settings.fillet);
-        check_outwards(&block, &Stems { cones, joints }, settings.cell);
+        let shape = Shape::new(tree, settings, &vec![true; tree.stems.len()]).unwrap();
+        check_outwards(&block, &shape.stems, settings.cell);
     }
 }
 

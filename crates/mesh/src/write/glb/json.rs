@@ -154,7 +154,7 @@ impl File {
     /// One image and texture for each PNG file of what some part shows; returns their numbers.
     fn textures(&mut self, layout: &Layout) -> Vec<Textures> {
         let numbered = |pictures: &Pictures<(u64, u64)>| {
-            let sampler = u8::from(pictures.repeats());
+            let sampler = u8::from(pictures.repeats);
             let material = pictures.material.name();
             pictures.as_ref().map(|what, &(offset, length)| {
                 let name = if what == "color" { material.to_owned() } else { format!("{material} {what}") };

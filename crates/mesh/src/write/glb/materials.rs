@@ -91,6 +91,7 @@ pub(super) fn transform_textures(material: &mut Value, (offset, scale): (Vec2, V
         "/pbrMetallicRoughness/metallicRoughnessTexture",
         "/normalTexture",
         "/occlusionTexture",
+        "/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture",
     ] {
         if let Some(texture) = material.pointer_mut(path) {
             texture["extensions"] = transform.clone();
