@@ -174,7 +174,13 @@ fn welded_levels_keep_to_their_budgets_and_show_bark() {
     for (welded, tubes) in welded.iter().zip(&tubes) {
         assert!((tubes * 95 / 100..=*tubes).contains(welded), "{welded} of {tubes}");
     }
-    assert_ne!(welded, tubes, "nothing is welded");
+    // As many triangles are not the same triangles.
+    let corners = |name: &str| {
+        let json = glb(&dir.path(name));
+        let position = json["meshes"][0]["primitives"][0]["attributes"]["POSITION"].as_u64().unwrap();
+        json["accessors"][position as usize]["count"].as_u64().unwrap()
+    };
+    assert_ne!(corners("welded.glb"), corners("tubes.glb"), "nothing is welded");
     let json = glb(&dir.path("welded.glb"));
     let bark =
         json["materials"].as_array().unwrap().iter().find(|material| material["name"] == "bark").unwrap();

@@ -96,11 +96,11 @@ fn asked_to_stop_there_is_no_guess() {
 }
 
 /// A picture of `name` without leaves.
-fn bare(name: &str, seed: u64) -> FitProblem {
-    let mut problem = goal_of(name, seed, 96);
+fn bare(name: &str, seed: u64, size: u32) -> FitProblem {
+    let mut problem = goal_of(name, seed, size);
     let tree = pleach_generators::preset(name).unwrap().grow(seed).unwrap();
     let goal = &mut problem.goals[0];
-    goal.frame = Frame::automatic(&tree, &View::FRONT, Parts::BARE, 96, 96);
+    goal.frame = Frame::automatic(&tree, &View::FRONT, Parts::BARE, size, size);
     let mut picture = Bitmap::default();
     Rasterizer::for_searches(Detail::Half).draw(&tree, &View::FRONT, &goal.frame, Parts::BARE, &mut picture);
     goal.goal = picture;
@@ -112,7 +112,7 @@ fn bare(name: &str, seed: u64) -> FitProblem {
 fn a_library_serves_many_goals_and_gives_the_bits_of_a_fresh_one() {
     let mut taller = goal_of("acer", 8, 96);
     taller.goals[0].frame.meters_per_pixel *= 1.7;
-    let goals = [goal_of("palm", 3, 96), taller, bare("acer", 9), goal_of("small_pine", 5, 64)];
+    let goals = [goal_of("palm", 3, 96), taller, bare("acer", 9, 96), goal_of("small_pine", 5, 64)];
     let settings = FitSettings::default();
     let how = GuessSettings { variants: 2, seeds: 2, detect_leaves: true, ..GuessSettings::default() };
     let mut library = GuessLibrary::new();
@@ -209,15 +209,18 @@ fn front_views_choose_what_is_compared_from_elsewhere() {
 fn a_goal_shows_whether_it_has_leaves() {
     let how = GuessSettings { variants: 0, detect_leaves: true, ..GuessSettings::default() };
     let mut library = GuessLibrary::new();
-    for name in NAMES {
-        for (problem, expected) in [(goal_of(name, 21, 96), Foliage::All), (bare(name, 21), Foliage::None)] {
+    // Likeness alone sees a bare acer at 96 pixels and leaves on it at 160.
+    for (name, size) in NAMES.map(|name| (name, 96)).into_iter().chain([("acer", 160)]) {
+        for (problem, expected) in
+            [(goal_of(name, 21, size), Foliage::All), (bare(name, 21, size), Foliage::None)]
+        {
             // What the caller expects does not matter.
             for foliage in [Foliage::All, Foliage::None] {
                 let problem = FitProblem { foliage, ..problem.clone() };
                 let found = library
                     .first_guess(&problem, &FitSettings::default(), &candidates(), &how, &GO, |_, _| ())
                     .unwrap();
-                assert_eq!(found.foliage, expected, "{name}");
+                assert_eq!(found.foliage, expected, "{name} {size}");
             }
         }
     }
