@@ -85,6 +85,9 @@ pub struct Block {
     pub wind: Vec<Wind>,
     /// One entry per vertex if growth data was asked for, none otherwise.
     pub growth: Vec<Emergence>,
+    /// One entry per vertex if pivots were given, none otherwise: texture coordinates of the pixel of its element; see
+    /// [`crate::pivots`].
+    pub pixels: Vec<Vec2>,
     /// One joint number per vertex if a rig was given, none otherwise.
     pub joints: Vec<u16>,
     /// Placements of the part's shape, if it is drawn by instances.
@@ -100,6 +103,7 @@ impl Block {
         self.vertices.clear();
         self.wind.clear();
         self.growth.clear();
+        self.pixels.clear();
         self.joints.clear();
         self.instances.clear();
         self.triangles.clear();

@@ -30,6 +30,7 @@
 //! | [`weld`] | all stems as one watertight surface |
 //! | [`wind`], [`rig`] | how stems sway |
 //! | [`growth`] | when each vertex comes to be |
+//! | [`pivots`] | what turns about which point, as textures for Unreal |
 //!
 //! # Invariants
 //!
@@ -54,6 +55,7 @@ mod nearest;
 pub mod palette;
 pub mod part;
 mod pictures;
+pub mod pivots;
 mod placed;
 pub mod rig;
 pub mod settings;
@@ -77,6 +79,7 @@ pub use mesher::Mesher;
 pub use palette::Palette;
 pub use part::{Count, Material, MeshError, Part, Sink, Source};
 pub use pictures::Pictures;
+pub use pivots::Pivots;
 pub use rig::Rig;
 pub use settings::{LeafStyle, MeshSettings};
 pub use stream::send;

@@ -54,6 +54,7 @@ impl Sink for Mesh {
         whole.vertices.append(&mut block.vertices);
         whole.wind.append(&mut block.wind);
         whole.growth.append(&mut block.growth);
+        whole.pixels.append(&mut block.pixels);
         whole.joints.append(&mut block.joints);
         whole.instances.append(&mut block.instances);
         whole.triangles.append(&mut block.triangles);

@@ -5,13 +5,14 @@ use crate::block::{Block, Emergence};
 use crate::foliage::UnitMesh;
 use crate::growth::Ages;
 use crate::part::{Count, Material, Part, Source};
+use crate::pivots::Pivots;
 use crate::placed::{self, Placed, Shapes};
 use crate::rig::Rig;
 use crate::settings::{LeafStyle, MeshSettings};
 use crate::tube::{Rings, Tubes};
 use crate::twigs::Twigs;
 use crate::wind::Bodies;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use pleach_plant::{Leaf, Parts, Stem, StemKind, Tree};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -31,6 +32,8 @@ pub struct Mesher<'a> {
     bodies: Option<Bodies>,
     /// When every place comes to be, where that was asked for.
     ages: Option<Ages<'a>>,
+    /// For each stem the pixel of what it turns with, where pivots were given.
+    pixels: Option<Vec<Vec2>>,
     tubes: Tubes,
     leaves: Placed<'a>,
     blossoms: Placed<'a>,
@@ -125,6 +128,7 @@ impl<'a> Mesher<'a> {
             rig: None,
             bodies: settings.wind.then(|| Bodies::new(tree)),
             ages: settings.growth.then(|| Ages::new(tree)),
+            pixels: None,
             leaves,
             blossoms: Placed::new(blossoms, blossom_shapes, BLOCK_VERTICES).rounded(heart),
             cards: Placed::new(&[], Shapes::plain(Vec::new()), BLOCK_VERTICES),
@@ -167,6 +171,17 @@ impl<'a> Mesher<'a> {
     #[must_use]
     pub fn with_rig(mut self, rig: &'a Rig) -> Self {
         self.rig = Some(rig);
+        self
+    }
+
+    /// Sends with each corner the pixel of the element of `pivots` that it belongs to. They are of the tree, or of the one
+    /// that the tree is a level of detail of.
+    ///
+    /// # Panics
+    /// If they are of another tree.
+    #[must_use]
+    pub fn with_pivots(mut self, pivots: &Pivots) -> Self {
+        self.pixels = Some(pivots.pixels(self.tree));
         self
     }
 
@@ -228,6 +243,9 @@ impl<'a> Mesher<'a> {
                     time: ages.at(i as u32, f64::from(spot.along)),
                     toward: spot.center - vertex.position,
                 }));
+            }
+            if let Some(pixels) = &self.pixels {
+                block.pixels.resize(block.vertices.len(), pixels[i]);
             }
             if let Some(rig) = self.rig {
                 block.joints.extend(spots.iter().map(|spot| rig.joint_at(i as u32, f64::from(spot.along))));
@@ -324,6 +342,7 @@ impl Source for Mesher<'_> {
                 instances: instances.unwrap_or(0),
                 wind: self.settings.wind && instances.is_none(),
                 growth: self.settings.growth && instances.is_none(),
+                pixels: self.pixels.is_some() && instances.is_none(),
                 rigged: self.rig.is_some() && instances.is_none(),
             }
         };
@@ -366,7 +385,7 @@ impl Source for Mesher<'_> {
 }
 
 impl Mesher<'_> {
-    /// Wind data, growth data and joints of the vertices of `leaf`, which were added last.
+    /// Wind data, growth data, pixels and joints of the vertices of `leaf`, which were added last.
     fn add_of_leaf(&self, material: Material, leaf: &Leaf, block: &mut Block) {
         if let Some(bodies) = &self.bodies {
             let first = block.wind.len();
@@ -381,6 +400,9 @@ impl Mesher<'_> {
         }
         if let Some(ages) = &self.ages {
             come_from(leaf.position, ages.near(leaf.stem, leaf.position), block);
+        }
+        if let Some(pixels) = &self.pixels {
+            block.pixels.resize(block.vertices.len(), pixels[leaf.stem as usize]);
         }
         if let Some(rig) = self.rig {
             let joint = rig.joint_near(leaf.stem, leaf.position.as_dvec3());
@@ -399,6 +421,9 @@ impl Mesher<'_> {
                 let tip = self.tree.knots_of(&self.tree.stems[blob.stem as usize]).last();
                 let tip = tip.map_or(Vec3::ZERO, |knot| knot.point.as_vec3());
                 come_from(tip, ages.near(blob.stem, tip), block);
+            }
+            if let Some(pixels) = &self.pixels {
+                block.pixels.resize(block.vertices.len(), pixels[blob.stem as usize]);
             }
             if let Some(rig) = self.rig {
                 block.joints.resize(block.vertices.len(), rig.joint_at(blob.stem, f64::INFINITY));

@@ -69,15 +69,17 @@ pub struct Part {
     pub wind: bool,
     /// Whether growth data come with the corners.
     pub growth: bool,
+    /// Whether texture coordinates of pixels of pivots come with the corners.
+    pub pixels: bool,
     /// Whether joint numbers come with the corners.
     pub rigged: bool,
 }
 
 impl Part {
-    /// A part of triangles whose corners have neither wind data nor growth data nor joints.
+    /// A part of triangles whose corners have neither wind data nor growth data nor pixels nor joints.
     #[must_use]
     pub const fn plain(mesh: usize, material: Material, count: Count) -> Self {
-        Self { mesh, material, count, instances: 0, wind: false, growth: false, rigged: false }
+        Self { mesh, material, count, instances: 0, wind: false, growth: false, pixels: false, rigged: false }
     }
 }
 

@@ -182,9 +182,9 @@ pub use export::{
 pub use pleach_mesh::write::{Feature as MeshFeature, Format as MeshFormat};
 #[cfg(feature = "mesh")]
 pub use pleach_mesh::{
-    Emergence, LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Pictures, Sink, Source,
-    Wind, growth, send, tangents, wind, write::glb::Glb, write::glb::write as write_glb, write::obj::Obj,
-    write::ply::Ply, write::stl::Stl, write::usda::Usda,
+    Emergence, LeafStyle, Material, Mesh, MeshError, MeshSettings, Mesher, Palette, Pictures, Pivots, Sink,
+    Source, Wind, growth, send, tangents, wind, write::glb::Glb, write::glb::write as write_glb,
+    write::obj::Obj, write::ply::Ply, write::stl::Stl, write::usda::Usda,
 };
 
 #[cfg(feature = "render")]

@@ -343,7 +343,7 @@ impl Tree {
     /// `textures` (pictures of bark and leaves, 512, 1024 or 2048 pixels a side, or 0 for none: colour and normals, of bark also
     /// roughness and occlusion),
     /// `compress` ("quantize": vertices of 16 and 8 bits), `season` (spring, summer, autumn, winter), `weld` (one surface on a grid with cells of this many millimetres) and
-    /// `fillet`, `roots`, `wind`, `growth`, `sway`, `collision` (convex pieces that things bump into). A format that cannot hold an option refuses it with `PleachError`.
+    /// `fillet`, `roots`, `wind`, `growth`, `pivot_painter` (textures beside a GLB file for Unreal's material functions), `sway`, `collision` (convex pieces that things bump into). A format that cannot hold an option refuses it with `PleachError`.
     ///
     /// >>> import pleach, tempfile, pathlib
     /// >>> folder = pathlib.Path(tempfile.mkdtemp())
@@ -387,7 +387,8 @@ impl Tree {
         Ok(written)
     }
 
-    /// The mesh as the bytes of a GLB file: metres, y up, the foot at the origin. Options are those of `export`.
+    /// The mesh as the bytes of a GLB file: metres, y up, the foot at the origin. Options are those of `export`, but for
+    /// `pivot_painter`, which has files beside it.
     #[pyo3(signature = (**options))]
     fn to_glb<'py>(
         &self,
@@ -395,11 +396,14 @@ impl Tree {
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let file = self.file(py, MeshFormat::Glb, &self.species.inner.name, options)?;
+        if !file.beside.is_empty() {
+            return Err(PleachError::new_err("`pivot_painter` has textures beside the file: use `export`"));
+        }
         Ok(PyBytes::new(py, &file.bytes))
     }
 
     /// The mesh as arrays, by level of detail and material, with the PNG files that materials show. Options are those of
-    /// `export`, but for `lod_extension`, `compress`, `sway`, `collision` and leaves as `"instances"`, which are for files. What they
+    /// `export`, but for `lod_extension`, `compress`, `pivot_painter`, `sway`, `collision` and leaves as `"instances"`, which are for files. What they
     /// leave open is not filled in: without `triangles` there are every leaf and twig, without `textures` no pictures.
     ///
     /// >>> import pleach

@@ -110,6 +110,16 @@ def test_bark_has_pictures(tmp_path: Path) -> None:
         tree.to_glb(textures=1000)
 
 
+def test_pivots_for_unreal_stand_beside_the_file(tmp_path: Path) -> None:
+    tree = pleach.species("acer").grow(1)
+    files = [file.name for file in tree.export(tmp_path / "acer.glb", pivot_painter=True)]
+    assert files == ["acer.glb", "acer-pivots.exr", "acer-axes.png"]
+    with pytest.raises(pleach.PleachError, match="pivot_painter.*wind"):
+        tree.export(tmp_path / "acer.glb", pivot_painter=True, wind=True)
+    with pytest.raises(pleach.PleachError, match="pivot_painter.*export"):
+        tree.to_glb(pivot_painter=True)  # type: ignore[call-arg]  # pyright: ignore[reportCallIssue]
+
+
 def test_levels_keep_to_budgets(tmp_path: Path) -> None:
     """A budget for each level; one level alone; a budget that cannot be."""
     tree = pleach.species("acer").grow(1)

@@ -63,7 +63,7 @@ pub(crate) struct MeshArgs {
     pub(super) lod_extension: bool,
     /// Weld all stems into one surface, on a grid with cells of this many millimetres; what is thinner becomes as thick as
     /// a cell. It is watertight unless --textures cut it. With --triangles stems thinner than a cell stay tubes
-    #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "wind", "growth", "forest", "tolerance"])]
+    #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "wind", "growth", "pivot_painter", "forest", "tolerance"])]
     pub(super) weld: Option<f64>,
     /// Round the corners where welded stems meet: width of the fillet over the radius of the thinner
     /// stem, 0 to 4 [default: 0]
@@ -86,7 +86,7 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "512|1024|2048|none", value_parser = textures)]
     pub(super) textures: Option<u32>,
     /// Make the file smaller (.glb); gltfpack makes it smaller still, for pages
-    #[arg(long, value_parser = one_of(COMPRESSIONS), value_name = "HOW", conflicts_with_all = ["wind", "growth", "sway"])]
+    #[arg(long, value_parser = one_of(COMPRESSIONS), value_name = "HOW", conflicts_with_all = ["wind", "growth", "pivot_painter", "sway"])]
     pub(super) compress: Option<Compression>,
     /// Season; by default the species file's own, or summer with all its blossom
     #[arg(long, value_parser = one_of(SEASONS))]
@@ -97,6 +97,10 @@ pub(crate) struct MeshArgs {
     /// Give each vertex the data that shaders need to let the tree grow (.glb, .ply)
     #[arg(long, conflicts_with = "wind")]
     pub(super) growth: bool,
+    /// Give each vertex a pixel of two textures, NAME-pivots.exr and NAME-axes.png, by which Unreal's material functions
+    /// "Pivot Painter 2" move trunks, limbs and twigs in wind (.glb)
+    #[arg(long, conflicts_with_all = ["wind", "growth", "sway", "forest"])]
+    pub(super) pivot_painter: bool,
     /// Add joints and a looping animation of the tree in wind (.glb)
     #[arg(long, conflicts_with_all = ["lod", "forest", "billboard"])]
     pub(super) sway: bool,
@@ -192,6 +196,7 @@ impl MeshArgs {
             season: self.season,
             wind: self.wind,
             growth: self.growth,
+            pivot_painter: self.pivot_painter,
             sway: self.sway,
             collision: self.collision,
         }
@@ -199,10 +204,14 @@ impl MeshArgs {
 
     /// Fails if files beside the one at `path` are needed: standard output has no place for them.
     pub(super) fn check_alone(&self, path: &Path, format: Format) -> anyhow::Result<()> {
-        let format = match format {
-            Format::Mesh(format) if format != MeshFormat::Glb => format,
-            _ => return Ok(()),
-        };
+        let Format::Mesh(format) = format else { return Ok(()) };
+        let is_glb = format == MeshFormat::Glb;
+        if is_glb && self.pivot_painter && files::is_stdout(path) {
+            bail!("`--pivot-painter` writes textures beside the file, which standard output cannot have");
+        }
+        if is_glb {
+            return Ok(());
+        }
         let option = if self.leaves == Some(LeafForm::Cards) {
             "--leaves cards"
         } else if self.textures.is_some_and(|side| side > 0) {

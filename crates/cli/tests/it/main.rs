@@ -48,6 +48,7 @@ mod odd_files;
 mod params;
 mod parity;
 mod pictures;
+mod pivot_painter;
 mod posterior;
 mod read;
 mod reference_stats;

@@ -10,14 +10,16 @@ const MAX_LEVEL: u8 = 2;
 
 /// What turns about one point: a stem with its forks, and at the last level with all that it carries.
 #[derive(Clone, Copy, Debug)]
-struct Body {
-    level: u8,
-    pivot: Vec3,
+pub(crate) struct Body {
+    pub(crate) level: u8,
+    /// The stem whose base is its own.
+    pub(crate) stem: u32,
+    pub(crate) pivot: Vec3,
     /// Along the body, in radians per metre.
     bend: Vec3,
     phase: f32,
-    /// The body that carries it.
-    parent: u32,
+    /// The body that carries it, which comes before it; that of a trunk is itself.
+    pub(crate) parent: u32,
 }
 
 /// The bodies of a tree: trunks, limbs that grow from them, and twigs that grow from limbs. They give what moves in wind its
@@ -56,12 +58,23 @@ impl Bodies {
         let turn = if level == 0 { 0.0 } else { Sway::new(tree, stem).amplitude / along.length().max(0.05) };
         self.bodies.push(Body {
             level,
+            stem: stem as u32,
             pivot: base.as_vec3(),
             bend: (along.normalize_or(DVec3::Z) * turn).as_vec3(),
             phase: phase(base.as_vec3()),
             parent: parent.unwrap_or(number),
         });
         number
+    }
+
+    /// All of them.
+    pub(crate) fn all(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// The number of the body of each stem.
+    pub(crate) fn of_stems(&self) -> &[u32] {
+        &self.of_stem
     }
 
     /// Wind data of the vertices of a stem, and of all that it carries and that does not flutter.

@@ -28,6 +28,8 @@ pub enum Feature {
     Wind,
     /// Data for shaders of growth at each vertex.
     Growth,
+    /// The pixel of what turns with each vertex, and textures beside the file.
+    PivotPainter,
     /// So many triangles, which may need cards with pictures of twigs.
     Budget,
     /// Levels of detail.

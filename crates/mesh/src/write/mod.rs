@@ -2,7 +2,7 @@
 //!
 //! | format | up | holds |
 //! | --- | --- | --- |
-//! | [`glb`] | +y | everything: materials, levels of detail, instances, wind, growth, joints and their sway |
+//! | [`glb`] | +y | everything: materials, levels of detail, instances, wind, growth, pixels of pivots, joints and their sway |
 //! | [`obj`] | +y | one mesh, materials in a file beside it |
 //! | [`ply`] | +z | one mesh, one colour per vertex, wind, growth |
 //! | [`stl`] | +z | triangles alone |

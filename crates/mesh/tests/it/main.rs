@@ -8,6 +8,7 @@ mod leaves;
 mod levels;
 mod mesh;
 mod pictures;
+mod pivots;
 mod quantized;
 mod silhouettes;
 mod stems;

@@ -22,13 +22,14 @@ impl Export {
     ///
     /// # Errors
     /// An [`ExportError`]: options that [`Export::check`] refuses, those that are about files alone (`lod_extension`,
-    /// `leaves` as instances, `compress`, `sway`, `collision`), and meshes that cannot be made.
+    /// `leaves` as instances, `compress`, `pivot_painter`, `sway`, `collision`), and meshes that cannot be made.
     pub fn meshes(&self, species: &Species, tree: &Tree) -> Result<ExportedMeshes, ExportError> {
         self.check(Format::Glb)?;
         let of_files = [
             ("lod_extension", self.lod_extension),
             ("leaves", self.leaf_form() == LeafForm::Instances),
             ("compress", self.compress.is_some()),
+            ("pivot_painter", self.pivot_painter),
             ("sway", self.sway),
             ("collision", self.collision),
         ];
@@ -40,7 +41,7 @@ impl Export {
         let levels = self.levels(&[tree])?;
         let skins = self.skins(&levels[0])?;
         let billboards = self.billboards(&[tree], &palette);
-        let mut sources = self.sources(&levels[0], None, &skins);
+        let mut sources = self.sources(&levels[0], None, None, &skins);
         sources.extend(billboards.iter().map(|billboards| super::tree::cards(&billboards.cards[0])));
         let mut meshes = Vec::with_capacity(sources.len());
         for source in &sources {

@@ -62,6 +62,7 @@ impl Export {
             ("sway", self.sway),
             ("roots", self.roots),
             ("collision", self.collision),
+            ("pivot_painter", self.pivot_painter),
         ];
         if let Some((option, _)) = alone.into_iter().find(|(_, asked)| *asked) {
             return Err(OptionError::new(option, "is for one tree, and not for a forest"));
@@ -111,7 +112,7 @@ impl Export {
         let billboards = export.billboards(&trees, &palette);
         let mut sources = Vec::new();
         for (i, levels) in levels.iter().enumerate() {
-            sources.extend(export.sources(levels, None, &[]));
+            sources.extend(export.sources(levels, None, None, &[]));
             sources.extend(billboards.iter().map(|billboards| cards(&billboards.cards[i])));
         }
         let each = sources.len() / trees.len().max(1);

@@ -9,6 +9,7 @@ mod arrays;
 mod extras;
 mod forest;
 mod options;
+mod pivots;
 mod tree;
 mod usual;
 
@@ -21,6 +22,7 @@ use crate::option_error::OptionError;
 use pleach_mesh::MeshError;
 use pleach_mesh::forest::ForestError;
 use pleach_mesh::lod::TooFew;
+use pleach_mesh::pivots::TooManyTrunks;
 use pleach_mesh::weld::WeldError;
 use pleach_tree::GrowError;
 
@@ -37,6 +39,9 @@ pub enum ExportError {
     /// The tree does not fit into so few triangles.
     #[error(transparent)]
     Budget(#[from] TooFew),
+    /// The tree has more parts that move than textures of pivots hold.
+    #[error(transparent)]
+    Pivots(#[from] TooManyTrunks),
     /// The mesh cannot be written.
     #[error(transparent)]
     Mesh(#[from] MeshError),

@@ -150,6 +150,9 @@ pub struct Export {
     pub wind: bool,
     /// Whether each vertex has the data that shaders need to let the tree grow, in the place of `wind`.
     pub growth: bool,
+    /// Whether each vertex names a pixel of two textures beside the file, from which Unreal's material functions *Pivot
+    /// Painter 2* know about which points it turns: of a GLB file of one tree, in the place of `wind` and `growth`.
+    pub pivot_painter: bool,
     /// Whether there are joints, and a looping animation of the tree in wind.
     pub sway: bool,
     /// Whether there are convex pieces around trunk and thick limbs that things bump into, as nodes and meshes of their
@@ -268,12 +271,13 @@ impl Export {
             ("sway", self.sway),
             ("wind", self.wind),
             ("growth", self.growth),
+            ("pivot_painter", self.pivot_painter),
         ];
         let asked = |names: &[&str]| {
             asks.iter().find(|(name, asked)| *asked && names.contains(name)).map(|(name, _)| *name)
         };
         if self.weld.is_some()
-            && let Some(other) = asked(&["lod", "sway", "wind", "growth"])
+            && let Some(other) = asked(&["lod", "sway", "wind", "growth", "pivot_painter"])
         {
             let problem = match other {
                 "lod" => "is drawn in levels by budgets: give `triangles` in the place of `lod`".to_owned(),
@@ -287,7 +291,7 @@ impl Export {
             return Err(OptionError::new("sway", format!("is of one mesh: leave out `{other}`")));
         }
         if self.compress.is_some()
-            && let Some(other) = asked(&["wind", "growth", "sway"])
+            && let Some(other) = asked(&["wind", "growth", "pivot_painter", "sway"])
         {
             let problem = format!("moves vertices into a frame that `{other}` does not know: leave one out");
             return Err(OptionError::new("compress", problem));
@@ -295,11 +299,21 @@ impl Export {
         if self.growth && self.wind {
             return Err(OptionError::new("growth", "takes the texture coordinates of `wind`: leave one out"));
         }
-        if self.growth && self.leaf_form() == LeafForm::Instances {
-            return Err(OptionError::new(
-                "growth",
-                "is of vertices, which `leaves` as instances do not have",
-            ));
+        if self.pivot_painter
+            && let Some(other) = asked(&["wind", "growth"])
+        {
+            let problem = format!("takes the texture coordinates of `{other}`: leave one out");
+            return Err(OptionError::new("pivot_painter", problem));
+        }
+        if self.pivot_painter && self.sway {
+            return Err(OptionError::new("pivot_painter", "moves what `sway` moves: leave one out"));
+        }
+        let of_vertices = [("growth", self.growth), ("pivot_painter", self.pivot_painter)];
+        if let Some((option, _)) = of_vertices.into_iter().find(|(_, asked)| *asked)
+            && self.leaf_form() == LeafForm::Instances
+        {
+            let problem = "is of vertices, which `leaves` as instances do not have";
+            return Err(OptionError::new(option, problem));
         }
         if self.fillet > 0.0 && self.weld.is_none() {
             return Err(OptionError::new("fillet", "is about welded stems, and `weld` is not given"));
@@ -314,6 +328,7 @@ impl Export {
             ("textures", self.side().map(|_| Feature::Textures)),
             ("wind", self.wind.then_some(Feature::Wind)),
             ("growth", self.growth.then_some(Feature::Growth)),
+            ("pivot_painter", self.pivot_painter.then_some(Feature::PivotPainter)),
             ("triangles", (!self.triangles.is_empty()).then_some(Feature::Budget)),
             ("triangles", (self.triangles.len() > 1 && self.level.is_none()).then_some(Feature::Levels)),
             ("lod", (self.lod.is_some_and(|lod| lod > 1) && self.level.is_none()).then_some(Feature::Levels)),
@@ -398,7 +413,7 @@ mod tests {
     #[test]
     fn options_read_back_from_json_and_unknown_ones_are_refused() {
         let other = r#"{ "finest": true, "lod": 2, "triangles": [900], "level": 0, "lod_extension": true, "billboard": 3, "tolerance": 5.0, "weld": 30.0, "fillet": 1.0, "roots": true,
-            "leaves": "cards", "textures": 512, "compress": "quantize", "season": "autumn", "wind": true, "growth": true, "sway": true, "collision": true }"#;
+            "leaves": "cards", "textures": 512, "compress": "quantize", "season": "autumn", "wind": true, "growth": true, "pivot_painter": true, "sway": true, "collision": true }"#;
         let other = Export::from_json(other).unwrap();
         let written = serde_json::to_value(&other).unwrap();
         assert_eq!(serde_json::from_value::<Export>(written.clone()).unwrap(), other);
@@ -457,6 +472,12 @@ mod tests {
             assert_eq!(wrong(format, |e| (e.wind, e.growth) = (true, true)), "growth");
             let instances = Some(LeafForm::Instances);
             assert_eq!(wrong(format, |e| (e.leaves, e.growth) = (instances, true)), "growth");
+            assert_eq!(wrong(format, |e| (e.leaves, e.pivot_painter) = (instances, true)), "pivot_painter");
+            assert_eq!(wrong(format, |e| (e.wind, e.pivot_painter) = (true, true)), "pivot_painter");
+            assert_eq!(wrong(format, |e| (e.growth, e.pivot_painter) = (true, true)), "pivot_painter");
+            assert_eq!(wrong(format, |e| (e.sway, e.pivot_painter) = (true, true)), "pivot_painter");
+            assert_eq!(wrong(format, |e| (e.compress, e.pivot_painter) = (small, true)), "compress");
+            assert_eq!(wrong(format, |e| (e.weld, e.pivot_painter) = (Some(5.0), true)), "weld");
             assert_eq!(wrong(format, |e| (e.compress, e.sway) = (small, true)), "compress");
             assert_eq!(wrong(format, |e| (e.sway, e.lod) = (true, Some(2))), "sway");
         }
@@ -467,6 +488,7 @@ mod tests {
         assert_eq!(one_level.check(Format::Obj), Ok(()));
         assert_eq!(wrong(Format::Obj, |e| e.wind = true), "wind");
         assert_eq!(wrong(Format::Stl, |e| e.growth = true), "growth");
+        assert_eq!(wrong(Format::Ply, |e| e.pivot_painter = true), "pivot_painter");
         assert_eq!(wrong(Format::Ply, |e| e.leaves = Some(LeafForm::Cards)), "leaves");
         assert_eq!(wrong(Format::Usda, |e| e.billboard = 2), "billboard");
         assert_eq!(wrong(Format::Usda, |e| e.compress = Some(Compression::Quantize)), "compress");

@@ -3,12 +3,15 @@
 use super::ExportError;
 use super::extras::extras;
 use super::options::{Compression, Export, LeafForm};
+use super::pivots;
+use crate::option_error::OptionError;
 use pleach_mesh::lod::{self, Level};
 use pleach_mesh::weld::{Skin, WeldSettings};
 use pleach_mesh::write::glb::{Glb, Grid, Placed, Scene, Site, level_name};
 use pleach_mesh::write::{Format, obj, ply, stl, usda};
 use pleach_mesh::{
-    Card, Cards, Collision, LeafStyle, Material, Mesher, Palette, Pictures, Prism, Rig, Source, Welded, send,
+    Card, Cards, Collision, LeafStyle, Material, Mesher, Palette, Pictures, Pivots, Prism, Rig, Source,
+    Welded, send,
 };
 use pleach_render::picture::Relief;
 use pleach_render::{Billboards, Picture, bark_picture, blob_picture, leaf_atlas, png_file, twig_sheet};
@@ -16,7 +19,7 @@ use pleach_tree::{Species, Tree};
 use serde_json::json;
 use std::io::{Cursor, Seek, Write};
 
-/// A small file that a mesh file names and that stands beside it: materials, or a picture.
+/// A small file that stands beside a mesh file: materials or a picture, which it names, or a texture of pivots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Beside {
     /// Its name.
@@ -28,7 +31,7 @@ pub struct Beside {
 /// What was written, apart from the mesh file itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Written {
-    /// The files that the mesh file names.
+    /// The files that belong to the mesh file.
     pub beside: Vec<Beside>,
     /// How many trees stand in it.
     pub trees: usize,
@@ -42,7 +45,7 @@ pub struct Written {
 pub struct ExportedFile {
     /// What the mesh file holds.
     pub bytes: Vec<u8>,
-    /// The files that it names.
+    /// The files that belong to it.
     pub beside: Vec<Beside>,
     /// What the user is to be told, as of [`Written::note`].
     pub note: Option<String>,
@@ -72,7 +75,8 @@ impl Export {
     /// not wear in the season is left out. Options that are left open are filled in as [`Export`] says.
     ///
     /// `stem` is the name of the file without its suffix. With it an OBJ or USDA file names its materials and pictures,
-    /// which are returned and are to be written into the same folder; without it, as on a stream, there are none.
+    /// which are returned and are to be written into the same folder; without it, as on a stream, there are none. Textures
+    /// of `pivot_painter` are returned too; without a name for them there is an error.
     ///
     /// # Errors
     /// An [`ExportError`]: options that [`Export::check`] refuses, a mesh that cannot be made or written. `out` may
@@ -95,7 +99,7 @@ impl Export {
         let one = One { export, species, seed, tree, levels: &levels, palette, skins: &skins, stem };
         let mut beside = Vec::new();
         match format {
-            Format::Glb => one.write_glb(out)?,
+            Format::Glb => beside = one.write_glb(out)?,
             Format::Obj => beside = one.write_obj(out)?,
             Format::Ply => send(&[one.source(|mesher| mesher)], &mut ply::Ply::new(out, palette))?,
             Format::Stl => send(&[one.source(|mesher| mesher)], &mut stl::Stl::new(out))?,
@@ -141,11 +145,15 @@ impl Export {
         &self,
         levels: &'a [Level<'a>],
         rig: Option<&'a Rig>,
+        pivots: Option<&Pivots>,
         skins: &'a [Skin],
     ) -> Vec<Box<dyn Source + 'a>> {
         let change = |mut mesher: Mesher<'a>| {
             if let Some(rig) = rig {
                 mesher = mesher.with_rig(rig);
+            }
+            if let Some(pivots) = pivots {
+                mesher = mesher.with_pivots(pivots);
             }
             if self.leaf_form() == LeafForm::Instances {
                 mesher = mesher.with_instanced_leaves();
@@ -273,7 +281,7 @@ impl One<'_> {
         }
     }
 
-    fn write_glb<W: Write + Seek + ?Sized>(&self, out: &mut W) -> Result<(), ExportError> {
+    fn write_glb<W: Write + Seek + ?Sized>(&self, out: &mut W) -> Result<Vec<Beside>, ExportError> {
         let Self { export, species, tree, levels, palette, .. } = *self;
         let rig = export.sway.then(|| Rig::new(tree));
         let billboards = export.billboards(&[tree], &palette);
@@ -283,7 +291,9 @@ impl One<'_> {
         } else {
             Vec::new()
         };
-        let mut sources = export.sources(&levels[0], rig.as_ref(), self.skins);
+        let pivots = if export.pivot_painter { Some(Pivots::new(tree)?) } else { None };
+        let beside = self.pivots_beside(pivots.as_ref())?;
+        let mut sources = export.sources(&levels[0], rig.as_ref(), pivots.as_ref(), self.skins);
         sources.extend(billboards.iter().map(|billboards| cards(&billboards.cards[0])));
         let mut placed = vec![Placed::at_origin(&self.mesh_name(), sources.len())];
         let finest = placed[0].level_name(0);
@@ -302,7 +312,22 @@ impl One<'_> {
             rig: rig.as_ref(),
             pictures: export.pictures(&[tree], levels, &palette, billboards.as_ref())?,
         };
-        Ok(send(&sources, &mut Glb::new(out, &scene))?)
+        send(&sources, &mut Glb::new(out, &scene))?;
+        Ok(beside)
+    }
+
+    /// The textures of `pivots`. All levels have the same, so that they are beside the first.
+    fn pivots_beside(&self, pivots: Option<&Pivots>) -> Result<Vec<Beside>, ExportError> {
+        let is_first = self.export.level.is_none_or(|level| level == 0);
+        let Some(pivots) = pivots.filter(|_| is_first) else { return Ok(Vec::new()) };
+        let stem = self.stem.ok_or_else(|| {
+            OptionError::new("pivot_painter", "has textures beside the file, which a stream cannot have")
+        })?;
+        let [positions, axes] = pivots::files(pivots)?;
+        Ok(vec![
+            Beside { name: format!("{stem}-pivots.exr"), bytes: positions },
+            Beside { name: format!("{stem}-axes.png"), bytes: axes },
+        ])
     }
 
     /// The tree's name; that of its level where only one of several is written.

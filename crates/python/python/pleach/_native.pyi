@@ -200,6 +200,7 @@ class Tree:
         season: Optional[_Season] = None,
         wind: bool = False,
         growth: bool = False,
+        pivot_painter: bool = False,
         sway: bool = False,
         collision: bool = False,
     ) -> list[Path]: ...

@@ -71,8 +71,8 @@ impl Choice {
 
 /// The table. `--no-leaves`, `--leafy`, `--seed`, `--seeds` and the limits apply to every output.
 #[rustfmt::skip]
-static CHOICES: [Choice; 23] = {
-    use MeshFeature::{Billboard, Budget, Collision, Compression, Forest, Growth, LeafCards, LeafInstances, Levels, Sway, Textures, Wind};
+static CHOICES: [Choice; 24] = {
+    use MeshFeature::{Billboard, Budget, Collision, Compression, Forest, Growth, LeafCards, LeafInstances, Levels, PivotPainter, Sway, Textures, Wind};
     use Takes::{Holding, Leafy, LeafyButPng, Meshes, Obj, Png};
 
     const fn choice(flag: &'static str, what: &'static str, takes: Takes, given: fn(&Grow) -> bool) -> Choice {
@@ -94,6 +94,7 @@ static CHOICES: [Choice; 23] = {
         choice("--weld", "one watertight surface", Meshes, |g| g.mesh.weld.is_some()),
         choice("--wind", "data for wind shaders", Holding(Wind), |g| g.mesh.wind),
         choice("--growth", "data for growing trees", Holding(Growth), |g| g.mesh.growth),
+        choice("--pivot-painter", "textures of pivots for Unreal", Holding(PivotPainter), |g| g.mesh.pivot_painter),
         choice("--lod", "levels of detail", Holding(Levels), |g| g.mesh.lod.is_some() && !g.mesh.lod_files),
         choice("--triangles", "a budget of triangles", Holding(Budget), |g| !g.mesh.triangles.is_empty()),
         choice("--lod-files", "a file for each level", Meshes, |g| g.mesh.lod_files),

@@ -10,18 +10,20 @@ use glam::Vec3;
 /// Bytes of a vertex' joint numbers and weights.
 pub(super) const SKIN_BYTES: u64 = 12;
 
-/// Sets of texture coordinates that hold a vertex' wind or growth data, from the second one on.
+/// Sets of texture coordinates that hold a vertex' wind data, growth data or pixel, from the second one on.
 pub(super) const fn data_sets(part: &Part) -> u64 {
     if part.wind {
         7
     } else if part.growth {
         2
+    } else if part.pixels {
+        1
     } else {
         0
     }
 }
 
-/// Bytes of a vertex' wind or growth data.
+/// Bytes of a vertex' wind data, growth data or pixel.
 pub(super) const fn data_bytes(part: &Part) -> u64 {
     8 * data_sets(part)
 }
@@ -31,7 +33,7 @@ pub(super) const fn data_bytes(part: &Part) -> u64 {
 pub(super) struct Place {
     pub(super) vertices: u64,
     pub(super) tangents: u64,
-    /// Wind or growth data.
+    /// Wind data, growth data or pixels.
     pub(super) data: u64,
     pub(super) skin: u64,
     pub(super) indices: u64,

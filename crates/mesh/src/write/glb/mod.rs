@@ -5,7 +5,7 @@
 //!
 //! | what | how |
 //! | --- | --- |
-//! | corners | interleaved position, normal, texture coordinates; tangents where there is a picture of normals; wind in `TEXCOORD_1` to `TEXCOORD_7`, or growth in `TEXCOORD_1` and `TEXCOORD_2` |
+//! | corners | interleaved position, normal, texture coordinates; tangents where there is a picture of normals; wind in `TEXCOORD_1` to `TEXCOORD_7`, or growth in `TEXCOORD_1` and `TEXCOORD_2`, or the pixel of an element of [`crate::pivots`] in `TEXCOORD_1` |
 //! | materials | plain metallic-roughness colours `bark`, `leaves`, `blossom`; leaves are two-sided; cards show pictures with alpha masks, bark tiles with normals, roughness and occlusion |
 //! | corners with a [`Grid`] | positions and texture coordinates of 16 bits, the latter where a picture is shown, normals and tangents of 8 (`KHR_mesh_quantization`, then required); nodes and `KHR_texture_transform` put them where they belong |
 //! | levels of detail | nodes and meshes `NAME_LOD0`, `NAME_LOD1`, … under one of the tree's name, all in the scene; or, if asked for, `MSFT_lod` on the node of the finest |
@@ -31,7 +31,7 @@ use crate::rig::Rig;
 use crate::settings::MeshSettings;
 use crate::stream::send;
 use crate::tangents::tangents;
-use glam::{Quat, Vec3, vec3};
+use glam::{Quat, Vec2, Vec3, vec3};
 use layout::Layout;
 use pleach_plant::Tree;
 use std::io::{Seek, SeekFrom, Write};
@@ -111,7 +111,7 @@ pub struct Scene<'a> {
     /// in it as nodes.
     pub lod_extension: bool,
     /// What whole numbers stand for, where vertices are to be written as such: that of all meshes, which have no wind
-    /// data, growth data or joints.
+    /// data, growth data, pixels or joints.
     pub grid: Option<Grid>,
     /// Joints and their sway, for a mesh that was made with this rig.
     pub rig: Option<&'a Rig>,
@@ -204,6 +204,10 @@ impl<W: Write + Seek> Sink for Glb<'_, W> {
         if !block.growth.is_empty() {
             let growth: Vec<[f32; 4]> = block.growth.iter().map(Emergence::to_array).collect();
             self.write_at(place.data, bytemuck::cast_slice(&growth))?;
+        }
+        if !block.pixels.is_empty() {
+            let pixels: Vec<[f32; 2]> = block.pixels.iter().map(Vec2::to_array).collect();
+            self.write_at(place.data, bytemuck::cast_slice(&pixels))?;
         }
         if !block.joints.is_empty() {
             let bytes: Vec<u8> = block.joints.iter().flat_map(|&joint| layout::skin(joint)).collect();
