@@ -36,8 +36,8 @@ pub struct Pivots {
 }
 
 impl Pivots {
-    /// The most elements that there are: a half float counts little further, and no further without leaving the numbers
-    /// that are not infinite.
+    /// The most elements that there are: as many as Epic's documents name. Bits of half floats that are not infinite have
+    /// room for 30,720.
     pub const MAX_ELEMENTS: usize = 30_000;
 
     /// The elements of `tree`. Where there are more than [`Pivots::MAX_ELEMENTS`], the shortest twigs belong to what
