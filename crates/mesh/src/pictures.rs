@@ -3,14 +3,14 @@
 use crate::part::Material;
 
 /// Pictures of one material: the bytes of PNG files, or their names.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pictures<P> {
     /// Whose they are.
     pub material: Material,
     /// Whether they are tiles that repeat.
     pub repeats: bool,
-    /// Whether what is not opaque in the colours is cut out.
-    pub is_cut_out: bool,
+    /// Opacity, 0 to 1, below which pixels are cut out; `None` where all of the picture is shown.
+    pub cutoff: Option<f32>,
     /// Colours, as sRGB.
     pub color: P,
     /// Directions in tangent space, x to the right, y up.
@@ -20,14 +20,14 @@ pub struct Pictures<P> {
 }
 
 impl<P> Pictures<P> {
-    /// A picture of colours alone that is cut out.
-    pub const fn cut_out(material: Material, color: P) -> Self {
-        Self { material, repeats: false, is_cut_out: true, color, normal: None, roughness: None }
+    /// A picture of colours alone that is cut out where it is less opaque than `cutoff`.
+    pub const fn cut_out(material: Material, color: P, cutoff: f32) -> Self {
+        Self { material, repeats: false, cutoff: Some(cutoff), color, normal: None, roughness: None }
     }
 
     /// A picture of colours alone whose tiles repeat.
     pub const fn tiles(material: Material, color: P) -> Self {
-        Self { material, repeats: true, is_cut_out: false, color, normal: None, roughness: None }
+        Self { material, repeats: true, cutoff: None, color, normal: None, roughness: None }
     }
 
     /// Those that there are, with what each is called.
@@ -40,11 +40,11 @@ impl<P> Pictures<P> {
     /// The same by reference.
     #[must_use]
     pub const fn as_ref(&self) -> Pictures<&P> {
-        let Self { material, repeats, is_cut_out, color, normal, roughness } = self;
+        let Self { material, repeats, cutoff, color, normal, roughness } = self;
         Pictures {
             material: *material,
             repeats: *repeats,
-            is_cut_out: *is_cut_out,
+            cutoff: *cutoff,
             color,
             normal: normal.as_ref(),
             roughness: roughness.as_ref(),
@@ -54,11 +54,11 @@ impl<P> Pictures<P> {
     /// The same with each picture replaced by what `replace` makes of what it is called and of it, in the order of
     /// [`Pictures::all`].
     pub fn map<Q>(self, mut replace: impl FnMut(&'static str, P) -> Q) -> Pictures<Q> {
-        let Self { material, repeats, is_cut_out, color, normal, roughness } = self;
+        let Self { material, repeats, cutoff, color, normal, roughness } = self;
         Pictures {
             material,
             repeats,
-            is_cut_out,
+            cutoff,
             color: replace("color", color),
             normal: normal.map(|picture| replace("normal", picture)),
             roughness: roughness.map(|picture| replace("roughness", picture)),
@@ -73,11 +73,11 @@ impl<P> Pictures<P> {
         self,
         mut replace: impl FnMut(&'static str, P) -> Result<Q, E>,
     ) -> Result<Pictures<Q>, E> {
-        let Pictures { material, repeats, is_cut_out, color, normal, roughness } = self.map(&mut replace);
+        let Pictures { material, repeats, cutoff, color, normal, roughness } = self.map(&mut replace);
         Ok(Pictures {
             material,
             repeats,
-            is_cut_out,
+            cutoff,
             color: color?,
             normal: normal.transpose()?,
             roughness: roughness.transpose()?,

@@ -6,6 +6,7 @@
 //! filtered edges are not dark.
 
 use crate::blade::{Blade, Look};
+use crate::cutoff::cutoff;
 use crate::petals;
 use crate::picture::{Picture, Relief};
 use crate::srgb;
@@ -98,7 +99,7 @@ pub fn paint(tree: &Tree, palette: &Palette, side: u32, relief: Relief) -> Vec<P
 #[must_use]
 pub fn opaque(mut sheet: Pictures<Picture>) -> Pictures<Picture> {
     sheet.color.rgba.chunks_exact_mut(4).for_each(|pixel| pixel[3] = 255);
-    Pictures { is_cut_out: false, ..sheet }
+    Pictures { cutoff: None, ..sheet }
 }
 
 /// How much lighter and warmer the leaves of a form are than the mean.
@@ -149,7 +150,8 @@ impl Sheet {
                 normal.paste(&place(cell.normals.iter().flat_map(opaque).collect()), x, y);
             }
         }
-        Pictures { normal, ..Pictures::cut_out(material, color) }
+        let shown = cutoff(&color);
+        Pictures { normal, ..Pictures::cut_out(material, color, shown) }
     }
 }
 

@@ -33,6 +33,7 @@ pub mod bark_picture;
 pub mod billboard;
 mod blade;
 pub mod blob_picture;
+mod cutoff;
 mod few_colors;
 pub mod leaf_atlas;
 mod petals;

@@ -2,6 +2,7 @@
 //!
 //! The pictures hold the twigs' own colours, without sun, since the engine lights them again.
 
+use crate::cutoff::cutoff;
 use crate::picture::Picture;
 use crate::preview::{Foliage, Frame, Preview};
 use glam::{DVec3, Vec3};
@@ -48,7 +49,8 @@ pub fn paint<'a>(
         }
     }
     color.bleed();
-    Pictures::cut_out(Material::Twig, color)
+    let shown = cutoff(&color);
+    Pictures::cut_out(Material::Twig, color, shown)
 }
 
 /// One twig, stretched so that its card fills a cell but for the margin.
@@ -61,7 +63,7 @@ fn twig(tree: &Tree, palette: &Palette, model: &TwigModel, foliage: &Arc<Foliage
     picture
 }
 
-/// Alpha from which a pixel is surely shown: a little more than the 0.4 of the materials.
+/// Alpha from which a pixel is surely shown: a little more than the highest bound of [`cutoff`].
 const SHOWN: u32 = 105;
 
 /// Scales alpha so that as many pixels are shown as are covered in all: needles and bare twigs that are thinner than a

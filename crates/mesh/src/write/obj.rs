@@ -54,7 +54,7 @@ pub fn materials(palette: &Palette, pictures: &[Pictures<String>]) -> String {
         ));
         let Some(pictures) = picture else { continue };
         text.push_str(&format!("map_Kd {}\n", pictures.color));
-        if pictures.is_cut_out {
+        if pictures.cutoff.is_some() {
             text.push_str(&format!("map_d {}\n", pictures.color));
         }
         // As programs with materials of physics read them, Blender among them.

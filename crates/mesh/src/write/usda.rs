@@ -163,9 +163,9 @@ impl<'a, W: Write> Usda<'a, W> {
                 Some(_) => vec![format!("color3f inputs:diffuseColor.connect = <{path}/color.outputs:rgb>")],
                 None => vec![format!("color3f inputs:diffuseColor = ({r:.4}, {g:.4}, {b:.4})")],
             };
-            if picture.is_some_and(|pictures| pictures.is_cut_out) {
+            if let Some(cutoff) = picture.and_then(|pictures| pictures.cutoff) {
                 inputs.push(format!("float inputs:opacity.connect = <{path}/color.outputs:a>"));
-                inputs.push("float inputs:opacityThreshold = 0.4".to_owned());
+                inputs.push(format!("float inputs:opacityThreshold = {cutoff:.2}"));
             }
             if picture.is_some_and(|pictures| pictures.normal.is_some()) {
                 inputs.push(format!("normal3f inputs:normal.connect = <{path}/normal.outputs:rgb>"));

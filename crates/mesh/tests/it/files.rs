@@ -76,7 +76,7 @@ fn cards_glb(name: &str) -> Vec<u8> {
     let (species, tree) = grow(name);
     let settings = MeshSettings { leaves: LeafStyle::CrossedCards, ..MeshSettings::default() };
     let plain = scene(&species, &tree, 1);
-    let pictures = [Material::Leaf, Material::Blossom].map(|of| Pictures::cut_out(of, dot())).to_vec();
+    let pictures = [Material::Leaf, Material::Blossom].map(|of| Pictures::cut_out(of, dot(), 0.4)).to_vec();
     glb(&[Mesher::new(&tree, settings)], &Scene { pictures, ..plain })
 }
 
@@ -92,7 +92,7 @@ fn billboards_glb(name: &str, sides: u32) -> Vec<u8> {
     let cards: Vec<Card> = (0..sides).map(card).collect();
     let settings = MeshSettings::default();
     let meshers: [Box<dyn Source>; 2] = [Box::new(Mesher::new(&tree, settings)), Box::new(Cards(&cards))];
-    let pictures = vec![Pictures::cut_out(Material::Card, dot())];
+    let pictures = vec![Pictures::cut_out(Material::Card, dot(), 0.4)];
     glb(&meshers, &Scene { pictures, ..plain })
 }
 

@@ -55,7 +55,7 @@ fn relief_comes_with_tangents() {
 fn bark_shows_tiles_with_their_relief() {
     let (species, tree) = grow("acer");
     let bark = bark();
-    let card = Pictures::cut_out(Material::Card, dot());
+    let card = Pictures::cut_out(Material::Card, dot(), 0.4);
     let scene = Scene { pictures: vec![card, bark], ..scene(&species, &tree, 1) };
     let bytes = glb(&[Mesher::new(&tree, MeshSettings::default())], &scene);
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
@@ -81,7 +81,7 @@ fn bark_shows_tiles_with_their_relief() {
     let named = Pictures {
         material: Material::Bark,
         repeats: true,
-        is_cut_out: false,
+        cutoff: None,
         color: of("bark"),
         normal: Some(of("normal")),
         roughness: Some(of("roughness")),

@@ -1,7 +1,7 @@
 //! Levels of detail with a budget beside the tree that they are of.
 
 use glam::{Vec2, vec2};
-use pleach_mesh::{Material, Mesh, MeshSettings, Palette, lod, send};
+use pleach_mesh::{Material, Mesh, MeshSettings, Palette, Pictures, lod, send};
 use pleach_render::{Picture, twig_sheet};
 use pleach_silhouette::Bitmap;
 use pleach_silhouette::score::Likeness;
@@ -34,7 +34,7 @@ impl Canvas {
         Self { samples: vec![false; SIDE * SAMPLES * SIDE * SAMPLES], scale: side / size, middle, top }
     }
 
-    fn draw(&mut self, mesh: &Mesh, sheet: Option<&Picture>) {
+    fn draw(&mut self, mesh: &Mesh, sheet: Option<&Pictures<Picture>>) {
         for (part, block) in &mesh.parts {
             let sheet = sheet.filter(|_| part.material == Material::Twig);
             for triangle in &block.triangles {
@@ -49,8 +49,9 @@ impl Canvas {
                 self.fill(at, |weights| {
                     let Some(sheet) = sheet else { return true };
                     let uv: Vec2 = (0..3).map(|k| corners[k].uv * weights[k]).sum();
-                    let (x, y) = ((uv.x * sheet.width as f32) as u32, (uv.y * sheet.height as f32) as u32);
-                    sheet.rgba[((y * sheet.width + x) * 4 + 3) as usize] > 102
+                    let (color, cutoff) = (&sheet.color, 255.0 * sheet.cutoff.unwrap_or(0.0));
+                    let (x, y) = ((uv.x * color.width as f32) as u32, (uv.y * color.height as f32) as u32);
+                    f32::from(color.rgba[((y * color.width + x) * 4 + 3) as usize]) >= cutoff
                 });
             }
         }
@@ -113,7 +114,7 @@ pub(crate) fn compare(name: &str, budgets: &[u32]) -> Result<Vec<Compared>, Box<
     goal.draw(&Mesh::new(&tree, MeshSettings::default()), None);
     let (goal, ink) = goal.picture();
     let levels = lod::budgets(&[&tree], MeshSettings::default(), budgets)?;
-    let sheet = twig_sheet::paint(&palette, lod::painted(&[&tree], &levels)).color;
+    let sheet = twig_sheet::paint(&palette, lod::painted(&[&tree], &levels));
     let compare = |level: &lod::Level<'_>| {
         let mut mesh = Mesh::default();
         send(&[level.mesher()], &mut mesh)?;

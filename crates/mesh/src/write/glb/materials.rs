@@ -63,9 +63,9 @@ pub(super) fn material(scene: &Scene<'_>, textures: &[Textures], material: Mater
     if !is_bark && material != Material::Collision {
         value["doubleSided"] = json!(true);
     }
-    if own.is_some_and(|own| own.is_cut_out) {
+    if let Some(cutoff) = own.and_then(|own| own.cutoff) {
         value["alphaMode"] = json!("MASK");
-        value["alphaCutoff"] = json!(0.4);
+        value["alphaCutoff"] = json!((f64::from(cutoff) * 100.0).round() / 100.0);
     }
     if let Some((part, tint)) = transmitted(material) {
         let tint = if own.is_some() { tint } else { std::array::from_fn(|c| tint[c] * color[c]) };
