@@ -53,7 +53,7 @@ async function serve() {
   return server;
 }
 
-/** Runs in the page: what is measured of a tree, whoever made it. */
+/** Runs in the page: what is measured of a tree of either program. */
 async function prepare() {
   const THREE = await import("three");
   const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
