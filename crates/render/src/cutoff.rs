@@ -2,15 +2,19 @@
 //!
 //! Engines show what is opaque enough and cut the rest out, and from afar they show a smaller picture, each of whose pixels
 //! is the mean of many. Of needles a few pixels wide no such pixel is opaque enough at a half: a tree that is leafy close by
-//! is bare from across a street. So the bound depends on the picture: with it as much is shown of the smaller pictures as
-//! is covered, in the mean.
+//! is bare from across a street. So the bound depends on the picture: with it about as much is shown of the smaller
+//! pictures as is covered.
 
 use crate::picture::Picture;
+use pleach_plant::math::lnf;
 
 /// Bounds that are tried, in hundredths. Lower ones would show the rims of what is sharp.
 const BOUNDS: std::ops::RangeInclusive<u32> = 12..=40;
-/// Halvings of the picture that are looked at.
-const HALVINGS: u32 = 4;
+/// Halvings of the picture that are looked at: a card of 256 pixels has four in the last one, as of a tree that is about a
+/// hundred pixels high.
+const HALVINGS: u32 = 6;
+/// A part of the picture that is as good as none.
+const NONE: f32 = 1e-3;
 
 /// The opacity, from 0 to 1, from which on pixels of `picture` are to be shown.
 pub(crate) fn cutoff(picture: &Picture) -> f32 {
@@ -31,7 +35,9 @@ pub(crate) fn cutoff(picture: &Picture) -> f32 {
         smaller.push(alphas.clone());
     }
     let off = |bound: u32| -> f32 {
-        smaller.iter().map(|alphas| (shown(alphas, bound as f32 / 100.0) - covered).abs()).sum()
+        let shown = |alphas: &Vec<f32>| shown(alphas, bound as f32 / 100.0).max(NONE);
+        // Twice as much is as bad as half as much.
+        smaller.iter().map(|alphas| lnf(shown(alphas) / covered.max(NONE)).abs()).sum()
     };
     // The highest of those that are as good.
     let mut best = (*BOUNDS.end(), off(*BOUNDS.end()));
