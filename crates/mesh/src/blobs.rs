@@ -8,6 +8,13 @@ use pleach_plant::{Blob, Tree};
 /// Width and height in metres of the picture that blobs show.
 pub const TILE: f32 = 1.0;
 
+/// Whether the blobs of `tree` show tiles of foliage where there are pictures. Leaves have a sheet of pictures, on which
+/// nothing repeats: with them blobs have one colour.
+#[must_use]
+pub const fn have_tiles(tree: &Tree) -> bool {
+    !tree.blobs.is_empty() && tree.leaves.is_empty()
+}
+
 /// Where blobs are on their picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cover {

@@ -69,7 +69,7 @@ pub mod wind;
 pub mod write;
 
 pub use atlas::Atlas;
-pub use blobs::TILE as BLOB_TILE;
+pub use blobs::{TILE as BLOB_TILE, have_tiles as blobs_have_tiles};
 pub use block::{Block, Emergence, Placement, Vertex, Wind};
 pub use card::{Card, Cards};
 pub use collision::{Collision, Prism};

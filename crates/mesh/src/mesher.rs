@@ -117,9 +117,11 @@ impl<'a> Mesher<'a> {
         let heart = if settings.rounded { placed::heart(leaves.iter().chain(blossoms)) } else { None };
         let shows_blobs = has(Parts::BLOBS) && settings.leaves != LeafStyle::None;
         let leaves = Placed::new(leaves, leaf_shapes, BLOCK_VERTICES).rounded(heart);
-        // Leaves have a sheet of pictures, on which nothing repeats.
-        let has_tiles = settings.pictured && leaves.leaves.is_empty();
-        let cover = if has_tiles { Cover::Tiles } else { Cover::Spot(leaves.somewhere()) };
+        let cover = if settings.pictured && blobs::have_tiles(tree) {
+            Cover::Tiles
+        } else {
+            Cover::Spot(leaves.somewhere())
+        };
         let blobs = if shows_blobs { blobs::count(tree, cover) } else { Count::default() };
         Self {
             tree,

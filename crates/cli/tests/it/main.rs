@@ -59,3 +59,4 @@ mod run_folder;
 mod shell;
 mod silhouette;
 mod skeletons;
+mod weld;

@@ -1,7 +1,8 @@
 //! One tree as meshes in memory, for programs that take arrays.
 
 use super::ExportError;
-use super::options::{Export, LeafForm};
+use super::forms::LeafForm;
+use super::options::Export;
 use crate::option_error::OptionError;
 use pleach_mesh::write::Format;
 use pleach_mesh::{Mesh, Pictures, Source as _, send};

@@ -2,7 +2,8 @@
 
 use super::ExportError;
 use super::extras::extras;
-use super::options::{Export, LeafForm};
+use super::forms::LeafForm;
+use super::options::Export;
 use super::tree::{Planned, Written, cards};
 use crate::option_error::{OptionError, from_json};
 use pleach_mesh::forest;

@@ -8,6 +8,7 @@
 mod arrays;
 mod extras;
 mod forest;
+mod forms;
 mod options;
 mod pivots;
 mod tree;
@@ -15,7 +16,8 @@ mod usual;
 
 pub use arrays::ExportedMeshes;
 pub use forest::Forest;
-pub use options::{Compression, Export, LeafForm};
+pub use forms::{Compression, LeafForm};
+pub use options::Export;
 pub use tree::{Beside, ExportedFile, Written};
 
 use crate::option_error::OptionError;

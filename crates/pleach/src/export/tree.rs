@@ -2,7 +2,8 @@
 
 use super::ExportError;
 use super::extras::extras;
-use super::options::{Compression, Export, LeafForm};
+use super::forms::{Compression, LeafForm};
+use super::options::Export;
 use super::pivots;
 use crate::option_error::OptionError;
 use pleach_mesh::lod::{self, Level};
@@ -11,7 +12,7 @@ use pleach_mesh::write::glb::{Glb, Grid, Placed, Scene, Site, level_name};
 use pleach_mesh::write::{Format, obj, ply, stl, usda};
 use pleach_mesh::{
     Card, Cards, Collision, LeafStyle, Material, Mesher, Palette, Pictures, Pivots, Prism, Rig, Source,
-    Welded, send,
+    Welded, blobs_have_tiles, send,
 };
 use pleach_render::picture::Relief;
 use pleach_render::{Billboards, Picture, bark_picture, blob_picture, leaf_atlas, png_file, twig_sheet};
@@ -216,8 +217,7 @@ impl Export {
         let mut pictures = Vec::new();
         if let Some(side) = self.side() {
             pictures.push(bark_picture::bark(palette.pattern, palette.bark, side));
-            let has_tiles = |tree: &&Tree| tree.leaves.is_empty() && !tree.blobs.is_empty();
-            if self.leaf_form() != LeafForm::None && trees.iter().any(has_tiles) {
+            if self.leaf_form() != LeafForm::None && trees.iter().any(|tree| blobs_have_tiles(tree)) {
                 pictures.push(blob_picture::foliage(palette.leaf, side));
             }
         }

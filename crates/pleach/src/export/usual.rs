@@ -1,6 +1,7 @@
 //! What a file holds where the options leave it open.
 
-use super::options::{Export, LeafForm};
+use super::forms::LeafForm;
+use super::options::Export;
 use pleach_mesh::write::Format;
 
 /// Pixels a side of pictures.

@@ -7,7 +7,7 @@ use glam::Vec3;
 use pleach_mesh::palette::linear;
 use pleach_mesh::{
     Block, Count, LeafStyle, Material, MeshError, MeshSettings, Mesher, Palette, Part, Sink, Source as _,
-    Vertex, send,
+    Vertex, blobs_have_tiles, send,
 };
 use pleach_plant::Bounds;
 use pleach_plant::{Parts, Tree};
@@ -41,6 +41,8 @@ pub(super) struct Scene<'a> {
     parts: Vec<(u32, Material)>,
     /// The triangles of closed surfaces of foliage.
     pub(super) blobs: Range<u32>,
+    /// Whether blobs show foliage, and not one colour.
+    pub(super) has_tiles: bool,
     /// First corner of each stem, its radius at the base in metres, its level.
     stems: Vec<(u32, f32, u16)>,
     pub(super) crown: Crown,
@@ -99,6 +101,7 @@ impl<'a> Scene<'a> {
             foliage: foliage.unwrap_or_else(paint),
             parts: Vec::new(),
             blobs: 0..0,
+            has_tiles: blobs_have_tiles(tree),
             stems: stems(tree, &mesher),
             crown: Crown::new(low, high, cells, areas(tree)),
             low,

@@ -264,7 +264,8 @@ impl View<'_> {
 
     /// A closed surface of foliage, in soft light.
     fn blob(&self, at: Vec3, normal: Vec3, uv: Vec2) -> Vec3 {
-        let color = self.scene.colors.leaf * clumps::tint(clumps::height(uv.x, uv.y));
+        let tint = if self.scene.has_tiles { clumps::tint(clumps::height(uv.x, uv.y)) } else { Vec3::ONE };
+        let color = self.scene.colors.leaf * tint;
         // Seen from outside only. A smooth normal at the rim may look away, and is still the right one.
         let sky = self.scene.crown.sky_at(at + normal * 0.05);
         let Some(sun) = &self.sun else { return color * self.even(at, normal, sky) };
