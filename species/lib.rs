@@ -1,6 +1,6 @@
 //! The species files that come with pleach, compiled in: an installed program needs no checkout.
 //!
-//! Each list is one generator's folder: of each file its name and its text. A file that is put into a folder is added
+//! Each list is one folder, a generator's or that of [`NATURAL`] species: of each file its name and its text. A file that is put into a folder is added
 //! to the list here, at the place where it is to be shown.
 //!
 //! ```
@@ -134,6 +134,15 @@ pub const SPACE_COLONIZATION: &[(&str, &str)] = files!["space-colonization":
     "common_hawthorn",
     "multi_stem_birch",
     "caucasian_fir",
+];
+
+/// Species of Weber and Penn's generator with leaves of natural size, which are of no family's list: they have four to ten
+/// times as many leaves as others of their kind, and in a silhouette of a few hundred pixels they show no more.
+pub const NATURAL: &[(&str, &str)] = files!["natural":
+    "natural_aspen",
+    "natural_oak",
+    "natural_maple",
+    "natural_larch",
 ];
 
 /// Stylised trees.

@@ -20,11 +20,13 @@ mod error;
 mod families;
 mod file;
 mod measured;
+mod natural;
 
 pub use choice::{GeneratorChoice, UnknownGenerator};
 pub use error::RegistryError;
 pub use families::{UnknownFamily, default_family, families, family, family_names};
 pub use file::{import, read, read_file, read_text};
+pub use natural::natural_names;
 pub use pleach_import::{Foreign, Program, SkeletonError, SkeletonProblem};
 
 use pleach_tree::{Family, Species};
@@ -39,10 +41,11 @@ pub fn presets(family: &dyn Family) -> Vec<Species> {
     family.presets().iter().filter_map(|(name, _)| pleach_tree::species::preset(family, name)).collect()
 }
 
-/// The names of all species that come with pleach, family by family.
+/// The names of all species that come with pleach: family by family, then those with leaves of natural size.
 #[must_use]
 pub fn names() -> Vec<&'static str> {
-    families().iter().flat_map(|family| family.presets().iter().map(|(name, _)| *name)).collect()
+    let of_families = families().iter().flat_map(|family| family.presets().iter().map(|(name, _)| *name));
+    of_families.chain(natural_names()).collect()
 }
 
 /// The fifteen species of Hewitt's dissertation.
@@ -51,21 +54,24 @@ pub use pleach_weber_penn::HEWITT_2017;
 /// The species called `name` among those that come with pleach.
 #[must_use]
 pub fn preset(name: &str) -> Option<Species> {
-    families().iter().find_map(|family| pleach_tree::species::preset(*family, name))
+    let of_families = families().iter().find_map(|family| pleach_tree::species::preset(*family, name));
+    of_families.or_else(|| natural::natural(name))
 }
 
 /// The names of known species that `name` may stand for: a name stands for itself, and a whole word of a
-/// name, such as `aspen`, for every name that holds it in the first family where any does.
+/// name, such as `aspen`, for every name that holds it in the first family where any does, or else for those of
+/// [`natural_names`] that hold it.
 #[must_use]
 pub fn names_like(name: &str) -> Vec<&'static str> {
     if let Some(known) = names().into_iter().find(|known| *known == name) {
         return vec![known];
     }
+    let is_like = |known: &&'static str| pleach_tree::param::is_word_of(name, known);
     let of_family = |family: &&dyn Family| -> Vec<&'static str> {
-        let names = family.presets().iter().map(|(name, _)| *name);
-        names.filter(|known| pleach_tree::param::is_word_of(name, known)).collect()
+        family.presets().iter().map(|(name, _)| *name).filter(is_like).collect()
     };
-    families().iter().map(of_family).find(|names| !names.is_empty()).unwrap_or_default()
+    let of_families = families().iter().map(of_family).find(|names| !names.is_empty());
+    of_families.unwrap_or_else(|| natural_names().filter(is_like).collect())
 }
 
 /// A species by name or by file: a known name wins, then a file, then a word that only one known name

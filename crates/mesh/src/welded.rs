@@ -3,31 +3,31 @@
 use crate::block::Block;
 use crate::mesher::Mesher;
 use crate::part::{Count, Material, Part, Source};
+use crate::weld::Skin;
 use std::ops::Range;
 
-/// A meshed tree with a welded surface instead of a tube for each stem that is part of it. The surface has neither wind
-/// data nor joints.
+/// A meshed tree with a welded surface instead of a tube for each stem that is part of it. The surface has no joints, and
+/// belongs to no element of pivots.
 #[derive(Debug)]
 pub struct Welded<'a> {
-    bark: &'a Block,
+    skin: &'a Skin,
     rest: Mesher<'a>,
 }
 
 impl<'a> Welded<'a> {
-    /// `bark`, of a [`crate::weld::Skin`] of the tree of `rest`, with what `rest` draws: leaves, and the stems that are not
-    /// part of the surface.
+    /// `skin`, of the tree of `rest`, with what `rest` draws: leaves, and the stems that are not part of the surface.
     #[must_use]
-    pub const fn new(bark: &'a Block, rest: Mesher<'a>) -> Self {
-        Self { bark, rest }
+    pub const fn new(skin: &'a Skin, rest: Mesher<'a>) -> Self {
+        Self { skin, rest }
     }
 }
 
 impl Source for Welded<'_> {
     fn parts(&self, mesh: usize) -> Vec<Part> {
-        let Block { vertices, triangles, .. } = self.bark;
+        let Block { vertices, triangles, .. } = &self.skin.bark;
         let mut count = Count { vertices: vertices.len() as u64, triangles: triangles.len() as u64 };
         count += self.rest.bark();
-        let bark = Part::plain(mesh, Material::Bark, count);
+        let bark = self.rest.stems_part(mesh, count);
         let rest = self.rest.parts(mesh).into_iter().filter(|part| part.material != Material::Bark);
         std::iter::once(bark).filter(|bark| bark.count.triangles > 0).chain(rest).collect()
     }
@@ -46,13 +46,11 @@ impl Source for Welded<'_> {
             return self.rest.fill(material, range, block);
         }
         if range.start == 0 {
-            block.vertices.extend_from_slice(&self.bark.vertices);
-            block.triangles.extend_from_slice(&self.bark.triangles);
-            return;
+            return self.rest.fill_surface(&self.skin.bark, &self.skin.axes, block);
         }
         let first = block.triangles.len();
         self.rest.fill(material, range.start - 1..range.end - 1, block);
-        let before = self.bark.vertices.len() as u32;
+        let before = self.skin.bark.vertices.len() as u32;
         let new = block.triangles[first..].iter_mut().flatten();
         new.for_each(|corner| *corner += before);
     }

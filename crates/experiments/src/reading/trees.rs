@@ -22,9 +22,12 @@ const NOT_TREES: [&str; 15] = [
     "abop_flowering_plant",
 ];
 
-/// Names of the species that are trees.
+/// Names of the species of generators' own lists that are trees.
 pub(super) fn names() -> Vec<&'static str> {
-    pleach_generators::names().into_iter().filter(|name| !NOT_TREES.contains(name)).collect()
+    let all = pleach_generators::families()
+        .iter()
+        .flat_map(|family| family.presets().iter().map(|(name, _)| *name));
+    all.filter(|name| !NOT_TREES.contains(name)).collect()
 }
 
 /// A tree, or a clump of several.

@@ -5,4 +5,5 @@
 mod default_limits;
 mod foreign;
 mod handles;
+mod natural;
 mod text;

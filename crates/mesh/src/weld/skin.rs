@@ -2,8 +2,8 @@
 
 use super::boxes::Boxes;
 use super::unroll::Unrolled;
-use super::{Shape, WeldError, WeldSettings, closed};
-use crate::block::Block;
+use super::{Shape, Stems, WeldError, WeldSettings, closed};
+use crate::block::{AxisPoint, Block, Vertex};
 use crate::decimate::Surface;
 use crate::lod::Level;
 use glam::Vec3;
@@ -15,6 +15,9 @@ use rayon::prelude::*;
 pub struct Skin {
     /// The surface; empty where no stem is welded.
     pub bark: Block,
+    /// Of each vertex of the surface, the nearest place on the axes of the welded stems. Vertices in one place have the
+    /// same, so that what moves the surface by its stems does not tear it.
+    pub axes: Vec<AxisPoint>,
     /// Whether each stem is part of the surface.
     pub stems: Vec<bool>,
 }
@@ -31,8 +34,7 @@ impl Skin {
         let shape = Shape::new(tree, settings, &stems)?;
         let (corners, triangles) = shape.surface()?;
         let bark = closed(corners, triangles);
-        let bark = if is_unrolled { shape.unrolled(tree).cut(&bark) } else { bark };
-        Ok(Self { bark, stems })
+        Ok(shape.skin(tree, bark, stems, is_unrolled))
     }
 
     /// The stems of `level` that are at least a cell thick in radius where they begin, in at most as many triangles as
@@ -52,7 +54,7 @@ impl Skin {
         let cell = settings.cell.max(level.settings.tolerance);
         let settings = WeldSettings { cell, ..*settings };
         let stems = thick(tree, &settings);
-        let none = || Self { bark: Block::default(), stems: vec![false; stems.len()] };
+        let none = || Self { stems: vec![false; stems.len()], ..Self::default() };
         let thin: Vec<bool> = stems.iter().map(|is_welded| !is_welded).collect();
         let tubes = level.mesher_without(&thin).bark().triangles as usize;
         if tubes == 0 {
@@ -68,8 +70,7 @@ impl Skin {
         }
         let (corners, triangles) = surface.compact();
         let bark = closed(corners, triangles);
-        let bark = if is_unrolled { shape.unrolled(tree).cut(&bark) } else { bark };
-        Ok(Self { bark, stems })
+        Ok(shape.skin(tree, bark, stems, is_unrolled))
     }
 }
 
@@ -85,8 +86,25 @@ fn thick(tree: &Tree, settings: &WeldSettings) -> Vec<bool> {
 }
 
 impl Shape {
-    fn unrolled(&self, tree: &Tree) -> Unrolled<'_> {
-        Unrolled::new(tree, &self.pieces.of_stems, &self.stems.cones, self.cell)
+    fn skin(&self, tree: &Tree, bark: Block, stems: Vec<bool>, is_unrolled: bool) -> Skin {
+        let Self { cell, stems: Stems { cones, .. }, pieces } = self;
+        let bark =
+            if is_unrolled { Unrolled::new(tree, &pieces.of_stems, cones, *cell).cut(&bark) } else { bark };
+        let mut stem_of = vec![0; cones.len()];
+        for (stem, own) in pieces.of_stems.iter().enumerate() {
+            stem_of[own.clone()].fill(stem as u32);
+        }
+        let boxes = Boxes::new(cones);
+        let axis_point = |vertex: &Vertex| {
+            let p = vertex.position.as_dvec3();
+            boxes.nearest(p).map_or_else(AxisPoint::default, |number| {
+                let cone = &cones[number as usize];
+                let point = cone.from.lerp(cone.to, cone.nearest(p)).as_vec3();
+                AxisPoint { stem: stem_of[number as usize], point }
+            })
+        };
+        let axes = bark.vertices.par_iter().map(axis_point).collect();
+        Skin { bark, axes, stems }
     }
 
     /// Moves the corners around stems that are thinner than the grid can see to where their surface is.

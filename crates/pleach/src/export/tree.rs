@@ -62,7 +62,7 @@ fn source<'a>(
     change: impl FnOnce(Mesher<'a>) -> Mesher<'a>,
 ) -> Box<dyn Source + 'a> {
     match skin {
-        Some(Skin { bark, stems }) => Box::new(Welded::new(bark, change(level.mesher_without(stems)))),
+        Some(skin) => Box::new(Welded::new(skin, change(level.mesher_without(&skin.stems)))),
         None => Box::new(change(level.mesher())),
     }
 }

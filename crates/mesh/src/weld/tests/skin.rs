@@ -1,8 +1,11 @@
 //! Pictures of bark on welded stems, and welded stems of a level of detail.
 
 use super::*;
+use crate::block::Wind;
+use crate::growth;
 use crate::settings::MeshSettings;
 use crate::stream::send;
+use crate::wind::{Breeze, moved};
 use crate::{Material, Mesh, Welded, lod};
 use std::collections::BTreeMap;
 
@@ -104,7 +107,7 @@ fn levels_with_welded_stems_keep_to_their_budgets() {
             assert!(welded > 0, "{name} {budget}: {welded}");
             let mesher = level.mesher_without(&skin.stems);
             let mut mesh = Mesh::default();
-            send(&[Welded::new(&skin.bark, mesher)], &mut mesh).unwrap();
+            send(&[Welded::new(&skin, mesher)], &mut mesh).unwrap();
             let triangles = mesh.triangles() as u64;
             let before = level.mesher().count().triangles;
             assert!(
@@ -153,4 +156,68 @@ fn a_level_without_thick_stems_keeps_its_tubes() {
         Err(WeldError::NotPositive { .. })
     ));
     assert_eq!(level.mesher_without(&skin.stems).count(), level.mesher().count());
+}
+
+/// By how many metres the edges of `block` between vertices that are moved by different stems are longer or shorter after
+/// `to` has moved these, the most last.
+fn strains(block: &Block, wind: &[Wind], to: impl Fn(usize) -> Vec3) -> Vec<f32> {
+    let edges = block.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+    let edges = edges.map(|(a, b)| (a as usize, b as usize));
+    let at = |corner: usize| block.vertices[corner].position;
+    let between = edges.filter(|&(a, b)| wind[a] != wind[b]);
+    let mut all: Vec<f32> =
+        between.map(|(a, b)| (to(a).distance(to(b)) - at(a).distance(at(b))).abs()).collect();
+    all.sort_by(f32::total_cmp);
+    all
+}
+
+#[test]
+fn wind_and_growth_move_the_surface_and_do_not_tear_it() {
+    for name in ["weeping_willow", "acer"] {
+        let tree = pleach_generators::preset(name).unwrap().grow_bare(1).unwrap();
+        let settings = WeldSettings { fillet: 1.0, ..WeldSettings::new(0.03) };
+        for is_wind in [true, false] {
+            let own = MeshSettings { wind: is_wind, growth: !is_wind, ..MeshSettings::default() };
+            let level = &lod::budgets(&[&tree], own, &[20_000]).unwrap()[0][0];
+            let skin = Skin::of_level(level, &settings, true).unwrap();
+            let mut mesh = Mesh::default();
+            send(&[Welded::new(&skin, level.mesher_without(&skin.stems))], &mut mesh).unwrap();
+            let bark = mesh.part(Material::Bark).unwrap();
+            assert_eq!(if is_wind { bark.wind.len() } else { bark.growth.len() }, bark.vertices.len());
+            let surface = skin.bark.vertices.len();
+            assert!(surface > 1000, "{name}: {surface}");
+            // Vertices in one place stay in one place.
+            let mut places = BTreeMap::new();
+            for (i, vertex) in bark.vertices[..surface].iter().enumerate() {
+                let first = *places.entry(vertex.position.to_array().map(f32::to_bits)).or_insert(i);
+                if is_wind {
+                    assert_eq!(bark.wind[first], bark.wind[i], "{name} {i}");
+                } else {
+                    assert_eq!(bark.growth[first], bark.growth[i], "{name} {i}");
+                }
+            }
+            assert!(places.len() < surface, "{name}: a picture begins again somewhere");
+            if is_wind {
+                let height = skin.bark.vertices.iter().map(|vertex| vertex.position.z).fold(0.0, f32::max);
+                let levels: Vec<f32> = bark.wind[..surface].iter().map(|wind| wind.level).collect();
+                assert!(levels.contains(&0.0) && levels.contains(&1.0), "{name}");
+                let breeze = Breeze { wind: Vec3::X, time: 1.9, height };
+                let blown = |i: usize| {
+                    let Vertex { position, normal, .. } = bark.vertices[i];
+                    moved(position, normal, &bark.wind[i], &breeze)
+                };
+                let far = (0..surface).map(|i| blown(i).distance(bark.vertices[i].position));
+                let (far, strains) = (far.fold(0.0, f32::max), strains(&skin.bark, &bark.wind, blown));
+                assert!(strains.len() > 100, "{name}: {} edges", strains.len());
+                let most = strains[strains.len() - 1];
+                assert!(far > 0.05 && most < 0.01, "{name}: {far} m, {most} m");
+            } else {
+                // Where a vertex comes from is inside of the surface.
+                for (vertex, growth) in bark.vertices.iter().zip(&bark.growth).take(surface) {
+                    assert!(growth.toward.length() < 1.5, "{name}: {vertex:?} {growth:?}");
+                    assert!((0.0..=growth::LAST).contains(&growth.time));
+                }
+            }
+        }
+    }
 }
