@@ -30,6 +30,20 @@ fn raster(c: &mut Criterion) {
     }
 }
 
+/// Crowns whose blossoms are most of the work, as a search draws them.
+fn blossoms(c: &mut Criterion) {
+    for name in ["apple", "hill_cherry"] {
+        let tree = pleach_generators::species(name).expect("a built-in species").grow(1).expect("it grows");
+        let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, 256, 256);
+        let (mut rasterizer, mut out) = (Rasterizer::for_searches(Detail::Half), Bitmap::default());
+        for (what, parts) in [("leafy", Parts::LEAFY), ("bare", Parts::BARE)] {
+            c.bench_function(&format!("{name}/256/{what}"), |b| {
+                b.iter(|| rasterizer.draw(&tree, &View::FRONT, &frame, parts, &mut out));
+            });
+        }
+    }
+}
+
 fn score(c: &mut Criterion) {
     let draw = |name: &str| {
         let tree = pleach_generators::species(name).expect("built in").grow(1).expect("it grows");
@@ -55,6 +69,6 @@ fn score(c: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20).measurement_time(std::time::Duration::from_secs(2)).warm_up_time(std::time::Duration::from_millis(300));
-    targets = raster, score
+    targets = raster, blossoms, score
 }
 criterion_main!(benches);

@@ -19,7 +19,7 @@ use grid::{ACROSS, Corner, Grid};
 pub use layer::{Layer, LayerPainter, Stack};
 use occlusion::Occlusion;
 use outline::{Blade, Outlines};
-use pleach_plant::leaf_shape::Outline;
+use pleach_plant::leaf_shape::{Faces, Outline};
 use pleach_plant::{Leaf, Parts, Tree};
 
 /// How finely pixels are sampled: always eight samples across.
@@ -272,25 +272,79 @@ impl Rasterizer {
         drawn
     }
 
+    /// In passes, as leaves are.
     fn blossoms(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
         let placer = Placer::new(camera, scale);
+        let area = self.grid.area();
+        let passes =
+            if self.saturates && tree.blossoms.len() > area / BLOSSOMS_TO_SWEEP { PASSES } else { 1 };
+        for pass in 0..passes {
+            // Leaves may have been drawn since black pixels were looked for.
+            if self.saturates {
+                self.occlusion.look(&mut self.grid, PIXELS_FOR_A_LEAF);
+            }
+            let drawn = self.every_so_many_blossoms(tree, &placer, (pass, passes));
+            self.occlusion.add(drawn);
+        }
+    }
+
+    /// As [`Self::every_so_many_leaves`], of blossoms.
+    fn every_so_many_blossoms(
+        &mut self,
+        tree: &Tree,
+        placer: &Placer<'_>,
+        (first, step): (usize, usize),
+    ) -> usize {
+        let row = 1.0 / placer.scale.y;
+        let Self { grid, occlusion, .. } = self;
+        let is_looked_up = occlusion.is_known();
         let mut corners = [[0.0; 2]; Outline::MAX_CORNERS];
-        for blossom in &tree.blossoms {
-            let faces = tree.blossom_shapes[usize::from(blossom.shape)].faces();
+        let mut drawn = 0;
+        let mut last: Option<(u16, Cup)> = None;
+        for blossom in tree.blossoms.iter().skip(first).step_by(step) {
             let Some([at, across, along]) = placer.place(blossom) else { continue };
             let normal = placer.normal(blossom);
+            // Nearly all trees have blossoms of one shape.
+            let (_, Cup { faces, middle, half }) = match last.take() {
+                Some(cup) if cup.0 == blossom.shape => last.insert(cup),
+                _ => {
+                    let faces = tree.blossom_shapes[usize::from(blossom.shape)].faces();
+                    last.insert((blossom.shape, Cup::new(faces)))
+                }
+            };
+            let place = |[u, v, w]: [f32; 3], axis: usize| {
+                at[axis] + across[axis] * u + along[axis] * v + normal[axis] * w
+            };
+            let reach = |axis: usize| {
+                let center = place(*middle, axis);
+                let far =
+                    across[axis].abs() * half[0] + along[axis].abs() * half[1] + normal[axis].abs() * half[2];
+                [center - far, center + far]
+            };
+            let [top, bottom] = reach(1);
+            if !Grid::has_row(top, bottom) {
+                continue;
+            }
+            let [left, right] = reach(0);
+            let is_hidden = if is_looked_up {
+                occlusion.hides([left, right], [top, bottom], row)
+            } else {
+                grid.is_covered(left, right, top, bottom)
+            };
+            if is_hidden {
+                continue;
+            }
             for polygon in faces.petals {
                 let corners = &mut corners[..polygon.len()];
                 for (corner, &vertex) in corners.iter_mut().zip(*polygon) {
-                    let [u, v, w] = faces.vertices[usize::from(vertex)];
-                    *corner = [
-                        at[0] + across[0] * u + along[0] * v + normal[0] * w,
-                        at[1] + across[1] * u + along[1] * v + normal[1] * w,
-                    ];
+                    let point = faces.vertices[usize::from(vertex)];
+                    *corner = [place(point, 0), place(point, 1)];
                 }
-                self.grid.fill(corners);
+                grid.fill(corners);
             }
+            drawn += 1;
         }
+        drawn
     }
 
     /// The sides of each blob that face the viewer: what is behind them has the same outline.
@@ -314,6 +368,8 @@ impl Rasterizer {
 /// Passes of a dense crown, and its density: more than one leaf per this many pixels.
 const PASSES: usize = 8;
 const LEAVES_TO_SWEEP: usize = 16;
+/// The same of blossoms, which take several polygons each.
+const BLOSSOMS_TO_SWEEP: usize = 64;
 /// Pieces of stems are hidden if there is more than one knot per this many pixels.
 const KNOTS_TO_HIDE: usize = 16;
 /// Black pixels are looked for after a pass, or after a stem, once there is a shape per this many pixels.
@@ -332,6 +388,29 @@ fn leaf_thickness(tree: &Tree, camera: &Camera) -> f32 {
         return f32::INFINITY;
     }
     measured.map(width).sum::<f32>() / count as f32 * camera.pixels_per_meter() as f32
+}
+
+/// The unit shape of a blossom and the box around it.
+struct Cup {
+    faces: &'static Faces,
+    middle: [f32; 3],
+    /// Half of its extents.
+    half: [f32; 3],
+}
+
+impl Cup {
+    fn new(faces: &'static Faces) -> Self {
+        let along = |axis: usize| {
+            let all = faces.vertices.iter().map(|vertex| vertex[axis]);
+            all.fold([f32::MAX, f32::MIN], |[low, high], v| [low.min(v), high.max(v)])
+        };
+        let bounds = [along(0), along(1), along(2)];
+        Self {
+            faces,
+            middle: bounds.map(|[low, high]| (low + high) / 2.0),
+            half: bounds.map(|[low, high]| (high - low) / 2.0),
+        }
+    }
 }
 
 /// Takes the frames of leaves from the world to samples.

@@ -293,7 +293,7 @@ fn roots_are_drawn_where_they_are_asked_for() {
 /// What is not drawn because it lies on what is black already would not have been seen.
 #[test]
 fn black_pixels_that_are_marked_change_no_picture() {
-    for name in ["quaking_aspen", "weeping_willow", "balsam_fir"] {
+    for name in ["quaking_aspen", "weeping_willow", "balsam_fir", "apple", "hill_cherry"] {
         let tree = pleach_generators::preset(name).unwrap().grow(1).unwrap();
         for (size, detail) in [(256, Detail::Half), (100, Detail::Draft), (77, Detail::Full)] {
             let frame = Frame::automatic(&tree, &View::FRONT, Parts::LEAFY, size, size);
