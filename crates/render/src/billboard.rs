@@ -4,7 +4,7 @@
 //! two sides. The pictures hold the tree's own colours with the crown's own shade and without sun,
 //! since the engine lights them again; a second picture holds the normals, so that a card is lit as the crown is.
 
-use crate::cutoff::cutoff;
+use crate::cutoff::cut_out;
 use crate::picture::Picture;
 use crate::preview::{Flat, Frame, Preview};
 use glam::{Vec3, vec3};
@@ -94,7 +94,8 @@ impl Billboards {
             cards.push(if is_seen { own } else { Vec::new() });
         }
         color.bleed();
-        let shown = cutoff(&color);
+        let size = [color.width, color.height];
+        let shown = cut_out(&mut color, size);
         let pictures = Pictures { normal: Some(normal), ..Pictures::cut_out(Material::Card, color, shown) };
         Self { pictures, cards }
     }

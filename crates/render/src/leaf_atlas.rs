@@ -6,7 +6,7 @@
 //! filtered edges are not dark.
 
 use crate::blade::{Blade, Look};
-use crate::cutoff::cutoff;
+use crate::cutoff::cut_out;
 use crate::petals;
 use crate::picture::{Picture, Relief};
 use crate::srgb;
@@ -150,7 +150,8 @@ impl Sheet {
                 normal.paste(&place(cell.normals.iter().flat_map(opaque).collect()), x, y);
             }
         }
-        let shown = cutoff(&color);
+        let size = [color.width, color.height];
+        let shown = cut_out(&mut color, size);
         Pictures { normal, ..Pictures::cut_out(material, color, shown) }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The pictures hold the twigs' own colours, without sun, since the engine lights them again.
 
-use crate::cutoff::cutoff;
+use crate::cutoff::cut_out;
 use crate::picture::Picture;
 use crate::preview::{Foliage, Frame, Preview};
 use glam::{DVec3, Vec3};
@@ -49,7 +49,7 @@ pub fn paint<'a>(
         }
     }
     color.bleed();
-    let shown = cutoff(&color);
+    let shown = cut_out(&mut color, [CELL; 2]);
     Pictures::cut_out(Material::Twig, color, shown)
 }
 
@@ -63,7 +63,7 @@ fn twig(tree: &Tree, palette: &Palette, model: &TwigModel, foliage: &Arc<Foliage
     picture
 }
 
-/// Alpha from which a pixel is surely shown: a little more than the highest bound of [`cutoff`].
+/// Alpha from which a pixel is surely shown: a little more than what [`cut_out`] takes for shown.
 const SHOWN: u32 = 105;
 
 /// Scales alpha so that as many pixels are shown as are covered in all: needles and bare twigs that are thinner than a

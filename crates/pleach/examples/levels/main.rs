@@ -5,19 +5,18 @@
 
 mod compared;
 
-use compared::compare;
+use compared::{Compared, compare};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut args = std::env::args().skip(1);
     let budgets = args.next().unwrap_or_else(|| "50000,30000,8000,2000".to_owned());
     let budgets = budgets.split(',').map(str::parse).collect::<Result<Vec<u32>, _>>()?;
-    println!("species,budget,triangles,cards,likeness,ink");
+    println!("species,budget,triangles,cards,likeness,ink,halved_likeness,halved_ink");
     for name in args {
         for (budget, level) in budgets.iter().zip(compare(&name, &budgets)?) {
-            println!(
-                "{name},{budget},{},{},{:.3},{:.3}",
-                level.triangles, level.has_cards, level.likeness, level.ink
-            );
+            let Compared { triangles, has_cards, whole, halved } = level;
+            print!("{name},{budget},{triangles},{has_cards}");
+            println!(",{:.3},{:.3},{:.3},{:.3}", whole.likeness, whole.ink, halved.likeness, halved.ink);
         }
     }
     Ok(())
