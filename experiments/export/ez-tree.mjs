@@ -13,10 +13,11 @@ import { extname, join, resolve } from "node:path";
 
 const SPECIES = [
   "quaking_aspen", "weeping_willow", "palm", "small_pine", "acer", "black_oak", "hill_cherry", "stylised_oak",
+  "natural_oak", "natural_aspen",
 ];
 const PICTURE = [
   ["ez-tree", "Oak Medium"], ["ez-tree", "Aspen Medium"], ["ez-tree", "Pine Medium"],
-  ["pleach", "black_oak"], ["pleach", "quaking_aspen"], ["pleach", "small_pine"],
+  ["pleach", "natural_oak"], ["pleach", "natural_aspen"], ["pleach", "small_pine"],
 ];
 const RUNS = 2;
 const COLUMNS = [
@@ -130,6 +131,7 @@ async function prepare() {
     const group = placed(tree);
     group.traverse((part) => {
       part.castShadow = part.receiveShadow = true;
+      if (part.material?.map) part.material.map.anisotropy = 8;
     });
     Object.assign(sun.shadow.camera, { left: -12, right: 12, top: 12, bottom: -12, far: 60 });
     sun.castShadow = true;
