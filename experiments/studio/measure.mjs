@@ -18,6 +18,8 @@ if (!pleach) throw new Error("usage: node experiments/studio/measure.mjs PLEACH 
 /** Goals whose trees take little, middling and much time to grow. */
 const GOALS = ["palm", "quaking_aspen", "silver_birch", "weeping_willow"];
 const SECONDS = 30;
+/** Files that a visitor does not load who looks at nothing in three dimensions. */
+const LATER = /(scene-view|model-view|tree-view|growing-worker)-/;
 const rows = [["what", "value", "unit"]];
 const note = (what, value, unit) => {
   rows.push([what, typeof value === "number" ? Number(value.toPrecision(4)) : value, unit]);
@@ -30,14 +32,12 @@ const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length 
 const dist = join(root, "web/dist");
 const weight = (name) => gzipSync(readFileSync(join(dist, name)), { level: 9 }).length / 1e6;
 const assets = readdirSync(join(dist, "assets")).map((name) => `assets/${name}`);
-note(
-  "size of the page, compressed",
-  ["index.html", "icon.svg", ...assets].map(weight).reduce((a, b) => a + b),
-  "MB",
-);
-const named = (part) => weight(assets.find((name) => name.includes(part)));
-note("of it the library", named("pleach_web_bg"), "MB");
-note("of it three.js, for views in three dimensions", named("scene-view"), "MB");
+const later = assets.filter((name) => LATER.test(name));
+const sum = (names) => names.map(weight).reduce((a, b) => a + b);
+const first = ["index.html", "icon.svg", ...assets.filter((name) => !later.includes(name))];
+note("size of the page, compressed", sum(first), "MB");
+note("of it the library", weight(assets.find((name) => name.includes("pleach_web_bg"))), "MB");
+note("views in three dimensions, loaded with the first of them", sum(later), "MB");
 note(
   "drawings for the first guess, loaded with the first fit",
   statSync(join(dist, "known.bin")).size / 1e6,
@@ -45,6 +45,16 @@ note(
 );
 
 const studio = await open();
+
+// That nothing of it is loaded with the page.
+{
+  const { page, context } = await newPage(studio);
+  await page.waitForTimeout(3000);
+  const loaded = await page.evaluate(() => performance.getEntriesByType("resource").map((entry) => entry.name));
+  const early = loaded.filter((name) => LATER.test(name));
+  if (early.length > 0) throw new Error(`loaded with the page: ${early.join(", ")}`);
+  await context.close();
+}
 
 /** Seconds from the address to the first silhouette on the map, in a browser that has nothing cached. */
 async function firstTree() {
@@ -98,10 +108,12 @@ async function compare(name, file, page) {
   const height = await page.getByRole("spinbutton", { name: /Height/ }).inputValue();
   const pressed = Date.now();
   await page.getByTestId("start").click();
+  await page.getByTestId("overlay").waitFor();
+  note(`${name}: nearest known tree, after Start`, (Date.now() - pressed) / 1000, "s");
   await page.waitForFunction(() =>
     document.querySelector('[data-testid="overlay"]')?.getAttribute("aria-label").includes("Likeness"),
   );
-  note(`${name}: first tree, after Start`, (Date.now() - pressed) / 1000, "s");
+  note(`${name}: first tree of a search, after Start`, (Date.now() - pressed) / 1000, "s");
   await page.getByTestId("score").waitFor({ timeout: 8 * SECONDS * 1000 });
   const likeness = Number(await page.locator(".score .big").textContent());
   const { trees, seconds } = await page.evaluate(() => window.studio.search());

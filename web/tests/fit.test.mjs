@@ -224,14 +224,15 @@ test("without this very tree there is only the kind", async () => {
   await context.close();
 });
 
-test("a race between families shows its trees and may be stopped", async () => {
+test("a race between families shows a known tree, then its own, and may be stopped", async () => {
   const { page, problems, context } = await fit("#fit?goal=acer");
   await page.getByLabel("Family").selectOption("trees");
   // A search of the race may be over before a test that asks again and again has seen it.
   await page.evaluate(() => {
-    window.seen = { trying: false, overlay: false };
+    window.seen = { known: false, trying: false, overlay: false };
     const look = () => {
       const text = document.body.innerText;
+      window.seen.known ||= !window.seen.trying && text.includes("Nearest known tree");
       window.seen.trying ||= /^Trying .+, search 1 of \d$/m.test(text);
       window.seen.overlay ||=
         !!document.querySelector('[data-testid="overlay"]') && !text.includes("Looks like");
@@ -244,6 +245,7 @@ test("a race between families shows its trees and may be stopped", async () => {
   });
   await start(page, endless());
   await page.waitForFunction(() => window.seen.trying && window.seen.overlay, null, { timeout: PATIENCE });
+  assert.ok(await page.evaluate(() => window.seen.known), "no known tree was shown before the race");
   await page.getByTestId("stop").click();
   await page.getByTestId("score").waitFor({ timeout: 60_000 });
   await page.getByText("Looks like").waitFor();

@@ -6,7 +6,7 @@ import { megabytes } from "./step.mjs";
 
 /** Not loaded with the page, but when a room asks for it; what is not named here comes at once. */
 const LATER = [
-  ["three.js, with the first tree in three dimensions", /(tree-view|model-view|textures)-/],
+  ["three.js, with the first tree in three dimensions", /(scene-view|tree-view|model-view|growing-worker)-/],
   ["drawings of known species, with the first fit", /known\.bin$/],
   ["goals, each when it is seen", /^targets\//],
   ["of apps, service workers and links", /^(icon-|preview|manifest|service-worker)/],

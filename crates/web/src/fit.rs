@@ -7,8 +7,8 @@ use crate::{message, report};
 use js_sys::{Array, Function, Uint8Array};
 use pleach::plan::library_with;
 use pleach::{
-    Control, Drawings, FitDrawing, FitOptions, FitReport, FitSource, Foliage, GuessLibrary,
-    IndividualProgress, LooksLike, Observer, Prepared, Scored, Stepwise, StepwiseRace, StopReason,
+    Control, Drawings, FitDrawing, FitOptions, FitProblem, FitReport, FitSource, Foliage, GuessLibrary,
+    IndividualProgress, LooksLike, Observer, Prepared, Scored, Species, Stepwise, StepwiseRace, StopReason,
 };
 use serde_json::json;
 use std::sync::atomic::AtomicBool;
@@ -73,14 +73,17 @@ impl Fit {
         Ok(())
     }
 
-    /// Compares the goal with the known species; `progress` is called with the trees that are done, and all.
-    pub fn compare(&mut self, progress: &Function) -> Result<(), JsError> {
+    /// Compares the goal with the known species; `progress` is called with the trees that are done, and all, and `nearest`
+    /// once, with the known tree that is most like the goal: over the goal, one byte per pixel, 1 for tree; and its species
+    /// file.
+    pub fn compare(&mut self, progress: &Function, nearest: &Function) -> Result<(), JsError> {
         let Stage::Prepared(library) = std::mem::replace(&mut self.stage, Stage::Failed) else {
             return Err(thrown("the goal has been compared with the known species"));
         };
         let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
         let mut callback = Callback(progress);
-        let control = Control { observers: vec![&mut callback], ..Control::new(&clock, &stop) };
+        let mut first = Nearest { prepared: &self.prepared, function: nearest };
+        let control = Control { observers: vec![&mut callback, &mut first], ..Control::new(&clock, &stop) };
         let Prepared { problem, settings, .. } = &self.prepared;
         let race = StepwiseRace::begin(problem, settings, *library, control).map_err(thrown)?;
         self.stage = Stage::Racing(Box::new(race));
@@ -307,5 +310,25 @@ impl Observer for Callback<'_> {
     fn individual(&mut self, progress: &IndividualProgress) {
         let (stage, used) = (JsValue::from_str("individual"), JsValue::from_f64(progress.used));
         let _ = self.0.call2(&JsValue::NULL, &stage, &used);
+    }
+}
+
+/// Draws the known tree that is most like the goal, for a function of the page.
+struct Nearest<'a> {
+    prepared: &'a Prepared,
+    function: &'a Function,
+}
+
+impl Observer for Nearest<'_> {
+    fn nearest(&mut self, species: &Species, foliage: Foliage) {
+        let Prepared { problem, settings, .. } = self.prepared;
+        let problem = FitProblem { start: species.clone(), foliage, goals: problem.goals.clone() };
+        let drawing = self.prepared.drawing(&problem, settings.search.limits);
+        let species = self.prepared.named(species.clone());
+        // A tree that does not grow is not shown, and the fit goes on.
+        let Ok(tree) = drawing.grow(&species) else { return };
+        let (silhouette, original) = drawing.silhouettes(&tree);
+        let ink = Uint8Array::from(ink(original.as_ref().unwrap_or(&silhouette)).as_slice());
+        let _ = self.function.call2(&JsValue::NULL, &ink, &JsValue::from_str(&species.to_toml(&[])));
     }
 }

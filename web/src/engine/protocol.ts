@@ -275,11 +275,16 @@ export interface FitProgress {
   used: number | null;
   ended: string | null;
 }
+/** A tree over the goal, one byte per pixel, and its species file. */
+export interface DrawnTree {
+  ink: Uint8Array<ArrayBuffer>;
+  toml: string;
+}
 export interface FitStep {
   pieces: Uint8Array<ArrayBuffer>[];
   progress: FitProgress;
   /** The best so far, when it was asked for. */
-  best: { ink: Uint8Array<ArrayBuffer>; toml: string } | null;
+  best: DrawnTree | null;
 }
 export type Seen = "determined" | "loosely" | "not-seen" | "not-tried";
 interface Spread {
@@ -458,7 +463,7 @@ export interface Ops {
 }
 export type Op = keyof Ops;
 
-export type Progress = { stage: string; done?: number; all?: number };
+export type Progress = { stage: string; done?: number; all?: number; nearest?: DrawnTree };
 
 export interface Request<K extends Op = Op> {
   id: number;

@@ -2,6 +2,7 @@
 import { Cancelled, Client } from "./client";
 import { cores } from "./pool";
 import type {
+  DrawnTree,
   FitOptions,
   FitProgress,
   FitResult,
@@ -20,6 +21,8 @@ export interface FitEvents {
   stage(progress: Progress): void;
   /** Trees of the goal are searched from now on: first of several generators in turn, where there are several. */
   began(): void;
+  /** The known tree that is most like the goal, before any search. */
+  nearest(found: DrawnTree): void;
   /** A generator is tried. */
   tries(leg: Leg): void;
   guessed(guess: Guess): void;
@@ -64,12 +67,21 @@ export class FitSession {
   async run(): Promise<FoundTrees & { result: FitResult }> {
     try {
       this.events.stage({ stage: "Loading what is known" });
-      const stage = (progress: Progress) => this.events.stage(progress);
+      let hasBegun = false;
+      const stage = (progress: Progress) => {
+        if (progress.nearest) {
+          if (!hasBegun) this.events.began();
+          hasBegun = true;
+          this.events.nearest(progress.nearest);
+        } else {
+          this.events.stage(progress);
+        }
+      };
       const [colors, known] = await this.unlessCancelled(Promise.all([this.colors(), knownDrawings()]));
       const goal = { ...this.goal, colors, ink: this.goal.ink.slice() };
       const input = { goal, options: this.options, drawings: known };
       await this.ask(this.coordinator, "fitCompare", input, stage);
-      this.events.began();
+      if (!hasBegun) this.events.began();
       await this.race();
       const { guess, recipe } = await this.ask(this.coordinator, "fitBegin", null);
       this.events.guessed(guess);

@@ -23,7 +23,11 @@ export const fitHandlers: Handlers<
     fit?.free();
     fit = new Fit(made, JSON.stringify(options));
     if (drawings) fit.use_drawings(drawings);
-    fit.compare((done: number, all: number) => report({ stage: "Comparing with known species", done, all }));
+    const stage = "Comparing with known species";
+    fit.compare(
+      (done: number, all: number) => report({ stage, done, all }),
+      (ink: Uint8Array<ArrayBuffer>, toml: string) => report({ stage, nearest: { ink, toml } }),
+    );
     return null;
   },
 

@@ -6,6 +6,7 @@ use crate::error::ObserverError;
 use crate::individual::IndividualProgress;
 use crate::problem::Scored;
 use crate::run::CheckpointError;
+use pleach_tree::{Foliage, Species};
 use std::time::Duration;
 
 /// Progress of a search.
@@ -38,6 +39,12 @@ pub trait Observer {
     /// During a first guess: `done` of `all` trees are grown.
     fn guessing(&mut self, done: usize, all: usize) {
         let _ = (done, all);
+    }
+
+    /// During a first guess, once: the known tree that is most like the goal, at the goal's height, with leaves or without.
+    /// The search may start from another: numbers that are learnt and a race come after it.
+    fn nearest(&mut self, species: &Species, foliage: Foliage) {
+        let _ = (species, foliage);
     }
 
     /// Before the search, with its start. The last moment to refuse it.

@@ -6,7 +6,7 @@ use crate::assess::{AssessmentSettings, Assessor, best_kind, finer_leaves};
 use crate::control::{Control, Outcome, PreparedSearch, StopReason, Until};
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
-use crate::guess::{FirstGuess, GuessLibrary, OpenGuess};
+use crate::guess::{FirstGuess, GuessLibrary, Guessed, OpenGuess};
 use crate::individual::{IndividualSettings, individuals};
 use crate::method::Start;
 use crate::posterior::{Posterior, PosteriorModel, PosteriorSettings, Prior};
@@ -165,8 +165,15 @@ pub(super) fn open(
 ) -> Result<Option<OpenGuess>, FitError> {
     let Guessing::Compare(how) = &settings.guess else { return Ok(None) };
     let (stop, observers) = (control.stop, &mut control.observers);
-    let notify = |done, all| observers.iter_mut().for_each(|observer| observer.guessing(done, all));
-    library.open_guess(problem, &settings.search, &settings.candidates, how, stop, notify).map(Some)
+    let tell = |told: Guessed| {
+        for observer in observers.iter_mut() {
+            match &told {
+                Guessed::Grown(done, all) => observer.guessing(*done, *all),
+                Guessed::Nearest(species, foliage) => observer.nearest(species, *foliage),
+            }
+        }
+    };
+    library.open_guess(problem, &settings.search, &settings.candidates, how, stop, tell).map(Some)
 }
 
 /// Makes the first guess, registers the frames and lets the observers accept what the search begins with.

@@ -16,7 +16,7 @@ use crate::error::FitError;
 use crate::problem::{FitProblem, with_values};
 use crate::run::FitSettings;
 use crate::space::SpaceError;
-use pleach_tree::Foliage;
+use pleach_tree::{Foliage, Species};
 use std::sync::atomic::AtomicBool;
 
 /// Compares the goals of `problem` with trees of all `candidates`. `progress` is called with the numbers of trees
@@ -40,6 +40,15 @@ pub fn first_guess(
 
 /// Seeds of each candidate for references alone.
 const REFERENCE_SEEDS: u32 = 1;
+
+/// What is told during a first guess.
+#[derive(Debug)]
+pub(crate) enum Guessed {
+    /// So many trees are grown, and so many are to be.
+    Grown(usize, usize),
+    /// The tree of the library that is most like the goals.
+    Nearest(Box<Species>, Foliage),
+}
 
 /// A first guess before its race is run.
 #[derive(Debug)]
@@ -72,7 +81,11 @@ impl GuessLibrary {
         stop: &AtomicBool,
         mut progress: impl FnMut(usize, usize),
     ) -> Result<FirstGuess, FitError> {
-        let mut open = self.open_guess(problem, settings, candidates, guess, stop, &mut progress)?;
+        let mut open = self.open_guess(problem, settings, candidates, guess, stop, |told| {
+            if let Guessed::Grown(done, all) = told {
+                progress(done, all);
+            }
+        })?;
         open.race.run(stop, &mut progress)?;
         self.close_guess(open, stop)
     }
@@ -88,8 +101,9 @@ impl GuessLibrary {
         candidates: &[Candidate],
         guess: &GuessSettings,
         stop: &AtomicBool,
-        mut progress: impl FnMut(usize, usize),
+        mut tell: impl FnMut(Guessed),
     ) -> Result<OpenGuess, FitError> {
+        let mut progress = |done, all| tell(Guessed::Grown(done, all));
         let known = known_views(problem);
         let evaluator = likeness_evaluator(&known, settings)?;
         let context = GoalContext::new(&known, candidates, &evaluator, settings, stop, self.prepared.clone())
@@ -110,6 +124,12 @@ impl GuessLibrary {
         let mut by_candidate = references::by_candidate(candidates.len(), entries, &found);
         if let Some(preview) = preview {
             preview.complete(&mut costs, &mut by_candidate);
+        }
+        let nearest = alike.first().and_then(|(_, candidate, genome)| {
+            with_values(&candidates[*candidate].species, genome.values.clone()).ok()
+        });
+        if let Some(species) = nearest {
+            tell(Guessed::Nearest(Box::new(species), foliage));
         }
         alike.extend(measured(&context, &alike, foliage)?);
         alike.extend(predicted(&context, predictors.as_ref(), &costs, &alike, foliage)?);

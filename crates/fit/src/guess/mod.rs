@@ -37,8 +37,8 @@ mod silhouettes;
 
 pub use candidate::Candidate;
 pub use drawings::{Drawings, DrawingsError};
-pub(crate) use first_guess::OpenGuess;
 pub use first_guess::first_guess;
+pub(crate) use first_guess::{Guessed, OpenGuess};
 pub use found::{FirstGuess, Guess, Reference, References, Runner};
 pub use library::GuessLibrary;
 pub use race::Leg;

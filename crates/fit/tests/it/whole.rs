@@ -7,7 +7,7 @@ use pleach_fit::{
     IndividualSettings, Observer, ObserverError, PosteriorSettings, PreparedSearch, Progress, Start,
     StopReason, fit, fit_goal, fit_goal_with,
 };
-use pleach_tree::Limits;
+use pleach_tree::{Foliage, Limits, Species};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -47,6 +47,11 @@ impl Observer for Steps<'_> {
     fn guessing(&mut self, done: usize, all: usize) {
         assert!(done <= all);
         self.step("guessing");
+    }
+
+    fn nearest(&mut self, species: &Species, foliage: Foliage) {
+        assert_eq!((species.name.as_str(), foliage), ("palm", Foliage::All));
+        self.step("nearest");
     }
 
     fn prepared(&mut self, prepared: &PreparedSearch) -> Result<(), ObserverError> {
@@ -89,7 +94,7 @@ fn a_posterior_is_learnt_in_the_end_and_is_all_or_nothing() {
     let how = PosteriorSettings { trees: 130, samples: 1, ..PosteriorSettings::default() };
     let settings = GoalSettings { posterior: Some(how), ..settings(60) };
     let (whole, seen) = watched_with(&settings, "");
-    assert_eq!(seen, ["guessing", "prepared", "progress", "assessing", "learning"]);
+    assert_eq!(seen, ["guessing", "nearest", "prepared", "progress", "assessing", "learning"]);
     let whole = whole.unwrap();
     let found = whole.posterior.unwrap();
     assert_eq!((found.trees + found.failures, found.samples.len()), (130, 1));
@@ -103,10 +108,10 @@ fn a_posterior_is_learnt_in_the_end_and_is_all_or_nothing() {
 fn every_step_is_told_and_each_can_be_the_last() {
     let (whole, seen) = watched("");
     let whole = whole.unwrap();
-    assert_eq!(seen, ["guessing", "prepared", "progress", "assessing"]);
+    assert_eq!(seen, ["guessing", "nearest", "prepared", "progress", "assessing"]);
     assert!(whole.assessment.is_some() && whole.outcome.stop == StopReason::Evaluations);
 
-    for at in ["guessing", "prepared"] {
+    for at in ["guessing", "nearest", "prepared"] {
         let (result, seen) = watched(at);
         assert!(matches!(result, Err(FitError::Interrupted)), "{at}");
         assert!(!seen.contains(&"assessing"));
@@ -124,7 +129,7 @@ fn every_step_is_told_and_each_can_be_the_last() {
     }
     let (result, seen) = watched("refused");
     assert_eq!(result.unwrap_err().to_string(), "no room");
-    assert_eq!(seen, ["guessing", "prepared"]);
+    assert_eq!(seen, ["guessing", "nearest", "prepared"]);
 }
 
 #[test]

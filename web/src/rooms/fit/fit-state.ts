@@ -86,6 +86,10 @@ function events(id: number, goal: GoalPixels, isCurrent: () => boolean): FitEven
         earlier: finished(record.peek()),
       };
     },
+    nearest({ ink, toml }) {
+      if (!isCurrent() || record.peek()?.id !== id) return;
+      change({ best: { ink, ownInk: null }, soFar: toml });
+    },
     tries({ family, number, count }) {
       if (!isCurrent()) return;
       stage.value = { text: `Trying ${familyTitle(family)}, search ${number} of ${count}`, share: null };

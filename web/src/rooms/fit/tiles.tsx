@@ -51,11 +51,17 @@ function scoreText(): string {
   return `Likeness ${card.likeness.toFixed(2)}, IoU ${card.iou.toFixed(2)}.`;
 }
 
+/** What the tree is where there is one alone. Before the first scores it is a known one. */
+function soleName(): string {
+  if (result.value) return "Best tree";
+  return progress.value ? "Best tree so far" : "Nearest known tree";
+}
+
 /** The choice between the goal's own tree and one of its kind, or what the one tree is. */
 function Caption(): JSX.Element {
   const isOwn = best.value?.ownInk;
   const another = other.value;
-  if (!isOwn && !another) return <>{result.value ? "Best tree" : "Best tree so far"}</>;
+  if (!isOwn && !another) return <>{soleName()}</>;
   return (
     <Segmented
       label="Tree that is shown"
