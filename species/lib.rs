@@ -173,6 +173,7 @@ mod tests {
             ("fractal", super::FRACTAL),
             ("least-cost-path", super::LEAST_COST_PATH),
             ("lsystem", super::LSYSTEM),
+            ("natural", super::NATURAL),
             ("space-colonization", super::SPACE_COLONIZATION),
             ("stylised", super::STYLISED),
             ("weber-penn", super::WEBER_PENN),

