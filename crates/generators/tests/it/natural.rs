@@ -25,7 +25,7 @@ fn their_leaves_are_of_natural_size() {
 }
 
 #[test]
-fn they_are_known_and_in_no_familys_list() {
+fn they_are_known_and_no_family_has_them_in_its_list() {
     let known = names();
     for name in natural_names() {
         assert!(known.contains(&name) && !HEWITT_2017.contains(&name), "{name}");
