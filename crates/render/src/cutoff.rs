@@ -32,7 +32,7 @@ const NONE: f32 = 0.08;
 /// looked at by itself.
 pub(crate) fn cut_out(picture: &mut Picture, cell: [u32; 2]) -> f32 {
     let (across, down) = (picture.width / cell[0].max(1), picture.height / cell[1].max(1));
-    let places = (0..down).flat_map(|y| (0..across).map(move |x| [x * cell[0], y * cell[1]]));
+    let places = (0..across * down).into_par_iter().map(|i| [i % across * cell[0], i / across * cell[1]]);
     let cells: Vec<Cell> = places.filter_map(|place| Cell::new(picture, place, cell)).collect();
     // Rims that are less opaque stay where they are not shown.
     let plain: f32 = cells.par_iter().map(Cell::off).collect::<Vec<_>>().iter().sum();
@@ -87,7 +87,7 @@ impl Cell {
             (painted, halved)
         });
         let shares = halvings(alphas, own).iter().map(|small| share(small, SHOWN)).collect();
-        let (sharp, painted) = (halvings(sharp, own), painted.to_vec());
+        let (sharp, painted) = (halvings(sharp, own), Vec::from(painted));
         Some(Self { place, size, is_shown, covered, shares, sharp, painted })
     }
 

@@ -7,8 +7,9 @@ use crate::{message, report};
 use js_sys::{Array, Function, Uint8Array};
 use pleach::plan::library_with;
 use pleach::{
-    Control, Drawings, FitDrawing, FitOptions, FitProblem, FitReport, FitSource, Foliage, GuessLibrary,
-    IndividualProgress, LooksLike, Observer, Prepared, Scored, Species, Stepwise, StepwiseRace, StopReason,
+    Control, Drawings, FitDrawing, FitOptions, FitProblem, FitReport, FitSource, Foliage, GrowError,
+    GuessLibrary, IndividualProgress, LooksLike, Observer, Prepared, Scored, Species, Stepwise, StepwiseRace,
+    StopReason,
 };
 use serde_json::json;
 use std::sync::atomic::AtomicBool;
@@ -203,9 +204,8 @@ impl Fit {
             return Ok(Vec::new());
         };
         let drawing = self.drawing()?;
-        let tree = drawing.grow(&drawing.species(&best.genome).map_err(thrown)?).map_err(thrown)?;
-        let (silhouette, original) = drawing.silhouettes(&tree);
-        Ok(ink(original.as_ref().unwrap_or(&silhouette)))
+        let species = drawing.species(&best.genome).map_err(thrown)?;
+        over_goal(&drawing, &species).map_err(thrown)
     }
 
     /// The species file of the best tree so far.
@@ -294,6 +294,12 @@ fn seconds(elapsed: f64) -> Result<Duration, JsError> {
     Duration::try_from_secs_f64(elapsed).map_err(thrown)
 }
 
+/// The tree of `species` over the goal: one byte per pixel, 1 for tree.
+fn over_goal(drawing: &FitDrawing<'_>, species: &Species) -> Result<Vec<u8>, GrowError> {
+    let (silhouette, original) = drawing.silhouettes(&drawing.grow(species)?);
+    Ok(ink(original.as_ref().unwrap_or(&silhouette)))
+}
+
 /// Calls a function of the page.
 struct Callback<'a>(&'a Function);
 
@@ -326,9 +332,8 @@ impl Observer for Nearest<'_> {
         let drawing = self.prepared.drawing(&problem, settings.search.limits);
         let species = self.prepared.named(species.clone());
         // A tree that does not grow is not shown, and the fit goes on.
-        let Ok(tree) = drawing.grow(&species) else { return };
-        let (silhouette, original) = drawing.silhouettes(&tree);
-        let ink = Uint8Array::from(ink(original.as_ref().unwrap_or(&silhouette)).as_slice());
+        let Ok(ink) = over_goal(&drawing, &species) else { return };
+        let ink = Uint8Array::from(ink.as_slice());
         let _ = self.function.call2(&JsValue::NULL, &ink, &JsValue::from_str(&species.to_toml(&[])));
     }
 }

@@ -22,12 +22,11 @@ const NOT_TREES: [&str; 15] = [
     "abop_flowering_plant",
 ];
 
-/// Names of the species of generators' own lists that are trees.
+/// Names of the species that are trees, but for those that differ from others by the size of their leaves.
 pub(super) fn names() -> Vec<&'static str> {
-    let all = pleach_generators::families()
-        .iter()
-        .flat_map(|family| family.presets().iter().map(|(name, _)| *name));
-    all.filter(|name| !NOT_TREES.contains(name)).collect()
+    let natural: Vec<&str> = pleach_generators::natural_names().collect();
+    let is_wanted = |name: &&str| !NOT_TREES.contains(name) && !natural.contains(name);
+    pleach_generators::names().into_iter().filter(is_wanted).collect()
 }
 
 /// A tree, or a clump of several.

@@ -202,16 +202,22 @@ impl Rasterizer {
     /// that are black, so that most leaves of the later ones need only a look.
     fn leaves(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
         let placer = Placer::new(camera, scale);
-        let area = self.grid.area();
-        let passes = if self.saturates && tree.leaves.len() > area / LEAVES_TO_SWEEP { PASSES } else { 1 };
         // To look for them takes as long as to place the leaves, and each pass wants them.
         self.runs.clear();
         self.runs.extend(tree.leaves.chunk_by(outline::look_alike).map(<[Leaf]>::len));
+        let count = tree.leaves.len() * LEAVES_TO_SWEEP;
+        self.in_passes(count, |own, part| own.every_so_many_leaves(tree, &placer, part));
+    }
+
+    /// Draws shapes in several passes if `count` is more than there are pixels, and looks for black pixels between them.
+    /// `draw` draws the shapes at a place and every so many from there on, and returns how many were drawn.
+    fn in_passes(&mut self, count: usize, draw: impl Fn(&mut Self, (usize, usize)) -> usize) {
+        let passes = if self.saturates && count > self.grid.area() { PASSES } else { 1 };
         for pass in 0..passes {
             if pass > 0 {
                 self.occlusion.look(&mut self.grid, PIXELS_FOR_A_LEAF);
             }
-            let drawn = self.every_so_many_leaves(tree, &placer, (pass, passes));
+            let drawn = draw(self, (pass, passes));
             self.occlusion.add(drawn);
         }
     }
@@ -227,7 +233,6 @@ impl Rasterizer {
         let pixels = placer.camera.pixels_per_meter() as f32;
         let row = 1.0 / placer.scale.y;
         let Self { grid, occlusion, outlines, runs, .. } = self;
-        let is_looked_up = occlusion.is_known();
         let mut corners = [[0.0; 2]; Outline::MAX_CORNERS];
         let mut drawn = 0;
         let mut rest = &tree.leaves[..];
@@ -251,12 +256,7 @@ impl Rasterizer {
                     continue;
                 }
                 let (left, right) = reach(0);
-                let is_hidden = if is_looked_up {
-                    occlusion.hides([left, right], [top, bottom], row)
-                } else {
-                    grid.is_covered(left, right, top, bottom)
-                };
-                if is_hidden {
+                if is_hidden(occlusion, grid, [left, right], [top, bottom], row) {
                     continue;
                 }
                 for (corner, p) in corners.iter_mut().zip(outline) {
@@ -275,17 +275,12 @@ impl Rasterizer {
     /// In passes, as leaves are.
     fn blossoms(&mut self, tree: &Tree, camera: &Camera, scale: Vec2) {
         let placer = Placer::new(camera, scale);
-        let area = self.grid.area();
-        let passes =
-            if self.saturates && tree.blossoms.len() > area / BLOSSOMS_TO_SWEEP { PASSES } else { 1 };
-        for pass in 0..passes {
-            // Leaves may have been drawn since black pixels were looked for.
-            if self.saturates {
-                self.occlusion.look(&mut self.grid, PIXELS_FOR_A_LEAF);
-            }
-            let drawn = self.every_so_many_blossoms(tree, &placer, (pass, passes));
-            self.occlusion.add(drawn);
+        // Leaves may have been drawn since black pixels were looked for.
+        if self.saturates {
+            self.occlusion.look(&mut self.grid, PIXELS_FOR_A_LEAF);
         }
+        let count = tree.blossoms.len() * BLOSSOMS_TO_SWEEP;
+        self.in_passes(count, |own, part| own.every_so_many_blossoms(tree, &placer, part));
     }
 
     /// As [`Self::every_so_many_leaves`], of blossoms.
@@ -297,7 +292,6 @@ impl Rasterizer {
     ) -> usize {
         let row = 1.0 / placer.scale.y;
         let Self { grid, occlusion, .. } = self;
-        let is_looked_up = occlusion.is_known();
         let mut corners = [[0.0; 2]; Outline::MAX_CORNERS];
         let mut drawn = 0;
         let mut last: Option<(u16, Cup)> = None;
@@ -326,12 +320,7 @@ impl Rasterizer {
                 continue;
             }
             let [left, right] = reach(0);
-            let is_hidden = if is_looked_up {
-                occlusion.hides([left, right], [top, bottom], row)
-            } else {
-                grid.is_covered(left, right, top, bottom)
-            };
-            if is_hidden {
+            if is_hidden(occlusion, grid, [left, right], [top, bottom], row) {
                 continue;
             }
             for polygon in faces.petals {
@@ -363,6 +352,16 @@ impl Rasterizer {
             }
         }
     }
+}
+
+/// Whether all of a box in samples, of which there are 1 / `row` down each pixel, is black: by pixels where these have been
+/// looked for, and else by samples.
+#[inline]
+fn is_hidden(occlusion: &Occlusion, grid: &Grid, across: [f32; 2], down: [f32; 2], row: f32) -> bool {
+    if occlusion.is_known() {
+        return occlusion.hides(across, down, row);
+    }
+    grid.is_covered(across[0], across[1], down[0], down[1])
 }
 
 /// Passes of a dense crown, and its density: more than one leaf per this many pixels.
