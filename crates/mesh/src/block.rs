@@ -76,15 +76,6 @@ impl Emergence {
     }
 }
 
-/// A place on the axis of a stem.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AxisPoint {
-    /// Number of the stem.
-    pub stem: u32,
-    /// In metres.
-    pub point: Vec3,
-}
-
 /// A run of a part's corners and triangles: what goes through a [`crate::Sink`] at a time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Block {

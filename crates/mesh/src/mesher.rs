@@ -1,7 +1,7 @@
 //! From a tree to blocks of triangles: sizes first, then any run of stems or leaves.
 
 use crate::blobs::{self, Cover};
-use crate::block::{AxisPoint, Block, Emergence};
+use crate::block::{Block, Emergence, Wind};
 use crate::foliage::UnitMesh;
 use crate::growth::Ages;
 use crate::part::{Count, Material, Part, Source};
@@ -227,30 +227,14 @@ impl<'a> Mesher<'a> {
         placed.only_shape()
     }
 
-    /// The part of `mesh` that is made of stems, in so many corners and triangles.
-    pub(crate) fn stems_part(&self, mesh: usize, count: Count) -> Part {
-        Part {
-            wind: self.settings.wind,
-            growth: self.settings.growth,
-            pixels: self.pixels.is_some(),
-            rigged: self.rig.is_some(),
-            ..Part::plain(mesh, Material::Bark, count)
-        }
+    /// Whether vertices have wind data.
+    pub(crate) const fn has_wind(&self) -> bool {
+        self.settings.wind
     }
 
-    /// Appends a surface around stems of the tree; `axes` has the nearest place on their axes for each of its vertices.
-    pub(crate) fn fill_surface(&self, bark: &Block, axes: &[AxisPoint], block: &mut Block) {
-        block.vertices.extend_from_slice(&bark.vertices);
-        block.triangles.extend_from_slice(&bark.triangles);
-        if let Some(bodies) = &self.bodies {
-            block.wind.extend(axes.iter().map(|axis| bodies.of_stem(axis.stem as usize)));
-        }
-        if let Some(ages) = &self.ages {
-            block.growth.extend(bark.vertices.iter().zip(axes).map(|(vertex, axis)| Emergence {
-                time: ages.near(axis.stem, axis.point),
-                toward: axis.point - vertex.position,
-            }));
-        }
+    /// Wind data of a vertex that moves with stem number `stem`, where it is asked for.
+    pub(crate) fn wind_of(&self, stem: u32) -> Option<Wind> {
+        self.bodies.as_ref().map(|bodies| bodies.of_stem(stem as usize))
     }
 
     fn fill_stems(&self, range: Range<usize>, block: &mut Block) {

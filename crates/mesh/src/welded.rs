@@ -6,8 +6,8 @@ use crate::part::{Count, Material, Part, Source};
 use crate::weld::Skin;
 use std::ops::Range;
 
-/// A meshed tree with a welded surface instead of a tube for each stem that is part of it. The surface has no joints, and
-/// belongs to no element of pivots.
+/// A meshed tree with a welded surface instead of a tube for each stem that is part of it. The surface moves in
+/// wind; it has neither growth data nor joints, and belongs to no element of pivots.
 #[derive(Debug)]
 pub struct Welded<'a> {
     skin: &'a Skin,
@@ -27,7 +27,7 @@ impl Source for Welded<'_> {
         let Block { vertices, triangles, .. } = &self.skin.bark;
         let mut count = Count { vertices: vertices.len() as u64, triangles: triangles.len() as u64 };
         count += self.rest.bark();
-        let bark = self.rest.stems_part(mesh, count);
+        let bark = Part { wind: self.rest.has_wind(), ..Part::plain(mesh, Material::Bark, count) };
         let rest = self.rest.parts(mesh).into_iter().filter(|part| part.material != Material::Bark);
         std::iter::once(bark).filter(|bark| bark.count.triangles > 0).chain(rest).collect()
     }
@@ -46,7 +46,10 @@ impl Source for Welded<'_> {
             return self.rest.fill(material, range, block);
         }
         if range.start == 0 {
-            return self.rest.fill_surface(&self.skin.bark, &self.skin.axes, block);
+            block.vertices.extend_from_slice(&self.skin.bark.vertices);
+            block.triangles.extend_from_slice(&self.skin.bark.triangles);
+            block.wind.extend(self.skin.nearest.iter().filter_map(|stem| self.rest.wind_of(*stem)));
+            return;
         }
         let first = block.triangles.len();
         self.rest.fill(material, range.start - 1..range.end - 1, block);

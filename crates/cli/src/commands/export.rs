@@ -63,7 +63,7 @@ pub(crate) struct MeshArgs {
     pub(super) lod_extension: bool,
     /// Weld all stems into one surface, on a grid with cells of this many millimetres; what is thinner becomes as thick as
     /// a cell. It is watertight unless --textures cut it. With --triangles stems thinner than a cell stay tubes
-    #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "pivot_painter", "forest", "tolerance"])]
+    #[arg(long, value_name = "MM", value_parser = cell, conflicts_with_all = ["lod", "sway", "growth", "pivot_painter", "forest", "tolerance"])]
     pub(super) weld: Option<f64>,
     /// Round the corners where welded stems meet: width of the fillet over the radius of the thinner
     /// stem, 0 to 4 [default: 0]

@@ -3,7 +3,7 @@
 use super::boxes::Boxes;
 use super::unroll::Unrolled;
 use super::{Shape, Stems, WeldError, WeldSettings, closed};
-use crate::block::{AxisPoint, Block, Vertex};
+use crate::block::{Block, Vertex};
 use crate::decimate::Surface;
 use crate::lod::Level;
 use glam::Vec3;
@@ -15,9 +15,9 @@ use rayon::prelude::*;
 pub struct Skin {
     /// The surface; empty where no stem is welded.
     pub bark: Block,
-    /// Of each vertex of the surface, the nearest place on the axes of the welded stems. Vertices in one place have the
-    /// same, so that what moves the surface by its stems does not tear it.
-    pub axes: Vec<AxisPoint>,
+    /// Of each vertex of the surface, the number of the stem that is nearest to it: the same for all in one place, so that
+    /// what moves the surface by its stems does not tear it.
+    pub nearest: Vec<u32>,
     /// Whether each stem is part of the surface.
     pub stems: Vec<bool>,
 }
@@ -95,16 +95,11 @@ impl Shape {
             stem_of[own.clone()].fill(stem as u32);
         }
         let boxes = Boxes::new(cones);
-        let axis_point = |vertex: &Vertex| {
-            let p = vertex.position.as_dvec3();
-            boxes.nearest(p).map_or_else(AxisPoint::default, |number| {
-                let cone = &cones[number as usize];
-                let point = cone.from.lerp(cone.to, cone.nearest(p)).as_vec3();
-                AxisPoint { stem: stem_of[number as usize], point }
-            })
+        let nearest = |vertex: &Vertex| {
+            boxes.nearest(vertex.position.as_dvec3()).map_or(0, |cone| stem_of[cone as usize])
         };
-        let axes = bark.vertices.par_iter().map(axis_point).collect();
-        Skin { bark, axes, stems }
+        let nearest = bark.vertices.par_iter().map(nearest).collect();
+        Skin { bark, nearest, stems }
     }
 
     /// Moves the corners around stems that are thinner than the grid can see to where their surface is.

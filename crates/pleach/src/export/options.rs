@@ -206,7 +206,7 @@ impl Export {
             asks.iter().find(|(name, asked)| *asked && names.contains(name)).map(|(name, _)| *name)
         };
         if self.weld.is_some()
-            && let Some(other) = asked(&["lod", "sway", "pivot_painter"])
+            && let Some(other) = asked(&["lod", "sway", "growth", "pivot_painter"])
         {
             let problem = match other {
                 "lod" => "is drawn in levels by budgets: give `triangles` in the place of `lod`".to_owned(),
@@ -397,6 +397,7 @@ mod tests {
             assert_eq!(wrong(format, |e| (e.compress, e.wind) = (small, true)), "compress");
             assert_eq!(wrong(format, |e| (e.compress, e.growth) = (small, true)), "compress");
             assert_eq!(wrong(format, |e| (e.weld, e.sway) = (Some(5.0), true)), "weld");
+            assert_eq!(wrong(format, |e| (e.weld, e.growth) = (Some(5.0), true)), "weld");
             assert_eq!(wrong(format, |e| (e.wind, e.growth) = (true, true)), "growth");
             let instances = Some(LeafForm::Instances);
             assert_eq!(wrong(format, |e| (e.leaves, e.growth) = (instances, true)), "growth");

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::block::Wind;
-use crate::growth;
 use crate::settings::MeshSettings;
 use crate::stream::send;
 use crate::wind::{Breeze, moved};
@@ -172,52 +171,38 @@ fn strains(block: &Block, wind: &[Wind], to: impl Fn(usize) -> Vec3) -> Vec<f32>
 }
 
 #[test]
-fn wind_and_growth_move_the_surface_and_do_not_tear_it() {
-    for name in ["weeping_willow", "acer"] {
+fn wind_moves_the_surface_and_does_not_tear_it() {
+    for name in ["acer", "weeping_willow"] {
         let tree = pleach_generators::preset(name).unwrap().grow_bare(1).unwrap();
         let settings = WeldSettings { fillet: 1.0, ..WeldSettings::new(0.03) };
-        for is_wind in [true, false] {
-            let own = MeshSettings { wind: is_wind, growth: !is_wind, ..MeshSettings::default() };
-            let level = &lod::budgets(&[&tree], own, &[20_000]).unwrap()[0][0];
-            let skin = Skin::of_level(level, &settings, true).unwrap();
-            let mut mesh = Mesh::default();
-            send(&[Welded::new(&skin, level.mesher_without(&skin.stems))], &mut mesh).unwrap();
-            let bark = mesh.part(Material::Bark).unwrap();
-            assert_eq!(if is_wind { bark.wind.len() } else { bark.growth.len() }, bark.vertices.len());
-            let surface = skin.bark.vertices.len();
-            assert!(surface > 1000, "{name}: {surface}");
-            // Vertices in one place stay in one place.
-            let mut places = BTreeMap::new();
-            for (i, vertex) in bark.vertices[..surface].iter().enumerate() {
-                let first = *places.entry(vertex.position.to_array().map(f32::to_bits)).or_insert(i);
-                if is_wind {
-                    assert_eq!(bark.wind[first], bark.wind[i], "{name} {i}");
-                } else {
-                    assert_eq!(bark.growth[first], bark.growth[i], "{name} {i}");
-                }
-            }
-            assert!(places.len() < surface, "{name}: a picture begins again somewhere");
-            if is_wind {
-                let height = skin.bark.vertices.iter().map(|vertex| vertex.position.z).fold(0.0, f32::max);
-                let levels: Vec<f32> = bark.wind[..surface].iter().map(|wind| wind.level).collect();
-                assert!(levels.contains(&0.0) && levels.contains(&1.0), "{name}");
-                let breeze = Breeze { wind: Vec3::X, time: 1.9, height };
-                let blown = |i: usize| {
-                    let Vertex { position, normal, .. } = bark.vertices[i];
-                    moved(position, normal, &bark.wind[i], &breeze)
-                };
-                let far = (0..surface).map(|i| blown(i).distance(bark.vertices[i].position));
-                let (far, strains) = (far.fold(0.0, f32::max), strains(&skin.bark, &bark.wind, blown));
-                assert!(strains.len() > 100, "{name}: {} edges", strains.len());
-                let most = strains[strains.len() - 1];
-                assert!(far > 0.05 && most < 0.01, "{name}: {far} m, {most} m");
-            } else {
-                // Where a vertex comes from is inside of the surface.
-                for (vertex, growth) in bark.vertices.iter().zip(&bark.growth).take(surface) {
-                    assert!(growth.toward.length() < 1.5, "{name}: {vertex:?} {growth:?}");
-                    assert!((0.0..=growth::LAST).contains(&growth.time));
-                }
-            }
+        let own = MeshSettings { wind: true, ..MeshSettings::default() };
+        let level = &lod::budgets(&[&tree], own, &[20_000]).unwrap()[0][0];
+        let skin = Skin::of_level(level, &settings, true).unwrap();
+        let mut mesh = Mesh::default();
+        send(&[Welded::new(&skin, level.mesher_without(&skin.stems))], &mut mesh).unwrap();
+        let bark = mesh.part(Material::Bark).unwrap();
+        assert_eq!(bark.wind.len(), bark.vertices.len());
+        let surface = skin.bark.vertices.len();
+        assert!(surface > 1000, "{name}: {surface}");
+        // Vertices in one place stay in one place.
+        let mut places = BTreeMap::new();
+        for (i, vertex) in bark.vertices[..surface].iter().enumerate() {
+            let first = *places.entry(vertex.position.to_array().map(f32::to_bits)).or_insert(i);
+            assert_eq!(bark.wind[first], bark.wind[i], "{name} {i}");
         }
+        assert!(places.len() < surface, "{name}: a picture begins again somewhere");
+        let height = skin.bark.vertices.iter().map(|vertex| vertex.position.z).fold(0.0, f32::max);
+        let levels: Vec<f32> = bark.wind[..surface].iter().map(|wind| wind.level).collect();
+        assert!(levels.contains(&0.0) && levels.contains(&1.0), "{name}");
+        let breeze = Breeze { wind: Vec3::X, time: 1.9, height };
+        let blown = |i: usize| {
+            let Vertex { position, normal, .. } = bark.vertices[i];
+            moved(position, normal, &bark.wind[i], &breeze)
+        };
+        let far = (0..surface).map(|i| blown(i).distance(bark.vertices[i].position));
+        let (far, strains) = (far.fold(0.0, f32::max), strains(&skin.bark, &bark.wind, blown));
+        assert!(strains.len() > 100, "{name}: {} edges", strains.len());
+        let most = strains[strains.len() - 1];
+        assert!(far > 0.05 && most < 0.01, "{name}: {far} m, {most} m");
     }
 }
