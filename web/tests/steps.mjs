@@ -7,11 +7,16 @@
 export function runSteps(fit, Evaluator) {
   const search = (recipe) => {
     const evaluators = [0, 1].map(() => new Evaluator(recipe));
+    const inFlight = [];
     for (let round = 0; ; round += 1) {
-      const pieces = fit.ask(1 + (round % 3), 0);
-      if (pieces.length === 0) break;
-      const scores = pieces.map((piece, number) => evaluators[number % 2].score(piece));
-      fit.tell(scores, 0);
+      // Others are asked for before the oldest have their scores.
+      inFlight.push(...fit.ask(1 + (round % 3), 0));
+      if (inFlight.length === 0) break;
+      const oldest = inFlight.splice(0, 1 + (round % 2));
+      fit.tell(
+        oldest.map((piece, number) => evaluators[number % 2].score(piece)),
+        0,
+      );
     }
     for (const evaluator of evaluators) evaluator.free();
   };

@@ -3,10 +3,10 @@
 // PLEACH_BINDGEN is the absolute path of crates/web-bindgen as it was built before.
 
 import { spawnSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, rmSync, statSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 import { megabytes, step } from "./step.mjs";
 
 const web = dirname(dirname(fileURLToPath(import.meta.url)));
@@ -93,6 +93,11 @@ run(process.execPath, [
 for (const file of ["pleach_web.js", "pleach_web.d.ts", "pleach_web_bg.wasm.d.ts"]) {
   copyFileSync(join(made, file), join(out, file));
 }
+
+// The species, as the page lists them before the library is loaded.
+const library = await import(pathToFileURL(join(out, "pleach_web.js")).href);
+await library.default({ module_or_path: readFileSync(join(out, "pleach_web_bg.wasm")) });
+writeFileSync(join(out, "catalogue.json"), library.catalogue());
 
 // Drawings of the known species, for a first guess without growing them.
 mkdirSync(join(web, "public"), { recursive: true });

@@ -12,6 +12,7 @@ use pleach::{
     StopReason,
 };
 use serde_json::json;
+use std::collections::VecDeque;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -33,8 +34,8 @@ enum Stage {
 pub struct Fit {
     prepared: Prepared,
     stage: Stage,
-    /// Individuals of the last batch, piece by piece.
-    pieces: Vec<usize>,
+    /// Individuals of the pieces that wait for scores, the oldest first.
+    pieces: VecDeque<usize>,
     /// The latest time of the search that the page gave.
     elapsed: Duration,
 }
@@ -59,7 +60,7 @@ impl Fit {
         Ok(Self {
             prepared: options.prepare(&source).map_err(thrown)?,
             stage: Stage::Prepared(Box::new(library_with(None).for_one_goal())),
-            pieces: Vec::new(),
+            pieces: VecDeque::new(),
             elapsed: Duration::ZERO,
         })
     }
@@ -96,6 +97,7 @@ impl Fit {
     pub fn next_leg(&mut self) -> Result<Option<Leg>, JsError> {
         let Stage::Racing(race) = &mut self.stage else { return Err(thrown(NOT_RACING)) };
         let Some(leg) = race.next_leg(self.elapsed).map_err(thrown)? else { return Ok(None) };
+        self.pieces.clear();
         let recipe = message::recipe(&self.prepared.options, leg.problem, &leg.settings)?;
         Ok(Some(Leg {
             recipe,
@@ -113,6 +115,7 @@ impl Fit {
         };
         // The time of the search begins with it: a race takes longer on a slow machine, and finds the same.
         self.elapsed = Duration::ZERO;
+        self.pieces.clear();
         let (clock, stop) = (|| Duration::ZERO, AtomicBool::new(false));
         let fit = race.finish(Control::new(&clock, &stop)).map_err(thrown)?;
         let prepared = fit.prepared();
@@ -131,35 +134,33 @@ impl Fit {
         message::recipe(&self.prepared.options, &prepared.problem, &prepared.settings)
     }
 
-    /// The next batch of the leg of a race, or of the search, in at most `parts` pieces; none once it is over. `elapsed`
-    /// is in seconds since the leg or the search began.
-    pub fn ask(&mut self, parts: usize, elapsed: f64) -> Result<Vec<Uint8Array>, JsError> {
+    /// The next individuals of the leg of a race, or of the search, in pieces for `workers` workers; none once it is
+    /// over, and while others have to be scored first. May be called again before those have their scores. `elapsed` is
+    /// in seconds since the leg or the search began.
+    pub fn ask(&mut self, workers: usize, elapsed: f64) -> Result<Vec<Uint8Array>, JsError> {
         self.elapsed = seconds(elapsed)?;
         let batch = match &mut self.stage {
-            Stage::Racing(race) => race.ask(parts),
-            Stage::Searching(search) if search.ended(self.elapsed).is_none() => search.ask(parts),
+            Stage::Racing(race) => race.ask(workers),
+            Stage::Searching(search) if search.ended(self.elapsed).is_none() => search.ask(workers),
             Stage::Searching(_) => return Ok(Vec::new()),
             _ => return Err(thrown(NOT_SEARCHING)),
         };
-        let size = batch.genomes.len().div_ceil(parts.max(1)).max(1);
+        let size = batch.genomes.len().div_ceil(workers.max(1)).min(self.piece_size(workers)?).max(1);
         let pieces = batch.genomes.chunks(size);
-        self.pieces = pieces.clone().map(<[_]>::len).collect();
+        self.pieces.extend(pieces.clone().map(<[_]>::len));
         pieces.map(|piece| Ok(Uint8Array::from(message::piece(piece, batch.max_size)?.as_slice()))).collect()
     }
 
-    /// Takes what `Evaluator`s gave for the pieces of the last batch, in their order.
+    /// Takes what `Evaluator`s gave for the oldest pieces, in the order in which they were asked for.
     pub fn tell(&mut self, scores: &Array, elapsed: f64) -> Result<(), JsError> {
         self.elapsed = seconds(elapsed)?;
         let mut all = Vec::new();
-        for (bytes, expected) in scores.iter().zip(&self.pieces) {
+        for bytes in scores.iter() {
             let some = message::scores(&Uint8Array::new(&bytes).to_vec())?;
-            if some.len() != *expected {
-                return Err(thrown("scores are missing"));
+            if self.pieces.pop_front() != Some(some.len()) {
+                return Err(thrown("these are not the scores of the oldest piece"));
             }
             all.extend(some);
-        }
-        if scores.length() as usize != self.pieces.len() {
-            return Err(thrown("scores are missing"));
         }
         match &mut self.stage {
             Stage::Racing(race) => race.tell(&all, self.elapsed),
@@ -242,6 +243,10 @@ impl Fit {
     }
 }
 
+/// Seconds that a worker scores between two messages: short, so that no other has nothing to do for long, and much longer
+/// than the messages take.
+const PIECE: f64 = 0.02;
+
 const NOT_SEARCHING: &str =
     "there is no search: the first guess has to be made, and the fit not to have ended";
 
@@ -254,6 +259,19 @@ impl Fit {
             Stage::Searching(search) => Ok(search),
             _ => Err(thrown(NOT_SEARCHING)),
         }
+    }
+
+    /// The most individuals of a piece: what takes a worker about `PIECE`, once the time of an individual is known.
+    fn piece_size(&self, workers: usize) -> Result<usize, JsError> {
+        let evaluations = match &self.stage {
+            Stage::Racing(race) => race.evaluations(),
+            _ => self.search()?.evaluations(),
+        };
+        if evaluations == 0 || self.elapsed.is_zero() {
+            return Ok(usize::MAX);
+        }
+        let each = self.elapsed.as_secs_f64() * workers as f64 / evaluations as f64;
+        Ok((PIECE / each) as usize)
     }
 
     /// The best individual of the leg or of the search.

@@ -18,12 +18,3 @@ mod panic;
 mod report;
 mod species;
 mod tree;
-
-use wasm_bindgen::prelude::wasm_bindgen;
-
-/// The version of the library.
-#[must_use]
-#[wasm_bindgen]
-pub fn version() -> String {
-    env!("CARGO_PKG_VERSION").to_owned()
-}

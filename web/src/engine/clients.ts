@@ -1,6 +1,5 @@
 // The workers of the rooms. Each starts with its first call.
 import { Client } from "./client";
-import type { Family } from "./protocol";
 
 /** Opens species, changes their values, writes them. */
 export const speciesClient = new Client("the species room");
@@ -12,13 +11,3 @@ export const fileClient = new Client("the file");
 export const zipClient = new Client("the zip");
 export const goalClient = new Client("the goal");
 export const mapClient = new Client("the map");
-
-let all: Promise<{ version: string; families: Family[] }> | undefined;
-
-export function loadCatalogue(): Promise<{ version: string; families: Family[] }> {
-  all ??= speciesClient.call("catalogue", null).catch((error: unknown) => {
-    all = undefined;
-    throw error;
-  });
-  return all;
-}

@@ -283,7 +283,7 @@ export interface DrawnTree {
 export interface FitStep {
   pieces: Uint8Array<ArrayBuffer>[];
   progress: FitProgress;
-  /** The best so far, when it was asked for. */
+  /** The best so far, when it was asked for and is another than before. */
   best: DrawnTree | null;
 }
 export type Seen = "determined" | "loosely" | "not-seen" | "not-tried";
@@ -396,7 +396,6 @@ export interface Zipped {
 
 /** Every operation: what goes in, what comes out. */
 export interface Ops {
-  catalogue: { in: null; out: { version: string; families: Family[] } };
   open: { in: Spec; out: OpenedSpecies };
   active: { in: Spec; out: boolean[] };
   /** The species with another grammar. */
@@ -453,7 +452,8 @@ export interface Ops {
   /** Ends the race. The recipe is that of the search. */
   fitBegin: { in: null; out: { guess: Guess; recipe: Uint8Array<ArrayBuffer> } };
   fitStep: {
-    in: { scores: Uint8Array[] | null; parts: number; elapsed: number; best: boolean };
+    /** No trees are asked for with 0 workers. */
+    in: { scores: Uint8Array[]; workers: number; elapsed: number; best: boolean };
     out: FitStep;
   };
   /** With the trees that were found, over the goal. */

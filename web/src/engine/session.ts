@@ -1,6 +1,6 @@
 // A fit as the page sees it: one coordinator, several evaluators, and the clock of the search.
 import { Cancelled, Client } from "./client";
-import { cores } from "./pool";
+import { Evaluators } from "./evaluators";
 import type {
   DrawnTree,
   FitOptions,
@@ -32,6 +32,8 @@ export interface FitEvents {
 
 /** How often the best tree is drawn, in milliseconds: a picture is 64 KiB or more. */
 const BEST_EVERY = 250;
+/** How often the page hears how far a search is, in milliseconds: what it draws takes time from the search. */
+const STEP_EVERY = 100;
 
 let drawings: Promise<Uint8Array | null> | undefined;
 
@@ -45,8 +47,7 @@ function knownDrawings(): Promise<Uint8Array | null> {
 
 export class FitSession {
   private readonly coordinator = new Client("the search");
-  private readonly evaluators = Array.from({ length: cores }, () => new Client("the search"));
-  private recipe: Uint8Array | null = null;
+  private readonly evaluators = new Evaluators();
   private elapsed = 0;
   private since: number | null = null;
   private stopping = false;
@@ -87,7 +88,7 @@ export class FitSession {
       this.events.guessed(guess);
       // A search that was stopped before it began has a tree all the same.
       await this.search(recipe, 1);
-      for (const each of this.evaluators) each.cancel();
+      this.evaluators.cancel();
       return await this.ask(this.coordinator, "fitFinish", null, stage);
     } finally {
       this.end();
@@ -153,7 +154,7 @@ export class FitSession {
   private end(): void {
     this.over = true;
     this.coordinator.cancel();
-    for (const each of this.evaluators) each.cancel();
+    this.evaluators.cancel();
   }
 
   private clock(): number {
@@ -177,52 +178,70 @@ export class FitSession {
 
   /**
    * Has trees scored by evaluators of `recipe` until the leg or the search is over, or the user stops it after `least`
-   * batches.
+   * pieces. Scores are told in the order in which the trees were asked for, and others are asked for before a worker has
+   * nothing to do.
    */
   private async search(recipe: Uint8Array, least: number): Promise<void> {
-    this.recipe = recipe;
     this.elapsed = 0;
-    await Promise.all(this.evaluators.map((each) => this.ask(each, "evaluator", recipe)));
-    const parts = this.evaluators.length;
-    let scores: Uint8Array[] | null = null;
+    this.check();
+    await this.evaluators.use(recipe);
+    const inFlight: Scored[] = [];
     let told = 0;
     const stops = () => this.stopping && told >= least;
     let drawn = Number.NEGATIVE_INFINITY;
+    let said = Number.NEGATIVE_INFINITY;
     this.since = performance.now();
-    for (;;) {
+    while (!stops()) {
       if (this.paused) {
         this.holdClock();
         await this.paused;
         this.check();
         this.since = performance.now();
       }
-      if (stops() && scores === null) break;
+      const scores = takeReady(inFlight);
       const best = performance.now() - drawn > BEST_EVERY;
       if (best) drawn = performance.now();
       const step: FitStep = await this.ask(this.coordinator, "fitStep", {
         scores,
-        parts,
+        workers: this.evaluators.wantWork ? this.evaluators.count : 0,
         elapsed: this.clock(),
         best,
       });
-      if (scores) told += 1;
-      this.events.step(step.progress, this.clock(), step.best);
-      if (step.pieces.length === 0 || stops()) break;
-      scores = await Promise.all(step.pieces.map((piece, at) => this.evaluate(at, piece)));
+      told += scores.length;
+      const isOver = step.progress.ended !== null || (step.pieces.length === 0 && inFlight.length === 0);
+      if (isOver || step.best || performance.now() - said > STEP_EVERY) {
+        said = performance.now();
+        this.events.step(step.progress, this.clock(), step.best);
+      }
+      if (isOver) break;
+      for (const piece of step.pieces) inFlight.push(new Scored(this.evaluators.score(piece)));
+      await inFlight[0]?.done;
+      this.check();
     }
     this.holdClock();
   }
+}
 
-  /** A worker that fails once is replaced, and its piece is done again: scores do not depend on who gives them. */
-  private async evaluate(at: number, piece: Uint8Array): Promise<Uint8Array<ArrayBuffer>> {
-    const client = this.evaluators[at % this.evaluators.length];
-    if (!client || !this.recipe) throw new Cancelled();
-    try {
-      return await this.ask(client, "evaluate", piece);
-    } catch (error) {
-      if (error instanceof Cancelled) throw error;
-      await this.ask(client, "evaluator", this.recipe);
-      return this.ask(client, "evaluate", piece);
-    }
+/** A piece that is scored, or has been. */
+class Scored {
+  scores: Uint8Array | null = null;
+  readonly done: Promise<void>;
+
+  constructor(work: Promise<Uint8Array>) {
+    this.done = work.then((scores) => {
+      this.scores = scores;
+    });
+    // A search that has ended waits for none of its pieces.
+    this.done.catch(() => {});
   }
+}
+
+/** Takes the scores of the oldest pieces, up to the first that has none yet. */
+function takeReady(pieces: Scored[]): Uint8Array[] {
+  const ready: Uint8Array[] = [];
+  for (let scores = pieces[0]?.scores; scores; scores = pieces[0]?.scores) {
+    ready.push(scores);
+    pieces.shift();
+  }
+  return ready;
 }

@@ -1,6 +1,6 @@
 // Fits. One worker holds the search, others the evaluators that grow and score its trees.
 import { Evaluator, Fit } from "../wasm/pleach_web.js";
-import type { FitProgress, FitResult, Guess } from "./protocol";
+import type { DrawnTree, FitProgress, FitResult, Guess } from "./protocol";
 import type { Handlers } from "./worker";
 import { makeGoal } from "./worker-goal";
 
@@ -15,12 +15,24 @@ function running(): Fit {
   return fit;
 }
 
+/** The species file that was drawn last. */
+let drawn: string | null = null;
+
+/** The best tree, drawn over the goal, unless it was drawn last. */
+function newBest(search: Fit): DrawnTree | null {
+  const toml = search.best_toml();
+  if (toml === drawn) return null;
+  drawn = toml;
+  return { ink: search.best_silhouette().slice(), toml };
+}
+
 export const fitHandlers: Handlers<
   "fitCompare" | "fitLeg" | "fitBegin" | "fitStep" | "fitFinish" | "evaluator" | "evaluate"
 > = {
   fitCompare({ goal, options, drawings }, report) {
     const made = makeGoal(goal);
     fit?.free();
+    drawn = null;
     fit = new Fit(made, JSON.stringify(options));
     if (drawings) fit.use_drawings(drawings);
     const stage = "Comparing with known species";
@@ -46,18 +58,13 @@ export const fitHandlers: Handlers<
     return { guess, recipe: search.recipe().slice() };
   },
 
-  fitStep({ scores, parts, elapsed, best }) {
+  fitStep({ scores, workers, elapsed, best }) {
     const search = running();
-    if (scores) search.tell(scores, elapsed);
-    const pieces = search.ask(parts, elapsed).map((piece) => piece.slice());
+    if (scores.length > 0) search.tell(scores, elapsed);
+    const pieces = workers > 0 ? search.ask(workers, elapsed).map((piece) => piece.slice()) : [];
     const progress = JSON.parse(search.progress()) as FitProgress;
     // There is a best tree from the first scores on.
-    const shows = best && progress.likeness !== null;
-    return {
-      pieces,
-      progress,
-      best: shows ? { ink: search.best_silhouette().slice(), toml: search.best_toml() } : null,
-    };
+    return { pieces, progress, best: best && progress.likeness !== null ? newBest(search) : null };
   },
 
   fitFinish(_, report) {

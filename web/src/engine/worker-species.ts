@@ -1,12 +1,11 @@
 // Species and trees: opening, changing, growing, drawing, exporting.
-import { catalogue, type MeshBuffers, Species, type Tree, version } from "../wasm/pleach_web.js";
+import { type MeshBuffers, Species, type Tree } from "../wasm/pleach_web.js";
 import { Cache } from "./cache";
 import { cardPictures } from "./card-pictures";
 import { picturesOnly } from "./pictures-only";
 import type {
   EditedGrammar,
   ExportOptions,
-  Family,
   MeshData,
   MeshFormat,
   MeshPart,
@@ -100,7 +99,6 @@ export function write(
 }
 
 export const speciesHandlers: Handlers<
-  | "catalogue"
   | "open"
   | "active"
   | "grammar"
@@ -113,8 +111,6 @@ export const speciesHandlers: Handlers<
   | "picture"
   | "export"
 > = {
-  catalogue: () => ({ version: version(), families: JSON.parse(catalogue()) as Family[] }),
-
   open(spec): OpenedSpecies {
     const opened = species(spec);
     return {

@@ -1,5 +1,5 @@
 // A GLB file of the library with its materials, and what is to be released of it.
-import { type Material, Mesh, type Object3D, Texture, type WebGLRenderer } from "three";
+import { type Group, type Material, Mesh, type Object3D, Texture, type WebGLRenderer } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { prepare } from "./foliage";
 import { releaseTexture, texturesFromBytes } from "./textures";
@@ -17,7 +17,7 @@ export function materialsOf(root: Object3D): Map<string, Material> {
   return found;
 }
 
-export async function loadGlb(glb: ArrayBuffer, { capabilities }: WebGLRenderer): Promise<Object3D> {
+export async function loadGlb(glb: ArrayBuffer, { capabilities }: WebGLRenderer): Promise<Group> {
   const { scene } = await new GLTFLoader().register(texturesFromBytes).parseAsync(glb, "");
   const sharp = Math.min(SHARP, capabilities.getMaxAnisotropy());
   for (const material of materialsOf(scene).values()) prepare(material, sharp);

@@ -5,6 +5,7 @@ import { loadGlb, release } from "./glb-file";
 import { Outdoors } from "./outdoors";
 import { SceneView } from "./scene-view";
 import { canSway, stillAir, swayingDepth, swayMaterial } from "./sway";
+import { warmUp } from "./warm";
 
 export class ModelView extends SceneView {
   private readonly outdoors = new Outdoors(this.lights());
@@ -35,8 +36,8 @@ export class ModelView extends SceneView {
       node.receiveShadow = true;
       this.letSway(node, swaying);
     });
-    // The shaders are made while the tree before is still to be seen.
-    await this.renderer.compileAsync(scene, this.camera, this.scene);
+    // The tree before is still to be seen.
+    await warmUp(this.renderer, scene, this.camera, this.scene);
     if (mine !== this.asked) {
       release(scene);
       return false;
@@ -89,6 +90,11 @@ export class ModelView extends SceneView {
 
   protected override distanceFor(extent: Vector3): number {
     return frontDistance(extent, this.camera.aspect);
+  }
+
+  /** An empty meadow is never seen. */
+  protected override draw(): void {
+    if (this.model) super.draw();
   }
 
   private drop(): void {

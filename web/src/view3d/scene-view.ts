@@ -35,8 +35,8 @@ export class SceneView extends TreeScene {
       this.draw();
     });
     this.watcher = new ResizeObserver(() => this.resize());
+    // Tells the first size too.
     this.watcher.observe(canvas);
-    this.resize();
   }
 
   setTheme(dark: boolean): void {

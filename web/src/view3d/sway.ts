@@ -1,6 +1,9 @@
 // Wind in a model of the library, from the numbers that its GLB files have: the formula of docs/wind.md.
 import {
+  BackSide,
   type BufferGeometry,
+  DoubleSide,
+  FrontSide,
   type Material,
   MeshDepthMaterial,
   type MeshStandardMaterial,
@@ -66,6 +69,9 @@ vec3 swayed(vec3 at, vec3 toward) {
 }
 `;
 
+/** The sides of a surface that have a shadow, by those that are seen. */
+const SHADOW_SIDES = { [FrontSide]: BackSide, [BackSide]: FrontSide, [DoubleSide]: DoubleSide };
+
 type Shader = WebGLProgramParametersWithUniforms;
 
 function sway(shader: Shader, uniforms: SwayUniforms): void {
@@ -87,9 +93,10 @@ export function swayMaterial(material: Material, uniforms: SwayUniforms): void {
 
 /** The same for its shadow. */
 export function swayingDepth(of: MeshStandardMaterial, uniforms: SwayUniforms): MeshDepthMaterial {
-  const { map, alphaTest, side } = of;
-  const cut = alphaTest > 0 && map ? { map, alphaTest } : {};
-  const depth = new MeshDepthMaterial({ depthPacking: RGBADepthPacking, side, ...cut });
+  const { map, alphaTest, shadowSide, side } = of;
+  // As three sets them when it draws the shadow: shaders that are made before are then the same.
+  const ofShadow = { map, alphaTest, side: shadowSide ?? SHADOW_SIDES[side] };
+  const depth = new MeshDepthMaterial({ depthPacking: RGBADepthPacking, ...ofShadow });
   depth.onBeforeCompile = (shader) => sway(shader, uniforms);
   depth.customProgramCacheKey = () => "sway";
   return depth;

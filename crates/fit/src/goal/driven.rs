@@ -61,6 +61,7 @@ impl Driven {
     /// the rows of the generations that they finished.
     pub(super) fn tell(&mut self, mut scores: &[Score], now: Duration) -> Vec<Row> {
         let mut rows = Vec::new();
+        let told = scores.len();
         while !scores.is_empty() {
             let awaited = self.course.search.awaited().min(scores.len());
             if awaited == 0 {
@@ -72,7 +73,9 @@ impl Driven {
             rows.extend(self.course.after_scores(&self.objective, now));
             scores = others;
         }
-        self.course.set_pace(now);
+        if told > 0 {
+            self.course.set_pace(told, now);
+        }
         rows
     }
 

@@ -4,6 +4,7 @@ import { useRef } from "preact/hooks";
 import { keepSpecies } from "../../state/library";
 import { Alert, Bar, Button, Field, Segmented } from "../../ui/controls";
 import { useFocusAfter, useUndoKeys } from "../../ui/keys";
+import { Later } from "../../ui/later";
 import { ChooseButton, TargetSelect } from "./chooser";
 import {
   elapsed,
@@ -239,8 +240,12 @@ export function Controls(): JSX.Element {
         )}
         {goalError.value && <Alert text={goalError.value} />}
         <GoalPart />
-        {picture.value && <LookPart />}
-        <SearchPart />
+        <Later>
+          <LookPart />
+        </Later>
+        <Later>
+          <SearchPart />
+        </Later>
       </div>
       <footer class="panelfoot" ref={foot}>
         {failure.value && <Alert text={failure.value} />}

@@ -1,12 +1,14 @@
 // A picture in, a species out.
 import type { JSX } from "preact";
 import { Alert } from "../../ui/controls";
+import { Later } from "../../ui/later";
 import { Welcome } from "./chooser";
 import { Controls } from "./controls";
 import { goalError, picture, reading } from "./goal-state";
 import { KeptFits } from "./kept-list";
 import { Others } from "./others";
 import { Determined } from "./outcome";
+import { result } from "./record";
 import { ScoreCard } from "./score-card";
 import { Tiles } from "./tiles";
 
@@ -29,15 +31,25 @@ export function FitRoom(): JSX.Element {
     <>
       <div class="canvas scroll">
         <Tiles />
-        <Others />
-        <div class="cardsrow">
-          <ScoreCard />
-          <Determined />
-        </div>
-        <KeptFits />
+        <Later>
+          <Others />
+        </Later>
+        {result.value && (
+          <Later>
+            <div class="cardsrow">
+              <ScoreCard />
+              <Determined />
+            </div>
+          </Later>
+        )}
+        <Later>
+          <KeptFits />
+        </Later>
       </div>
       <aside class="panel" aria-label="Fit">
-        <Controls />
+        <Later>
+          <Controls />
+        </Later>
       </aside>
     </>
   );

@@ -135,8 +135,9 @@ export async function startFit(more: FitOptions = {}): Promise<void> {
   const goal = goalPixels();
   const id = picture.peek()?.id;
   if (!goal || id === undefined || running.peek()) return;
-  // On a telephone the pictures are above the button.
-  document.getElementById("room")?.scrollTo({ top: 0, behavior: "smooth" });
+  // On a telephone the pictures are above the button. Not now: the page would have to be laid out for it.
+  const up = () => document.getElementById("room")?.scrollTo({ top: 0, behavior: "smooth" });
+  requestAnimationFrame(up);
   phase.value = "guessing";
   failure.value = null;
   goalError.value = null;

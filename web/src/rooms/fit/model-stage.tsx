@@ -5,6 +5,7 @@ import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { reducedMotion, theme } from "../../state/theme";
 import { Bar } from "../../ui/controls";
+import { nextTask, openContext } from "../../view3d/context";
 import { KEYS_IN_WORDS, setView, turnByKey } from "../../view3d/handle";
 import type { ModelView } from "../../view3d/model-view";
 import { running } from "./fit-state";
@@ -22,6 +23,10 @@ const LOST = "The graphics card lost the view. It comes back by itself; the tree
 /** Opens the view once there is a tree to show: the graphics card takes its time. */
 async function openView(canvas: HTMLCanvasElement, lost: (gone: boolean) => void): Promise<ModelView | null> {
   const { ModelView } = await import("../../view3d/model-view");
+  // Code, graphics context and view take a task each: together they would hold up the page.
+  await nextTask();
+  openContext(canvas);
+  await nextTask();
   if (!canvas.isConnected) return null;
   const view = new ModelView(canvas, lost);
   view.setTheme(theme() === "dark");

@@ -1,10 +1,7 @@
 // What to search: height, leaves, family, and for how long.
-import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import { useEffect } from "preact/hooks";
-import { loadCatalogue } from "../../engine/clients";
+import { families } from "../../engine/catalogue";
 import { familyTitle } from "../../state/families";
-import { sayError } from "../../state/notes";
 import { Check, Field, NumberInput, Segmented } from "../../ui/controls";
 import { BUDGETS, generator, individual, leafiness, running, seconds } from "./fit-state";
 import { treeHeight } from "./goal-state";
@@ -15,14 +12,6 @@ export const HEIGHT_ID = "tree-height";
 export const timeText = (seconds: number): string => (seconds < 100 ? `${seconds} s` : `${seconds / 60} min`);
 
 export function SearchPart(): JSX.Element {
-  const families = useSignal<readonly string[]>([]);
-  useEffect(() => {
-    loadCatalogue()
-      .then((all) => {
-        families.value = all.families.map(({ family }) => family);
-      })
-      .catch(sayError);
-  }, [families]);
   return (
     <section class="part" aria-label="Search">
       <h3>Search</h3>
@@ -71,7 +60,7 @@ export function SearchPart(): JSX.Element {
             <option value="">what suits the picture</option>
             <option value="trees">natural trees</option>
             <option value="auto">any family</option>
-            {families.value.map((family) => (
+            {families.map(({ family }) => (
               <option key={family} value={family}>
                 {familyTitle(family)}
               </option>

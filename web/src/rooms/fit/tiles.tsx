@@ -5,6 +5,7 @@ import { useRef } from "preact/hooks";
 import { reducedMotion } from "../../state/theme";
 import { Button, Segmented } from "../../ui/controls";
 import { BOTH, inkImage, overlayImage, show } from "../../ui/ink";
+import { Later } from "../../ui/later";
 import { Curve } from "./curve";
 import { EightTrees } from "./eight-trees";
 import { progress } from "./fit-state";
@@ -173,10 +174,14 @@ export function Tiles(): JSX.Element {
           </figure>
           {result.value && (
             <div class="beside">
-              <Verdict />
-              <TakeAway />
-              <EightTrees />
-              {curve.value.length > 1 && <Curve />}
+              <Later>
+                <Verdict />
+                <TakeAway />
+              </Later>
+              <Later>
+                <EightTrees />
+                {curve.value.length > 1 && <Curve />}
+              </Later>
             </div>
           )}
         </>

@@ -1,15 +1,15 @@
 // All species of all families. A click starts from one.
-import { signal, useSignal } from "@preact/signals";
+import { signal } from "@preact/signals";
 import type { JSX } from "preact";
-import { useEffect } from "preact/hooks";
-import { loadCatalogue } from "../../engine/clients";
+import { families } from "../../engine/catalogue";
 import type { Family, SpeciesSource } from "../../engine/protocol";
 import { familyAbout, familyTitle } from "../../state/families";
 import { dropSpecies, mySpecies } from "../../state/library";
-import { sayError, sentence } from "../../state/notes";
+import { sayError } from "../../state/notes";
 import { go } from "../../state/route";
 import { start } from "../../state/species";
-import { Alert, Button, Segmented } from "../../ui/controls";
+import { Button, Segmented } from "../../ui/controls";
+import { Later } from "../../ui/later";
 import { Thumb } from "../../ui/thumb";
 
 type Season = "leafy" | "winter";
@@ -68,17 +68,6 @@ function Section({ family, species }: Family): JSX.Element {
 }
 
 export function GalleryRoom(): JSX.Element {
-  const families = useSignal<readonly Family[]>([]);
-  const failed = useSignal<string | null>(null);
-  useEffect(() => {
-    loadCatalogue()
-      .then((all) => {
-        families.value = all.families;
-      })
-      .catch((error: unknown) => {
-        failed.value = sentence(error);
-      });
-  }, [families, failed]);
   return (
     <div class="sheet">
       <header class="sheethead">
@@ -98,7 +87,6 @@ export function GalleryRoom(): JSX.Element {
           }}
         />
       </header>
-      {failed.value && <Alert text={failed.value} />}
       {mySpecies.value.length > 0 && (
         <section class="family">
           <header>
@@ -118,8 +106,10 @@ export function GalleryRoom(): JSX.Element {
           </ul>
         </section>
       )}
-      {families.value.map((family) => (
-        <Section key={family.family} {...family} />
+      {families.map((family) => (
+        <Later key={family.family}>
+          <Section {...family} />
+        </Later>
       ))}
     </div>
   );

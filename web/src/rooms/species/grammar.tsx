@@ -1,25 +1,17 @@
 // The grammar of a species as text, with what is wrong with it, examples, and the notation in short.
-import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useId, useRef } from "preact/hooks";
-import { loadCatalogue } from "../../engine/clients";
-import type { Remark, SpeciesEntry } from "../../engine/protocol";
-import { sayError } from "../../state/notes";
+import { families } from "../../engine/catalogue";
+import type { Remark } from "../../engine/protocol";
 import { startOrSay } from "../../state/species";
 import { CodeField, goToMark, inWords } from "../../ui/code-field";
 import { Field } from "../../ui/controls";
 import { Icon } from "../../ui/icons";
 import { grammar, isBehind, remarks, type, watchGrammar } from "./grammar-state";
 
+const EXAMPLES = families.find(({ family }) => family === "lsystem")?.species ?? [];
+
 function Examples(): JSX.Element {
-  const all = useSignal<readonly SpeciesEntry[]>([]);
-  useEffect(() => {
-    loadCatalogue()
-      .then(({ families }) => {
-        all.value = families.find(({ family }) => family === "lsystem")?.species ?? [];
-      })
-      .catch(sayError);
-  }, [all]);
   return (
     <Field label="Examples">
       {(id) => (
@@ -31,8 +23,8 @@ function Examples(): JSX.Element {
             event.currentTarget.value = "";
           }}
         >
-          <option value="">Open one of {all.value.length || "the"} grammars</option>
-          {all.value.map(({ name, description }) => (
+          <option value="">Open one of {EXAMPLES.length} grammars</option>
+          {EXAMPLES.map(({ name, description }) => (
             <option key={name} value={name}>
               {description || name}
             </option>

@@ -1,12 +1,8 @@
 // The species by name: the user's own, then all built-in ones by family.
-import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import { useEffect } from "preact/hooks";
-import { loadCatalogue } from "../../engine/clients";
-import type { Family } from "../../engine/protocol";
+import { families } from "../../engine/catalogue";
 import { familyTitle } from "../../state/families";
 import { mySpecies } from "../../state/library";
-import { sayError } from "../../state/notes";
 import { recipes, speciesName, startOrSay } from "../../state/species";
 import { Field } from "../../ui/controls";
 
@@ -14,14 +10,6 @@ import { Field } from "../../ui/controls";
 const OTHER = "other:";
 
 export function Picker(): JSX.Element {
-  const families = useSignal<readonly Family[]>([]);
-  useEffect(() => {
-    loadCatalogue()
-      .then((all) => {
-        families.value = all.families;
-      })
-      .catch(sayError);
-  }, [families]);
   const { source } = recipes.value;
   const own = "toml" in source ? mySpecies.value.find((kept) => kept.toml === source.toml) : undefined;
   const value = "builtin" in source ? `built:${source.builtin}` : own ? `mine:${own.id}` : OTHER;
@@ -45,7 +33,7 @@ export function Picker(): JSX.Element {
               ))}
             </optgroup>
           )}
-          {families.value.map(({ family, species }) => (
+          {families.map(({ family, species }) => (
             <optgroup key={family} label={familyTitle(family)}>
               {species.map(({ name }) => (
                 <option key={name} value={`built:${name}`}>
@@ -54,9 +42,6 @@ export function Picker(): JSX.Element {
               ))}
             </optgroup>
           ))}
-          {families.value.length === 0 && value !== OTHER && (
-            <option value={value}>{speciesName.value}</option>
-          )}
         </select>
       )}
     </Field>

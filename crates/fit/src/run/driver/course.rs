@@ -32,9 +32,9 @@ impl<M: Method> Course<M> {
         self.pace.batch(threads)
     }
 
-    /// Records the duration of the last batch.
-    pub(crate) fn set_pace(&mut self, now: Duration) {
-        self.pace.next(now);
+    /// Records that `scored` individuals more have a score, `now`.
+    pub(crate) fn set_pace(&mut self, scored: usize, now: Duration) {
+        self.pace.next(scored, now);
     }
 
     pub(crate) fn spent(&self, elapsed: Duration, interrupted: bool) -> Spent {

@@ -1,0 +1,12 @@
+// The graphics context of a canvas, and how work with it is cut into tasks. Without three.js, for those who load that later.
+
+/** As three.js asks for it: a canvas has one context, the first that was asked for. */
+const ATTRIBUTES: WebGLContextAttributes = { alpha: true, antialias: true, depth: true, stencil: false };
+
+/** Opens the graphics context that a view of this canvas will use. */
+export function openContext(canvas: HTMLCanvasElement): void {
+  canvas.getContext("webgl2", ATTRIBUTES);
+}
+
+/** What comes after it is a task of its own. */
+export const nextTask = () => new Promise<void>((go) => setTimeout(go));
