@@ -146,35 +146,14 @@ const TASKS = {
     },
   },
   "a tree between oak and willow": {
-    hash: "#map",
+    hash: "#gallery",
     async run(person) {
       const { page } = person;
-      await page.getByTestId("plane").waitFor();
-      await page.waitForFunction(() => !document.querySelector(".plane .empty"));
-      const box = await page.getByTestId("plane").boundingBox();
-      /** The smaller of the two shares, in percent. */
-      const shares = () =>
-        page.evaluate((names) => {
-          const rows = [...document.querySelectorAll(".weights li")].map((row) => row.textContent);
-          const share = (name) => Number(/(\d+) %/.exec(rows.find((row) => row.startsWith(name)) ?? "")?.[1] ?? 0);
-          return Math.min(...names.map(share));
-        }, ["black oak", "weeping willow"]);
-      // As one looks for it: over the map until both are among the nearest.
-      let best = { both: -1, x: 0, y: 0 };
-      for (let row = 1; row < 8; row += 1) {
-        for (let column = 1; column < 12; column += 1) {
-          const [x, y] = [box.x + (box.width * column) / 12, box.y + (box.height * row) / 8];
-          await page.mouse.move(x, y);
-          await page.waitForTimeout(120);
-          const both = await shares();
-          if (both > best.both) best = { both, x, y };
-        }
-      }
-      if (best.both < 5) throw new Error("no place of the map is between them");
-      person.clicks += 1;
-      await page.mouse.click(best.x, best.y);
-      await person.click("open-point");
-      await person.treeGrown();
+      await person.click(page.locator(".card button", { hasText: "black oak" }));
+      await page.getByTestId("blend-with").waitFor();
+      await person.pick("Blend with", "built:weeping_willow");
+      await page.getByTestId("blend-at").waitFor();
+      await page.waitForFunction(() => !document.querySelector(".busy.on"));
     },
   },
   "going on with yesterday's fit": {
@@ -225,11 +204,13 @@ const TASKS = {
       await person.page.locator(".targets button").first().waitFor();
       await person.tabTo(() => document.activeElement?.closest(".targets") !== null);
       await person.press("Enter");
-      await person.page.getByTestId("goal").waitFor();
+      // Nobody presses Tab before the panel is there.
+      await person.page.getByTestId("start").waitFor();
       await person.tabTo(() => document.activeElement?.dataset.testid === "start");
       await person.shorten();
       await person.press("Enter");
       await person.done("score");
+      await person.page.getByTestId("fit-glb").waitFor();
       await person.tabTo(() => document.activeElement?.dataset.testid === "fit-glb");
       await person.download(() => person.press("Enter"));
     },

@@ -1,5 +1,6 @@
 // The species room: changes, links, files, and the memory of the graphics card.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { unzipSync } from "fflate";
@@ -50,6 +51,48 @@ test("a change can be undone and redone, by buttons and by keys", async () => {
   assert.equal(await field(page, "g_scale").inputValue(), before);
   await page.keyboard.press("Control+Shift+z");
   assert.equal(await field(page, "g_scale").inputValue(), "20");
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("a species is blended with another, as the program does it, and each step can be undone", async () => {
+  const { page, problems, context } = await species("#species?s=black_oak");
+  const before = await field(page, "g_scale").inputValue();
+  await page.getByTestId("blend-with").selectOption({ label: "weeping willow" });
+  const slider = page.getByTestId("blend-at");
+  await slider.waitFor();
+  await page.getByRole("heading", { name: "black oak weeping willow" }).waitFor();
+  const middle = await field(page, "g_scale").inputValue();
+  assert.notEqual(middle, before);
+  await slider.fill("0.3");
+  await page.getByText("30 % weeping willow", { exact: true }).waitFor();
+  await page.waitForFunction(
+    (middle) => document.querySelector('[data-slot="g_scale"] input[type="number"]')?.value !== middle,
+    middle,
+  );
+  const numbers = (toml) => toml.split("\n").filter((line) => !/^(#|name|description)/.test(line));
+  const program = process.env.PLEACH;
+  if (program) {
+    const told = execFileSync(program, ["blend", "black_oak", "weeping_willow", "--at", "0.3", "--quiet"]);
+    assert.deepEqual(
+      numbers(await saved(page, "TOML, the species file", "Download")),
+      numbers(told.toString()),
+    );
+    await page.getByRole("radio", { name: "Parameters" }).check();
+  }
+  // Back to the middle, and to the oak.
+  await page.getByTestId("undo").click();
+  await page.getByText("50 % weeping willow", { exact: true }).waitFor();
+  assert.equal(await field(page, "g_scale").inputValue(), middle);
+  await page.getByTestId("undo").click();
+  await slider.waitFor({ state: "detached" });
+  assert.equal(await field(page, "g_scale").inputValue(), before);
+  // So does choosing nothing.
+  await page.getByTestId("redo").click();
+  await slider.waitFor();
+  await page.getByTestId("blend-with").selectOption("");
+  await slider.waitFor({ state: "detached" });
+  assert.equal(await field(page, "g_scale").inputValue(), before);
   assert.deepEqual(problems, []);
   await context.close();
 });

@@ -126,6 +126,19 @@ impl Species {
         self.with_values(thrown_list.values)
     }
 
+    /// Between this species and `other`, of the same generator: 0 is this one, 1 the other.
+    pub fn blended(&self, other: &Self, at: f64, name: &str) -> Result<Self, JsError> {
+        if !(0.0..=1.0).contains(&at) {
+            return Err(thrown(format!("the place between the species is {at}, expected from 0 to 1")));
+        }
+        pleach::species::check_name(name).map_err(thrown)?;
+        let ends = [self, other].map(|end| (*end.inner).clone()).to_vec();
+        let percent = |share: f64, of: &Self| format!("{:.0} % {}", 100.0 * share, of.inner.name);
+        let description = format!("{}, {}", percent(1.0 - at, self), percent(at, other));
+        let mixed = pleach::mix(ends, &[1.0 - at, at], name).map_err(thrown)?;
+        Ok(pleach::Species { description, ..mixed }.into())
+    }
+
     /// The text of the species file.
     #[must_use]
     pub fn to_toml(&self) -> String {

@@ -400,6 +400,8 @@ export interface Ops {
   active: { in: Spec; out: boolean[] };
   /** The species with another grammar. */
   grammar: { in: { spec: Spec; text: string }; out: EditedGrammar };
+  /** The text of a species between two: at 0 the first, at 1 the second. */
+  blend: { in: { from: Spec; to: Spec; at: number; name: string }; out: string };
   dice: { in: { spec: Spec; seed: number; locked: Uint8Array; strength: number }; out: number[] };
   toml: { in: { spec: Spec; name: string | null; treeSeed: number | null }; out: string };
   silhouette: {

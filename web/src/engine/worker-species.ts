@@ -102,6 +102,7 @@ export const speciesHandlers: Handlers<
   | "open"
   | "active"
   | "grammar"
+  | "blend"
   | "dice"
   | "toml"
   | "silhouette"
@@ -125,6 +126,13 @@ export const speciesHandlers: Handlers<
   grammar: ({ spec, text }) => JSON.parse(species(spec).with_grammar(text)) as EditedGrammar,
 
   active: (spec) => flags(species(spec).active()),
+
+  blend({ from, to, at, name }) {
+    const blended = species(from).blended(species(to), at, name);
+    const text = blended.to_toml();
+    blended.free();
+    return text;
+  },
 
   dice({ spec, seed, locked, strength }) {
     const thrown = species(spec).dice(seed, locked, strength);

@@ -1,6 +1,6 @@
-// The graphics context of a canvas, and how work with it is cut into tasks. Without three.js, for those who load that later.
+// The graphics context of a canvas, and how work with it is cut into tasks. No view is loaded for it.
 
-/** As three.js asks for it: a canvas has one context, the first that was asked for. */
+/** As views ask for it: a canvas has one context, the first that was asked for. */
 const ATTRIBUTES: WebGLContextAttributes = { alpha: true, antialias: true, depth: true, stencil: false };
 
 /** Opens the graphics context that a view of this canvas will use. */

@@ -23,7 +23,7 @@ export function Picker(): JSX.Element {
     <Field label="Start from">
       {(id) => (
         <select id={id} value={value} onChange={(event) => pick(event.currentTarget.value)}>
-          {value === OTHER && <option value={OTHER}>{speciesName.value}</option>}
+          {value === OTHER && <option value={OTHER}>{speciesName.value.replaceAll("_", " ")}</option>}
           {mySpecies.value.length > 0 && (
             <optgroup label="My species">
               {mySpecies.value.map((kept) => (

@@ -16,6 +16,7 @@ import {
 } from "../../state/species";
 import { Alert, Button, Field, Segmented } from "../../ui/controls";
 import { useUndoKeys } from "../../ui/keys";
+import { Blend } from "./blend";
 import { Files } from "./files-part";
 import { Grammar } from "./grammar";
 import { Parameters } from "./parameters";
@@ -135,6 +136,7 @@ export function SpeciesRoom(): JSX.Element {
               )}
             </Field>
           </div>
+          <Blend />
           <Toolbar />
           {refusal.value && <Alert text={refusal.value} />}
           <Segmented
