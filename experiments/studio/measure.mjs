@@ -1,7 +1,7 @@
 // What the page weighs and how fast it is, beside the program: node experiments/studio/measure.mjs [--all] PLEACH PICTURE...
 // PLEACH is the program, built for release; web/dist has to be built. PICTURE is a photograph of a tree, whose name in the
-// results is that of its file. Writes results.csv beside this file. With --all it measures
-// short searches of the other species of Hewitt's dissertation, and writes speed.csv.
+// results is that of its file. Writes results.csv beside this file. With --all it measures short
+// searches of the other species of Hewitt's dissertation, and writes speed.csv.
 
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
@@ -58,7 +58,9 @@ const studio = await open();
 async function checkLoading() {
   const { page, context } = await newPage(studio);
   await page.waitForTimeout(3000);
-  const loaded = await page.evaluate(() => performance.getEntriesByType("resource").map((entry) => entry.name));
+  const loaded = await page.evaluate(() =>
+    performance.getEntriesByType("resource").map((entry) => entry.name),
+  );
   const early = loaded.filter((name) => LATER.test(name));
   if (early.length > 0) throw new Error(`loaded with the page: ${early.join(", ")}`);
   await context.close();
@@ -172,4 +174,7 @@ for (const file of photographs) {
   await context.close();
 }
 await studio.close();
-writeFileSync(join(here, all ? "speed.csv" : "results.csv"), `${rows.map((row) => row.map(cell).join(",")).join("\n")}\n`);
+writeFileSync(
+  join(here, all ? "speed.csv" : "results.csv"),
+  `${rows.map((row) => row.map(cell).join(",")).join("\n")}\n`,
+);

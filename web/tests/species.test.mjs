@@ -6,6 +6,7 @@ import { after, before, test } from "node:test";
 import { unzipSync } from "fflate";
 import validator from "gltf-validator";
 import { atRest, newPage, open, PATIENCE, saved } from "./browser.mjs";
+import { library } from "./fit-room.mjs";
 
 let studio;
 before(async () => {
@@ -95,6 +96,18 @@ test("a species is blended with another, as the program does it, and each step c
   assert.equal(await field(page, "g_scale").inputValue(), before);
   assert.deepEqual(problems, []);
   await context.close();
+});
+
+test("a blend of other generators, or beyond its ends, is refused", async () => {
+  const { Species } = await library();
+  const [oak, willow, blobs] = ["black_oak", "weeping_willow", "stylised_oak"].map((name) =>
+    Species.named(name),
+  );
+  for (const at of [-0.1, 1.1, Number.NaN]) {
+    assert.throws(() => oak.blended(willow, at, "mine"), /expected from 0 to 1/);
+  }
+  assert.throws(() => oak.blended(willow, 0.5, ""), /name/);
+  assert.throws(() => oak.blended(blobs, 0.5, "mine"), Error);
 });
 
 test("the dice leave locked parameters alone, and are one step back", async () => {

@@ -45,11 +45,13 @@ interface Wish {
 
 const blender = new Latest<Wish>(async ({ wanted, key }, isStale) => {
   const { from, to, at } = wanted;
+  const before = recipes.peek();
   const name = [...`${from.name}_${to.name}`].slice(0, MAX_NAME).join("");
   const toml = await speciesClient.call("blend", { from: from.spec, to: to.spec, at, name });
   const source = { toml, name };
   await openSource(source);
-  if (isStale()) return;
+  // Another species may have been opened meanwhile.
+  if (isStale() || recipes.peek() !== before) return;
   keep(toml, wanted);
   change({ source, values: null }, key);
 }, sayError);
