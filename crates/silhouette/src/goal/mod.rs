@@ -386,7 +386,8 @@ fn user_value(what: &'static str, value: Option<f64>, size: u32) -> Result<Optio
     let limit = f64::from(size);
     match value {
         None => Ok(None),
-        Some(value) if (0.0..=limit).contains(&value) => Ok(Some((value, Origin::Given))),
+        // A picture that was shrunk ends within what would be its next pixel.
+        Some(value) if (0.0..limit + 1.0).contains(&value) => Ok(Some((value, Origin::Given))),
         Some(value) => Err(GoalError::OutsidePicture { what, value, limit }),
     }
 }

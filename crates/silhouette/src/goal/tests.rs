@@ -102,6 +102,9 @@ fn places_set_by_hand_stand_and_scale() {
     }
     let options = GoalOptions { ground_row: Some(10.0), ..GoalOptions::default() };
     assert!(matches!(Goal::load(&path, &options), Err(GoalError::GroundAboveTree { .. })));
+    // The frame of a picture that was shrunk by no whole factor may end within its next pixel.
+    let options = GoalOptions { ground_row: Some(100.6), ..GoalOptions::default() };
+    assert_eq!(Goal::load(&path, &options).unwrap().ground_row, 100.6);
 }
 
 #[test]
