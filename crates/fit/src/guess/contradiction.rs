@@ -7,7 +7,7 @@ use pleach_silhouette::Bitmap;
 const FROM: f64 = 1.5;
 /// … and those above this one say no more.
 const UP_TO: f64 = 4.0;
-/// Likeness that a difference of one more is worth; [`super::ranking`] takes a candidate of 0.02 less for e times less
+/// Likeness that a difference of one more is worth; [`super::ranking`] takes a candidate of 0.08 less for e times less
 /// probable.
 const WORTH: f64 = 0.03;
 /// A tree that contradicts the goal by so much more than another one is no start.

@@ -4,6 +4,7 @@ use super::candidate::Candidate;
 use super::comparison::pictures_of;
 use super::found::{FirstGuess, Reference, References};
 use super::goal_context::{GoalContext, known_views, likeness_evaluator};
+use super::learnt::with_densities;
 use super::library::{GuessLibrary, Resemblance, compare};
 use super::measured::measured;
 use super::near::Near;
@@ -57,7 +58,7 @@ pub(crate) struct OpenGuess {
     known: FitProblem,
     settings: FitSettings,
     candidates: Vec<Candidate>,
-    /// 1 minus the likeness of each candidate.
+    /// 1 minus the likeness of each candidate, with what was learnt about its trees.
     costs: Vec<f64>,
     /// How the library's trees compare with the goals.
     found: Vec<Option<Resemblance>>,
@@ -136,6 +137,7 @@ impl GuessLibrary {
         // A tree that looks like the goal may still stand beside it: the objective of the search decides.
         let raced = FitProblem { foliage, ..known.clone() };
         let all = contenders(&context, scored(&raced, &context, alike)?, &costs, keep);
+        let costs = with_densities(&context, predictors.as_ref(), foliage, &costs);
         let race = Race::new(&raced, &context, guess.race, all)?;
         let (settings, candidates) = (settings.clone(), candidates.to_vec());
         drop(context);

@@ -22,6 +22,7 @@ mod drawings;
 mod first_guess;
 mod found;
 mod goal_context;
+mod learnt;
 mod leaves;
 mod library;
 mod measured;

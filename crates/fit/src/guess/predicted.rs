@@ -21,7 +21,8 @@ impl GuessLibrary {
     /// What the first goal says about the numbers of its tree, if that is one around `species`.
     pub(crate) fn answer(&self, problem: &FitProblem, species: &Species) -> Option<Answer> {
         let goal = problem.goals.first().filter(|goal| is_level(&goal.view))?;
-        let predictors = self.predictors.as_ref()?;
+        let is_of_them = species.generator.model() == problem.start.generator.model();
+        let predictors = self.predictors.as_ref().filter(|_| is_of_them)?;
         predictors.answer(&goal.goal, goal.frame.meters_per_pixel, problem.foliage, species)
     }
 }

@@ -1,6 +1,7 @@
 //! Where the pictures of trees around one species lie among all pictures.
 
 use super::packed::Packed;
+use pleach_tree::math;
 use serde::{Deserialize, Serialize};
 
 /// The middle of their coordinates, how far they spread along each, and how far they are from the middle.
@@ -37,11 +38,24 @@ impl Cloud {
 
     /// Root mean square over all coordinates, in spreads.
     fn distance(&self, row: &[f64]) -> f64 {
+        let sum: f64 = self.apart(row).map(|(apart, _)| square(apart)).sum();
+        (sum / row.len().max(1) as f64).sqrt()
+    }
+
+    /// How far `row` is from the middle along each coordinate, in spreads, and the spread.
+    fn apart(&self, row: &[f64]) -> impl Iterator<Item = (f64, f64)> {
         let largest = self.spread.numbers().fold(0.0, f64::max);
         let least = (MIN_SPREAD * largest).max(f64::MIN_POSITIVE);
-        let squares = row.iter().zip(self.middle.numbers()).zip(self.spread.numbers());
-        let sum: f64 = squares.map(|((at, middle), spread)| square((at - middle) / spread.max(least))).sum();
-        (sum / row.len().max(1) as f64).sqrt()
+        row.iter().zip(self.middle.numbers()).zip(self.spread.numbers()).map(move |((at, middle), spread)| {
+            let spread = spread.max(least);
+            ((at - middle) / spread, spread)
+        })
+    }
+
+    /// The logarithm of the density of its trees at `row`, as if each coordinate were normal and none depended on
+    /// another; up to a constant that is the same for all clouds of that many coordinates.
+    pub(super) fn log_density(&self, row: &[f64]) -> f64 {
+        -self.apart(row).map(|(apart, spread)| 0.5 * square(apart) + math::ln(spread)).sum::<f64>()
     }
 
     /// The share of its trees that are at least as far from the middle as `row`.

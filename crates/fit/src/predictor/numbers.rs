@@ -135,6 +135,11 @@ impl Numbers {
         self.cloud.share_as_far(coordinates)
     }
 
+    /// See [`Cloud::log_density`].
+    pub(super) fn log_density(&self, coordinates: &[f64]) -> f64 {
+        self.cloud.log_density(coordinates)
+    }
+
     /// What `coordinates` say of the numbers of a tree `height` metres high around `species`, whose prior is `prior`.
     pub(super) fn answer(
         &self,

@@ -5,7 +5,7 @@ use super::examples::{Example, examples, features};
 use super::numbers::Numbers;
 use super::packed::Packed;
 use crate::error::FitError;
-use crate::posterior::{PosteriorNumber, PosteriorSettings, Prior};
+use crate::posterior::{Posterior, PosteriorNumber, PosteriorSettings, Prior};
 use crate::space::Freedom;
 use pleach_silhouette::Bitmap;
 use pleach_tree::{Fnv, Foliage, Species};
@@ -220,6 +220,25 @@ impl Predictors {
             familiarity: numbers.familiarity(&at),
             numbers: numbers.answer(species, &prior, height, &at),
         })
+    }
+
+    /// How probable `picture` is among the pictures of trees around each of `species`, up to a constant: logarithms, of
+    /// amounts that depend on each other as if they did not, so that differences are too large. `None` for a species
+    /// that is not known.
+    ///
+    /// Nothing at all where the picture is strange to every species: then none of them explains it.
+    pub(crate) fn log_densities<'a>(
+        &self,
+        picture: &Bitmap,
+        foliage: Foliage,
+        species: impl IntoIterator<Item = &'a Species>,
+    ) -> Option<Vec<Option<f64>>> {
+        let at = self.coordinates(picture)?;
+        let known = species.into_iter().map(|species| self.known.get(&key(species, foliage)));
+        let found: Vec<_> =
+            known.map(|one| one.map(|one| (one.log_density(&at), one.familiarity(&at)))).collect();
+        let is_familiar = found.iter().flatten().any(|(_, familiarity)| *familiarity >= Posterior::STRANGE);
+        is_familiar.then(|| found.into_iter().map(|one| Some(one?.0)).collect())
     }
 
     fn known(&self, species: &Species, foliage: Foliage) -> Option<(&Numbers, Prior)> {

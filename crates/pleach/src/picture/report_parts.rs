@@ -133,7 +133,7 @@ pub struct ViewReport {
 }
 
 /// Species with less confidence than this are left out.
-const MIN_CONFIDENCE: f64 = 0.01;
+const MIN_CONFIDENCE: f64 = 0.05;
 
 impl LooksLike {
     /// The species of a first guess.
