@@ -42,6 +42,8 @@ impl Steps {
     const FAR: Self = Self { first: 4.0, last: 0.25 };
     /// Near steps, on drawings of the tree itself.
     const NEAR: Self = Self { first: 0.25, last: 1.0 / 128.0 };
+    /// Near steps of any tree; one that is not the goal's own gains nothing by smaller ones.
+    const NEAR_ANY: Self = Self { first: 0.25, last: 1.0 / 8.0 };
     /// Near steps of a tree with more than [`HEAVY`] leaves: a dense crown has few edges for its ink.
     const NEAR_HEAVY: Self = Self { first: 0.25, last: 1.0 / 32.0 };
     /// Near steps once more from their result: three dependent numbers are moved one by one.
@@ -62,6 +64,8 @@ const READ_GROWTH: (f64, f64) = (2.0, 0.012);
 /// Intersection over union from which a tree counts as the goal's own: two trees of a species have at most 0.6, and
 /// fits of crowns without gaps have 0.9 and are in the right place.
 const SURE: f64 = 0.8;
+/// A tree that has less at the best place by [`Steps::NEAR_ANY`] is not the goal's own.
+const PERHAPS: f64 = 0.7;
 /// Pixels between the columns that are tried for the foot first, and the growths of the height that are tried with
 /// each, relative to the height.
 const SCAN: f64 = 2.0;
@@ -201,18 +205,22 @@ impl Registered<'_> {
     fn found(&self, closeness: Closeness, pictures: &Pictures<'_>) -> (Moved, f64) {
         let moved = pictures.far.as_ref().map_or([0.0; 3], |far| self.far(far));
         let near = |from, steps| self.search(from, steps, &pictures.near);
-        let moved = match closeness {
-            Closeness::Search => moved,
-            Closeness::Result if self.tree.leaves.len() > HEAVY => near(moved, Steps::NEAR_HEAVY).0,
-            Closeness::Result => {
-                // Ground and height compensate each other: try also the present top with the ground as read.
-                let [right, down, higher] = moved;
-                let beginnings = [moved, [right, 0.0, higher - down]];
-                let [one, other] = beginnings.map(|from| near(from, Steps::NEAR));
-                near(if other.1 > one.1 { other.0 } else { one.0 }, Steps::AGAIN).0
-            }
-        };
-        (moved, self.iou_at(moved))
+        let known = |moved| (moved, self.iou_at(moved));
+        if closeness == Closeness::Search {
+            return known(moved);
+        }
+        let close = known(near(moved, Steps::NEAR_ANY).0);
+        if close.1 < PERHAPS {
+            return close;
+        }
+        if self.tree.leaves.len() > HEAVY {
+            return known(near(moved, Steps::NEAR_HEAVY).0);
+        }
+        // Ground and height compensate each other: try also the present top with the ground as read.
+        let [right, down, higher] = moved;
+        let beginnings = [moved, [right, 0.0, higher - down]];
+        let [one, other] = beginnings.map(|from| near(from, Steps::NEAR));
+        known(near(if other.1 > one.1 { other.0 } else { one.0 }, Steps::AGAIN).0)
     }
 
     /// The intersection over union at a place.
@@ -337,7 +345,8 @@ impl Drawing {
 
 /// The best place of `tree` on `goal`, which is seen in `view` and approximately in `frame`, starting from `from`.
 ///
-/// Near steps only, within four first steps of `from`. The same bits for any number of threads.
+/// Near steps only, within four first steps of `from`, and none below an eighth of a pixel for a tree that is not the
+/// goal's own. The same bits for any number of threads.
 #[must_use]
 pub fn register(
     tree: &Tree,
@@ -351,7 +360,12 @@ pub fn register(
     let mut registered = registered(tree, foliage, goal, view, frame, 1.0);
     let moved = registered.moved(from);
     registered.reach = Reach { from: moved, by: [AROUND * steps.first; 3] };
-    let (found, _) = registered.search(moved, steps, &Pictures::near(&registered));
+    let pictures = Pictures::near(&registered);
+    let close = Steps { last: steps.last.max(Steps::NEAR_ANY.last), ..steps };
+    let (mut found, _) = registered.search(moved, close, &pictures);
+    if registered.iou_at(found) >= PERHAPS {
+        (found, _) = registered.search(moved, steps, &pictures);
+    }
     Placement { azimuth: from.azimuth, ..registered.placement(found) }
 }
 
