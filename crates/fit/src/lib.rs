@@ -66,7 +66,7 @@ mod testing;
 
 pub use assess::{
     Assessment, AssessmentSettings, FreshSeeds, Identifiability, KindVerdict, MIN_VERDICT_SPAN, Mismatch,
-    PROFILE_STEPS, Profile, Spread, Verdict, fresh_seeds, profile, reset_unidentified,
+    PROFILE_STEPS, Profile, Spread, Verdict, fresh_seeds, profile, with_expected_numbers,
 };
 pub use control::{
     Budget, COLUMNS, CheckpointSettings, Clock, Column, Control, CostModel, Observer, Outcome,

@@ -2,15 +2,14 @@
 //! values for its likeness.
 
 use super::fresh::{FreshSeeds, fresh_seeds};
-use super::profile::{Profile, profile, reset_unidentified};
+use super::profile::{Profile, profile};
 use super::substitutes::substitutes;
 use crate::control::Clock;
 use crate::control::PreparedSearch;
 use crate::control::Until;
 use crate::error::FitError;
 use crate::guess::{Candidate, GuessLibrary, References};
-use crate::method::Start;
-use crate::problem::FitProblem;
+use crate::posterior::PosteriorNumber;
 use crate::problem::Scored;
 use crate::run::settled;
 use pleach_tree::{Limits, Slot};
@@ -22,8 +21,7 @@ use std::time::Duration;
 pub struct AssessmentSettings {
     /// Trees of other seeds.
     pub seeds: usize,
-    /// Time by the caller's clock; `None`: unlimited. If it is short, fewer trees and fewer numbers are tried, and
-    /// numbers that the goal does not determine stay as they are.
+    /// Time by the caller's clock; `None`: unlimited. If it is short, fewer trees and fewer numbers are tried.
     pub time: Option<Duration>,
 }
 
@@ -41,8 +39,6 @@ pub struct Assessment {
     pub held_out: Option<FreshSeeds>,
     /// How well the goal determines each free number.
     pub profiles: Vec<Profile>,
-    /// Slots that the goal does not determine and that were reset to the start's value.
-    pub put_back: Vec<Slot>,
     /// Slots of variations of size, which are 0 because one tree does not show them.
     pub settled: Vec<Slot>,
     /// Reference values for its likeness.
@@ -51,10 +47,9 @@ pub struct Assessment {
     pub elapsed: Duration,
 }
 
-/// Shares of the time after which other seeds, profiles, and resets end.
-const UNTIL_FRESH: f64 = 0.3;
-const UNTIL_PROFILED: f64 = 0.7;
-const UNTIL_PUT_BACK: f64 = 0.85;
+/// Shares of the time after which other seeds and profiles end.
+const UNTIL_FRESH: f64 = 0.5;
+const UNTIL_PROFILED: f64 = 0.9;
 
 /// Change of the cost that counts as visible, where the spread over seeds is unknown.
 const TOLERANCE: f64 = 0.01;
@@ -66,13 +61,15 @@ pub(crate) struct Assessor<'a> {
     pub(crate) finalists: &'a [Scored],
     pub(crate) settings: AssessmentSettings,
     pub(crate) candidates: &'a [Candidate],
+    /// What is known of numbers without a move.
+    pub(crate) known: &'a [PosteriorNumber],
     pub(crate) clock: &'a dyn Clock,
     pub(crate) stop: &'a AtomicBool,
 }
 
 impl Assessor<'_> {
-    /// Assesses `best`; returns it with numbers that the goal does not determine reset to the start's. If it does not
-    /// grow from other seeds, the nearest individual that does is assessed and returned in its place.
+    /// Assesses `best` and returns it. If it does not grow from other seeds, the nearest individual that does is assessed
+    /// and returned in its place.
     ///
     /// # Errors
     /// Those of [`crate::fit`], and [`FitError::Interrupted`] once the flag is raised.
@@ -88,38 +85,18 @@ impl Assessor<'_> {
             let time = self.settings.time.map(|time| from + time.mul_f64(share));
             Until::from(stop).or_late(clock, time)
         };
-        let (best, first) = &self.growing(best, until(UNTIL_FRESH))?;
-        let first = *first;
-        let tolerance = first.as_ref().map_or(TOLERANCE, |fresh| fresh.cost.sd);
-        let profiles = profile(problem, settings, best, tolerance, until(UNTIL_PROFILED))?;
-        let (kept, put_back) = match &settings.start {
-            // Reset numbers have to be assessed again, for which there has to be time.
-            Start::Lists(lists) if !until(UNTIL_PROFILED).is_late() => {
-                let until = until(UNTIL_PUT_BACK);
-                reset_unidentified(problem, settings, best, &profiles, &lists[0], tolerance, until)?
-            }
-            _ => (best.clone(), Vec::new()),
-        };
-        // Inactive numbers were reset for readers of the file; the trees are the same.
-        let (kept, put_back, held_out) =
-            if same_trees(problem, &best.genome.values, &kept.genome.values, &put_back) {
-                (kept, put_back, first)
-            } else {
-                match (first, self.held_out(&kept, until(1.0))?) {
-                    // They grew before.
-                    (Some(_), None) => (best.clone(), Vec::new(), first),
-                    (_, held_out) => (kept, put_back, held_out),
-                }
-            };
+        let (best, held_out) = self.growing(best, until(UNTIL_FRESH))?;
+        let tolerance = held_out.as_ref().map_or(TOLERANCE, |fresh| fresh.cost.sd);
+        let profiles = profile(problem, settings, &best, self.known, tolerance, until(UNTIL_PROFILED))?;
         let references = match guess {
             Some(guess) => guess.references.clone(),
             // Without trees there is the ellipse.
             None if until(1.0).is_late() => library.references(problem, settings, &[], stop)?,
             None => library.references(problem, settings, candidates, stop)?,
         };
-        let settled = settled(problem, settings, &kept.genome)?;
+        let settled = settled(problem, settings, &best.genome)?;
         let elapsed = clock.elapsed().saturating_sub(from);
-        Ok((kept, Assessment { held_out, profiles, put_back, settled, references, elapsed }))
+        Ok((best, Assessment { held_out, profiles, settled, references, elapsed }))
     }
 
     /// The first of `best` and its substitutes that grows from other seeds, with the scores of its trees; `best` if
@@ -144,14 +121,4 @@ impl Assessor<'_> {
         let limits = Limits::default();
         fresh_seeds(problem, settings.objective, limits, &best.genome, self.settings.seeds, until)
     }
-}
-
-/// Whether lists that differ in `slots` only, one after the other, grow the same trees from any seed.
-fn same_trees(problem: &FitProblem, before: &[f64], after: &[f64], slots: &[Slot]) -> bool {
-    let mut values = before.to_vec();
-    slots.iter().all(|&slot| {
-        let is_active = problem.start.generator.is_active(&values, slot);
-        values[slot.index()] = after[slot.index()];
-        !is_active
-    })
 }

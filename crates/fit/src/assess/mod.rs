@@ -2,6 +2,7 @@
 
 mod assessor;
 mod best_kind;
+mod expected;
 mod finer_leaves;
 mod fresh;
 mod profile;
@@ -11,7 +12,8 @@ mod verdict;
 pub(crate) use assessor::Assessor;
 pub use assessor::{Assessment, AssessmentSettings};
 pub(crate) use best_kind::best_kind;
+pub use expected::with_expected_numbers;
 pub(crate) use finer_leaves::finer_leaves;
 pub use fresh::{FreshSeeds, Spread, fresh_seeds};
-pub use profile::{Identifiability, PROFILE_STEPS, Profile, profile, reset_unidentified};
+pub use profile::{Identifiability, PROFILE_STEPS, Profile, profile};
 pub use verdict::{KindVerdict, MIN_VERDICT_SPAN, Mismatch, Verdict};

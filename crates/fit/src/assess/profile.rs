@@ -3,14 +3,12 @@
 use crate::control::Until;
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
-use crate::problem::FitProblem;
-use crate::problem::{Genome, Scored};
-use crate::run::FitSettings;
-use crate::run::search_space;
-use crate::space::{Gene, SearchSpace};
+use crate::posterior::PosteriorNumber;
+use crate::problem::{FitProblem, Genome, Scored};
+use crate::run::{FitSettings, search_space};
+use crate::space::Gene;
 use pleach_tree::Slot;
 use serde::Serialize;
-use std::collections::VecDeque;
 
 /// How well a goal determines a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -47,19 +45,17 @@ pub struct Profile {
     /// How well it is determined.
     pub seen: Identifiability,
     /// By how much the cost rises when the number goes down, and up, by [`PROFILE_STEPS`] of its search range; for a
-    /// choice only the least of all other choices. `None` beyond the range, and for small moves where no large one is
-    /// seen.
+    /// choice only the least of all other choices. `None` beyond the range, for small moves where no large one is
+    /// seen, and for all moves of a number that is known from elsewhere.
     pub rises: [[Option<f64>; 2]; 2],
 }
 
 /// The two moves, as parts of the search range.
 pub const PROFILE_STEPS: [f64; 2] = [0.05, 0.2];
 
-/// Part of the tolerance that may be spent on resetting numbers that are not seen.
-const SPENT_ON_RETURN: f64 = 0.1;
-
 /// Profiles every free number of `best` against the goals: a move is seen if it raises the cost by more than
-/// `tolerance`, which is best the spread of one seed's cost.
+/// `tolerance`, which is best the spread of one seed's cost. Those that are `known` are not moved: what was learnt from
+/// many trees says more than what this one shows.
 ///
 /// # Errors
 /// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once asked to
@@ -68,18 +64,23 @@ pub fn profile(
     problem: &FitProblem,
     settings: &FitSettings,
     best: &Scored,
+    known: &[PosteriorNumber],
     tolerance: f64,
     until: Until<'_>,
 ) -> Result<Vec<Profile>, FitError> {
-    let (space, evaluator) = prepare(problem, settings)?;
+    let space = search_space(problem, settings)?;
+    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?.with_seeds(settings.robust);
     // They move this tree, and its size can compensate: a picture does not show them.
     let hidden = space.hidden_jitters(&best.genome.values);
     // Nuisances stay as they are: they are not parameters of the tree.
     let mut tried: Vec<Tried> = Vec::new();
     for (gene, slot) in space.genes().iter().filter_map(|gene| Some((gene, gene.slot()?))) {
+        let known = known.iter().find(|number| number.slot == slot);
+        let known = known.map(|number| Identifiability::from_shrunk(number.shrunk));
         let is_read = !hidden.contains(&slot) && space.is_active(&best.genome.values, gene);
-        let moves = if is_read { alternatives(gene, gene.get(&best.genome)) } else { Vec::new() };
-        tried.push(Tried { gene, slot, moves, rises: [[None; 2]; 2], is_late: false });
+        let is_moved = is_read && known.is_none();
+        let moves = if is_moved { alternatives(gene, gene.get(&best.genome)) } else { Vec::new() };
+        tried.push(Tried { gene, slot, known, moves, rises: [[None; 2]; 2], is_late: false });
     }
     for step in [LARGE, SMALL] {
         let mut moves: Vec<(usize, usize, Genome)> = Vec::new();
@@ -118,6 +119,8 @@ const LARGE: usize = 1;
 struct Tried<'a> {
     gene: &'a Gene,
     slot: Slot,
+    /// Where it is known without a move.
+    known: Option<Identifiability>,
     /// Step, side and value of each.
     moves: Vec<((usize, usize), f64)>,
     rises: [[Option<f64>; 2]; 2],
@@ -130,12 +133,14 @@ impl Tried<'_> {
     }
 
     fn profile(self, tolerance: f64) -> Profile {
-        let seen = match (self.is_seen(SMALL, tolerance), self.is_seen(LARGE, tolerance)) {
-            (true, _) => Identifiability::Determined,
-            _ if self.is_late => Identifiability::NotTried,
-            (_, true) => Identifiability::Loosely,
-            _ => Identifiability::NotSeen,
-        };
+        let seen = self.known.unwrap_or_else(|| {
+            match (self.is_seen(SMALL, tolerance), self.is_seen(LARGE, tolerance)) {
+                (true, _) => Identifiability::Determined,
+                _ if self.is_late => Identifiability::NotTried,
+                (_, true) => Identifiability::Loosely,
+                _ => Identifiability::NotSeen,
+            }
+        });
         Profile { slot: self.slot, seen, rises: self.rises }
     }
 }
@@ -159,140 +164,4 @@ fn alternatives(gene: &Gene, value: f64) -> Vec<((usize, usize), f64)> {
         }
     }
     list
-}
-
-/// Resets numbers that are not seen to their values in `start`, those that cost least first, as long as all of them
-/// together cost less than a tenth of `tolerance`; others go half of the way, if they can.
-///
-/// A fit leaves such numbers at arbitrary values; those of a known species at least belong to a tree. Returns the
-/// individual, with its score, and the slots that went all of the way.
-///
-/// # Errors
-/// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once asked to
-/// stop.
-pub fn reset_unidentified(
-    problem: &FitProblem,
-    settings: &FitSettings,
-    best: &Scored,
-    profiles: &[Profile],
-    start: &[f64],
-    tolerance: f64,
-    until: Until<'_>,
-) -> Result<(Scored, Vec<Slot>), FitError> {
-    let (space, evaluator) = prepare(problem, settings)?;
-    let hidden = space.hidden_jitters(&best.genome.values);
-    let most = best.score.cost + SPENT_ON_RETURN * tolerance;
-    let back = Back { space: &space, evaluator: &evaluator, most, until };
-    let moved: Vec<(Slot, f64)> = profiles
-        .iter()
-        .filter(|profile| profile.seen == Identifiability::NotSeen && !hidden.contains(&profile.slot))
-        .map(|profile| (profile.slot, start[profile.slot.index()]))
-        .filter(|&(slot, there)| best.genome.values[slot.index()] != there)
-        .collect();
-    let mut kept = best.clone();
-    let gone = back.all(&mut kept, moved.clone())?;
-    let halves = moved.into_iter().filter(|(slot, _)| !gone.contains(slot)).filter_map(|(slot, there)| {
-        let gene = space.genes().iter().find(|gene| gene.slot() == Some(slot))?;
-        let here = gene.get(&kept.genome);
-        let half = gene.from_unit(gene.to_unit(here).midpoint(gene.to_unit(there)));
-        (!gene.is_choice() && half != here).then_some((slot, half))
-    });
-    let halves = halves.collect();
-    back.all(&mut kept, halves)?;
-    Ok((kept, gone))
-}
-
-/// The conditions of a reset.
-struct Back<'a> {
-    space: &'a SearchSpace,
-    evaluator: &'a Evaluator,
-    /// Largest cost.
-    most: f64,
-    until: Until<'a>,
-}
-
-impl Back<'_> {
-    /// Gives slots of `kept` their new values, one after the other, those that cost least first; returns those that
-    /// were set.
-    fn all(&self, kept: &mut Scored, moves: Vec<(Slot, f64)>) -> Result<Vec<Slot>, FitError> {
-        let alone: Vec<Genome> = moves
-            .iter()
-            .map(|&(slot, value)| {
-                let mut genome = kept.genome.clone();
-                genome.values[slot.index()] = value;
-                genome
-            })
-            .collect();
-        // The clock stays on this thread.
-        let Self { space, evaluator, .. } = *self;
-        let costs = self.until.map(&alone, |genome| {
-            let slot = genome.values.iter().zip(&kept.genome.values).position(|(a, b)| a != b);
-            // An inactive number does not change the tree and its score.
-            if slot.is_some_and(|slot| is_active(space, &kept.genome, Slot::new(slot))) {
-                evaluator.score(genome).cost
-            } else {
-                kept.score.cost
-            }
-        })?;
-        let mut order: Vec<usize> = (0..costs.len()).filter(|&i| costs[i] <= self.most).collect();
-        order.sort_by(|&a, &b| costs[a].total_cmp(&costs[b]));
-        let mut waiting: VecDeque<(Slot, f64)> = order.into_iter().map(|i| moves[i]).collect();
-        let mut slots = Vec::new();
-        while !waiting.is_empty() && !self.until.is_late() {
-            let steps = self.steps(&kept.genome, &waiting);
-            let trials: Vec<&Genome> =
-                steps.iter().filter(|step| step.is_read).map(|step| &step.genome).collect();
-            let mut scores = self.until.map(&trials, |genome| evaluator.score(genome))?.into_iter();
-            for Step { slot, genome, is_read } in steps {
-                waiting.pop_front();
-                let score = if is_read { scores.next() } else { Some(kept.score) };
-                match score.filter(|score| score.cost <= self.most) {
-                    Some(score) => {
-                        *kept = Scored { genome, score };
-                        slots.push(slot);
-                    }
-                    // Those after it were tried together with it, and are tried again without.
-                    None => break,
-                }
-            }
-        }
-        Ok(slots)
-    }
-
-    /// The next steps from `from`: as many as there are threads to grow their trees.
-    ///
-    /// Most resets are allowed, so a step is tried before the result of the one before it. The number of steps that
-    /// are tried together decides how much work is wasted, not the result.
-    fn steps(&self, from: &Genome, waiting: &VecDeque<(Slot, f64)>) -> Vec<Step> {
-        let mut genome = from.clone();
-        let mut trials = rayon::current_num_threads();
-        let mut steps = Vec::new();
-        for &(slot, value) in waiting {
-            let is_read = is_active(self.space, &genome, slot);
-            if is_read && trials == 0 {
-                break;
-            }
-            trials -= usize::from(is_read);
-            genome.values[slot.index()] = value;
-            steps.push(Step { slot, genome: genome.clone(), is_read });
-        }
-        steps
-    }
-}
-
-fn is_active(space: &SearchSpace, genome: &Genome, slot: Slot) -> bool {
-    let gene = space.genes().iter().find(|gene| gene.slot() == Some(slot));
-    gene.is_none_or(|gene| space.is_active(&genome.values, gene))
-}
-
-/// The reset of a number, after all those before it in a list.
-struct Step {
-    slot: Slot,
-    genome: Genome,
-    is_read: bool,
-}
-
-fn prepare(problem: &FitProblem, settings: &FitSettings) -> Result<(SearchSpace, Evaluator), FitError> {
-    let evaluator = Evaluator::new(problem, settings.objective, settings.limits)?.with_seeds(settings.robust);
-    Ok((search_space(problem, settings)?, evaluator))
 }

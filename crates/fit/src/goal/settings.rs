@@ -10,8 +10,8 @@ use crate::predictor::Answer;
 use crate::problem::{FitProblem, Scored};
 use crate::run::FitSettings;
 use pleach_silhouette::score::ScoreCard;
-use pleach_tree::Species;
 use pleach_tree::param::SlotError;
+use pleach_tree::{Slot, Species};
 
 /// Settings of a whole fit, from the first guess to the assessment of the result.
 #[derive(Clone, Debug)]
@@ -82,9 +82,10 @@ pub struct Fitted {
     /// The search. Its stop reason is also [`StopReason::Interrupted`](crate::StopReason::Interrupted) if the
     /// assessment was interrupted.
     pub outcome: Outcome,
-    /// The best individual; after an assessment, numbers that the goal does not determine have the start's
-    /// values.
+    /// The best individual, with numbers that make no difference to the goal where they are expected.
     pub best: Scored,
+    /// The slots of those numbers.
+    pub as_expected: Vec<Slot>,
     /// The assessment; `None` if the fit was interrupted or none was asked for.
     pub assessment: Option<Assessment>,
     /// This very tree, or several that all lie on the goal, the best first. Empty if none was asked for, the fit was

@@ -2,7 +2,7 @@
 
 use super::deadline::TimeLeft;
 use super::settings::{Fitted, GoalSettings, Guessing};
-use crate::assess::{AssessmentSettings, Assessor, best_kind, finer_leaves};
+use crate::assess::{AssessmentSettings, Assessor, best_kind, finer_leaves, with_expected_numbers};
 use crate::control::{Control, Outcome, PreparedSearch, StopReason, Until};
 use crate::error::FitError;
 use crate::evaluator::Evaluator;
@@ -10,11 +10,12 @@ use crate::guess::{FirstGuess, GuessLibrary, Guessed, OpenGuess};
 use crate::individual::{IndividualSettings, individuals};
 use crate::method::Start;
 use crate::posterior::{Posterior, PosteriorModel, PosteriorSettings, Prior};
+use crate::predictor::Answer;
 use crate::problem::FitProblem;
 use crate::registration::{Closeness, with_registered_frames};
 use crate::run::{FitSettings, evaluator_in, search_space};
 use crate::space::{Gene, SpaceError};
-use pleach_tree::{Limits, Species};
+use pleach_tree::{Limits, Slot, Species};
 use std::sync::atomic::Ordering;
 
 /// Whether former bests of such a search may be validated on other seeds.
@@ -49,6 +50,8 @@ pub(super) fn conclude(
     };
     let left =
         TimeLeft::new(settings.deadline, settings.individual, outcome.elapsed, control.clock, evaluate)?;
+    let answer = library.answer(&prepared.problem, known_species(&prepared, settings));
+    let mut as_expected = Vec::new();
     if settings.validates && validates(&prepared.settings) {
         let mut finalists = outcome.finalists.clone();
         finalists.push(best.clone());
@@ -66,6 +69,12 @@ pub(super) fn conclude(
             Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
             Err(error) => return Err(error),
         }
+        let numbers = expected(&prepared, answer.as_ref());
+        match with_expected_numbers(&prepared.problem, search, &best, &numbers, until) {
+            Ok((kept, slots)) => (best, as_expected) = (kept, slots),
+            Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
+            Err(error) => return Err(error),
+        }
     }
     let evaluator = Evaluator::new(&prepared.problem, prepared.settings.objective, Limits::DEFAULT)?;
     prepared.problem = with_registered_frames(&prepared.problem, &evaluator, &best.genome, Closeness::Result);
@@ -78,7 +87,9 @@ pub(super) fn conclude(
         let (clock, stop) = (control.clock, control.stop);
         let how = AssessmentSettings { time: left.for_assessment(how.time), ..how };
         let (finalists, candidates) = (&outcome.finalists, &settings.candidates);
-        let assessor = Assessor { prepared: &prepared, finalists, settings: how, candidates, clock, stop };
+        let known = answer.as_ref().map_or(&[][..], |answer| &answer.numbers);
+        let assessor =
+            Assessor { prepared: &prepared, finalists, settings: how, candidates, known, clock, stop };
         match assessor.assess(&best, library) {
             Ok((kept, found)) => (best, assessment) = (kept, Some(found)),
             // The search may have ended by itself, the fit has not.
@@ -108,9 +119,19 @@ pub(super) fn conclude(
             Err(error) => return Err(error),
         }
     }
-    let answer = library.answer(&prepared.problem, known_species(&prepared, settings));
     let PreparedSearch { problem, settings, guess } = prepared;
-    Ok(Fitted { problem, settings, guess, outcome, best, assessment, individuals: found, posterior, answer })
+    Ok(Fitted {
+        problem,
+        settings,
+        guess,
+        outcome,
+        best,
+        as_expected,
+        assessment,
+        individuals: found,
+        posterior,
+        answer,
+    })
 }
 
 /// The known species that the goal looks like; without a first guess the one that the search started from.
@@ -118,6 +139,27 @@ fn known_species<'a>(prepared: &'a PreparedSearch, settings: &'a GoalSettings) -
     let named = prepared.guess.as_ref().and_then(|guess| guess.names.first());
     let of_name = |name: &str| settings.candidates.iter().find(|one| one.species.name == name);
     named.and_then(|(name, _)| of_name(name)).map_or(&prepared.problem.start, |known| &known.species)
+}
+
+/// Where the free numbers of a tree that looks like the goal are expected, the least certain last: in the middle of
+/// trees around the known species whose pictures look so, and else where the search started from.
+fn expected(prepared: &PreparedSearch, answer: Option<&Answer>) -> Vec<(Slot, f64)> {
+    let Some(start) = prepared.settings.start.lists().first() else { return Vec::new() };
+    let answer = answer.filter(|answer| answer.familiarity >= Posterior::STRANGE);
+    let known = answer.map_or(&[][..], |answer| &answer.numbers);
+    let mut all: Vec<(f64, Slot, f64)> = prepared
+        .problem
+        .start
+        .generator
+        .space()
+        .slots()
+        .map(|slot| match known.iter().find(|number| number.slot == slot) {
+            Some(number) => (number.shrunk, slot, number.posterior.median),
+            None => (0.0, slot, start[slot.index()]),
+        })
+        .collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    all.into_iter().map(|(_, slot, value)| (slot, value)).collect()
 }
 
 /// What the goals say about the numbers of their tree; `None` where too few trees of the prior grow.

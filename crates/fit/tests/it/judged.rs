@@ -3,8 +3,8 @@
 use crate::common::goal_of;
 use pleach_fit::{
     Budget, Control, EvalWorkspace, Evaluator, FIT_LIMITS, FitError, FitProblem, FitSettings, Freedom,
-    Genome, Identifiability, Objective, Score, Scored, Start, TreeSeed, fit, fresh_seeds, profile,
-    reset_unidentified, settled,
+    Genome, Identifiability, Interval, Objective, PosteriorNumber, Score, Scored, Start, TreeSeed, Until,
+    fit, fresh_seeds, profile, settled, with_expected_numbers,
 };
 use pleach_tree::Slot;
 use std::num::NonZeroU32;
@@ -58,7 +58,7 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     let problem = goal_of("palm", 1, 96);
     let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
     let best = Scored { genome: truth(&problem), score: Score::from_cost(0.0) };
-    let profiles = profile(&problem, &settings, &best, 0.05, (&GO).into()).unwrap();
+    let profiles = profile(&problem, &settings, &best, &[], 0.05, (&GO).into()).unwrap();
     let space = problem.start.generator.space();
     let seen = |name: &str| {
         let slot = space.select(name).unwrap()[0];
@@ -78,17 +78,71 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
     }
     assert!(profiles.iter().any(|profile| profile.rises[0] == [None; 2] && profile.rises[1][0].is_some()));
 
-    // What is not seen goes back to the start, and nothing else does.
-    let mut start = base(&problem).to_vec();
+    // What was learnt of a number is not tried again.
     let slot = |name: &str| space.select(name).unwrap()[0];
-    start[slot("length[3]").index()] = 0.123;
-    start[slot("g_scale").index()] = 5.0;
-    let (kept, slots) =
-        reset_unidentified(&problem, &settings, &best, &profiles, &start, 0.05, (&GO).into()).unwrap();
-    assert_eq!(slots, [slot("length[3]")]);
-    assert_eq!(kept.genome.values[slot("length[3]").index()], 0.123);
+    let interval = Interval { low: 1.0, median: 2.0, high: 3.0 };
+    let (prior, posterior) = (interval, interval);
+    let known = [PosteriorNumber { slot: slot("g_scale"), prior, posterior, shrunk: 0.3 }];
+    let profiles = profile(&problem, &settings, &best, &known, 0.05, (&GO).into()).unwrap();
+    let scale = profiles.iter().find(|profile| profile.slot == slot("g_scale")).unwrap();
+    assert_eq!((scale.seen, scale.rises), (Identifiability::Loosely, [[None; 2]; 2]));
+}
+
+/// The numbers of `species` as what is expected, those of the goal's own tree as what was found.
+fn expected_of(species: &str) -> (FitProblem, FitSettings, Scored, Vec<(Slot, f64)>) {
+    let problem = goal_of("acer", 1, 64);
+    let settings = FitSettings { objective: Objective::Balance, ..FitSettings::default() };
+    let evaluator = Evaluator::new(&problem, Objective::Balance, FIT_LIMITS).unwrap();
+    let genome = truth(&problem);
+    let best = Scored { score: evaluate(&evaluator, &genome), genome };
+    let other = pleach_generators::preset(species).unwrap();
+    let space = problem.start.generator.space();
+    let expected = space.slots().map(|slot| (slot, other.params.values()[slot.index()])).collect();
+    (problem, settings, best, expected)
+}
+
+#[test]
+fn what_makes_no_difference_is_as_expected_and_all_else_stays() {
+    let (problem, settings, best, mut expected) = expected_of("acer");
+    let space = problem.start.generator.space();
+    let slot = |name: &str| space.select(name).unwrap()[0];
+    // Blossoms that there are none of, and a height that the goal has not.
+    let moved = [(slot("blossom_scale"), 0.123), (slot("g_scale"), 5.0)];
+    for (slot, value) in moved {
+        expected.iter_mut().find(|(of, _)| *of == slot).unwrap().1 = value;
+    }
+    let (kept, slots) = with_expected_numbers(&problem, &settings, &best, &expected, (&GO).into()).unwrap();
+    assert_eq!(slots, [slot("blossom_scale")]);
+    assert_eq!(kept.genome.values[slot("blossom_scale").index()], 0.123);
     assert_eq!(kept.genome.values[slot("g_scale").index()], base(&problem)[slot("g_scale").index()]);
-    assert_eq!(kept.score.cost, 0.0);
+    assert_eq!(kept.score.cost, best.score.cost);
+    // In the other direction the height is what makes the trees like the goal.
+    let mut genome = best.genome.clone();
+    genome.values[slot("g_scale").index()] = 5.0;
+    let evaluator = Evaluator::new(&problem, Objective::Balance, FIT_LIMITS).unwrap();
+    let low = Scored { score: evaluate(&evaluator, &genome), genome };
+    let own: Vec<_> = space.slots().map(|slot| (slot, base(&problem)[slot.index()])).collect();
+    let (kept, slots) = with_expected_numbers(&problem, &settings, &low, &own, (&GO).into()).unwrap();
+    assert_eq!((slots, &kept.genome), (vec![slot("g_scale")], &best.genome));
+    assert!(kept.score.cost < low.score.cost && kept.score.likeness.is_some());
+}
+
+#[test]
+fn numbers_are_moved_no_farther_than_other_seeds_allow_on_any_number_of_threads() {
+    let (problem, settings, best, expected) = expected_of("quaking_aspen");
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| with_expected_numbers(&problem, &settings, &best, &expected, (&GO).into()).unwrap())
+    };
+    let (kept, slots) = run(1);
+    let differing = expected.iter().filter(|(slot, value)| base(&problem)[slot.index()] != *value).count();
+    assert!(!slots.is_empty() && slots.len() < differing, "{} of {differing}", slots.len());
+    assert!((kept.clone(), slots.clone()) == run(2) && (kept.clone(), slots) == run(8));
+    let of = |genome: &Genome| {
+        fresh_seeds(&problem, Objective::Balance, FIT_LIMITS, genome, 8, (&GO).into()).unwrap().unwrap()
+    };
+    let [before, after] = [&best.genome, &kept.genome].map(of);
+    assert!(after.cost.mean < before.cost.mean + before.cost.sd, "{before:?} {after:?}");
 }
 
 #[test]
@@ -112,14 +166,13 @@ fn variations_of_size_are_searched_by_nobody_and_reported_as_not_seen() {
     };
     let (kept, told, settings, best) = result(Freedom::default(), "evolution");
     assert!(kept.iter().all(|value| *value == 0.0) && told == slots, "{kept:?} {told:?}");
-    let profiles = profile(&problem, &settings, &best, 0.01, (&GO).into()).unwrap();
+    let profiles = profile(&problem, &settings, &best, &[], 0.01, (&GO).into()).unwrap();
     let unseen = |slot| profiles.iter().any(|p| p.slot == slot && p.seen == Identifiability::NotSeen);
     assert!(slots.iter().all(|&slot| unseen(slot)));
-    // Nor do they go back to the start.
-    let (kept, _) =
-        reset_unidentified(&problem, &settings, &best, &profiles, base(&problem), 0.01, (&GO).into())
-            .unwrap();
-    assert!(slots.iter().all(|&slot| kept.genome.values[slot.index()] == 0.0));
+    // Nor are they moved to where they are expected.
+    let expected: Vec<_> = slots.iter().map(|&slot| (slot, base(&problem)[slot.index()])).collect();
+    let (kept, moved) = with_expected_numbers(&problem, &settings, &best, &expected, (&GO).into()).unwrap();
+    assert!(moved.is_empty() && slots.iter().all(|&slot| kept.genome.values[slot.index()] == 0.0));
 
     // The dissertation's algorithm searches them, and what is fixed stays.
     assert!(result(Freedom::default(), "hewitt").1.is_empty());
@@ -137,43 +190,16 @@ fn asked_to_stop_nothing_is_judged() {
     let stop = AtomicBool::new(true);
     let fresh = fresh_seeds(&problem, Objective::Iou, FIT_LIMITS, &truth(&problem), 8, (&stop).into());
     assert!(matches!(fresh, Err(FitError::Interrupted)));
-    let profiled = profile(&problem, &settings, &best, 0.05, (&stop).into());
+    let profiled = profile(&problem, &settings, &best, &[], 0.05, (&stop).into());
     assert!(matches!(profiled, Err(FitError::Interrupted)));
-    let profiles = profile(&problem, &settings, &best, 0.05, (&GO).into()).unwrap();
-    // Something that is read but not seen: the tolerance is large.
-    let all: Vec<_> =
-        profiles.into_iter().map(|p| pleach_fit::Profile { seen: Identifiability::NotSeen, ..p }).collect();
-    let start = pleach_generators::preset("acer").unwrap().params.values().to_vec();
-    let back = reset_unidentified(&problem, &settings, &best, &all, &start, 0.05, (&stop).into());
-    assert!(matches!(back, Err(FitError::Interrupted)));
-}
-
-/// Steps back are tried together, and come to the same on any number of threads.
-#[test]
-fn going_back_step_by_step_is_the_same_on_any_number_of_threads() {
-    let problem = goal_of("acer", 1, 64);
-    let settings = FitSettings { objective: Objective::Iou, ..FitSettings::default() };
-    let best = Scored { genome: truth(&problem), score: Score::from_cost(0.0) };
-    let space = problem.start.generator.space();
-    let all: Vec<_> = space
-        .slots()
-        .map(|slot| pleach_fit::Profile { slot, seen: Identifiability::NotSeen, rises: [[None; 2]; 2] })
-        .collect();
-    let start = pleach_generators::preset("hill_cherry").unwrap().params.values().to_vec();
-    let run = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        // Room for some of the numbers and not for others.
-        pool.install(|| {
-            reset_unidentified(&problem, &settings, &best, &all, &start, 2.0, (&GO).into()).unwrap()
-        })
-    };
-    let (kept, slots) = run(1);
-    let differing = (0..space.len()).filter(|&slot| base(&problem)[slot] != start[slot]).count();
-    assert!(!slots.is_empty() && slots.len() < differing, "{} of {differing}", slots.len());
-    assert!(kept.score.cost <= 0.2 + 1e-12);
-    let evaluator = Evaluator::new(&problem, Objective::Iou, FIT_LIMITS).unwrap();
-    assert_eq!(evaluate(&evaluator, &kept.genome).cost, kept.score.cost);
-    assert!((kept.clone(), slots.clone()) == run(2) && (kept, slots) == run(8));
+    let own: Vec<_> = [(problem.start.generator.space().slots().next().unwrap(), 1.0)].into();
+    let moved = with_expected_numbers(&problem, &settings, &best, &own, (&stop).into());
+    assert!(matches!(moved, Err(FitError::Interrupted)));
+    // If it is late, all stays as it is.
+    let clock = || std::time::Duration::from_secs(9);
+    let late = Until::from(&GO).or_late(&clock, Some(std::time::Duration::from_secs(1)));
+    let (kept, moved) = with_expected_numbers(&problem, &settings, &best, &own, late).unwrap();
+    assert_eq!((kept, moved), (best, Vec::new()));
 }
 
 /// Pipes and beads are nobody's trees: stems taper as the start's do, or at most to a point.
@@ -199,7 +225,7 @@ fn nothing_is_searched_that_nobody_would_draw() {
         let problem = problem.with_values(start.to_vec()).unwrap();
         let (clock, stop) = (|| std::time::Duration::ZERO, AtomicBool::new(false));
         let best = fit(&problem, &settings, Control::new(&clock, &stop)).unwrap().best.unwrap();
-        let profiles = profile(&problem, &settings, &best, 0.02, (&GO).into()).unwrap();
+        let profiles = profile(&problem, &settings, &best, &[], 0.02, (&GO).into()).unwrap();
         assert!(profiles.iter().any(|p| p.slot == slot("taper[1]")));
         let tapers = space.select("taper").unwrap().into_iter().map(|slot| best.genome.values[slot.index()]);
         tapers.fold(0.0, f64::max)

@@ -1,16 +1,17 @@
 //! What the assessment of a result says in its species file and in `parameters.csv`.
 
 use pleach::{FitReport, IdentifiabilityCounts, Interval, ParameterReport};
-use pleach_fit::{Assessment, Identifiability, PROFILE_STEPS};
+use pleach_fit::{Assessment, Fitted, Identifiability, PROFILE_STEPS};
 use pleach_tree::{ParamSpace, Slot};
 
 /// Comments of the species file: what the goal does not show.
-pub(super) fn comments(assessment: &Assessment, space: &ParamSpace) -> Vec<String> {
+pub(super) fn comments(fitted: &Fitted, space: &ParamSpace) -> Vec<String> {
+    let settled = fitted.assessment.as_ref().map_or(&[][..], |assessment| &assessment.settled);
     let sentences = [
-        ("One picture shows one size, so no other is grown: 0 are", &assessment.settled),
-        ("Not seen in the goal, so as where the search started:", &assessment.put_back),
+        ("One picture shows one size, so no other is grown: 0 are", settled),
+        ("The picture is as like with these where they are expected:", &fitted.as_expected),
     ];
-    let of = |(start, slots): (&str, &Vec<Slot>)| {
+    let of = |(start, slots): (&str, &[Slot])| {
         let names: Vec<String> = slots.iter().map(|&slot| space.slot_name(slot)).collect();
         (!names.is_empty()).then(|| format!("{start} {}.", names.join(", ")))
     };

@@ -54,9 +54,8 @@ pub(super) fn write(
             report.scores.iou, report.scores.pixel_accuracy
         ),
     ];
+    comments.extend(judged::comments(fitted, kind.species.generator.space()));
     if let Some(assessment) = &fitted.assessment {
-        let space = kind.species.generator.space();
-        comments.extend(judged::comments(assessment, space));
         write_table(&claim.file("parameters.csv"), judged::table(assessment, &report.parameters))?;
     }
     write_species(&claim.file("best.toml"), &kind.species, &comments)?;
