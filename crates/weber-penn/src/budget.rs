@@ -81,6 +81,8 @@ pub(crate) struct Pool {
     work: AtomicU64,
     /// Set when a part has failed: the others need not go on.
     stop: AtomicBool,
+    /// Stems that wait in all parts when they begin: on one thread they would wait beside those of any part.
+    waiting: usize,
 }
 
 /// The counts of one thread.
@@ -103,8 +105,8 @@ impl Budget<'static> {
 }
 
 impl Budget<'_> {
-    /// The pool of the parts to come, which begins with what has been spent so far.
-    pub(crate) const fn pool(&self) -> Pool {
+    /// The pool of the parts to come, which have `waiting` stems and begin with what has been spent so far.
+    pub(crate) const fn pool(&self, waiting: usize) -> Pool {
         let Spent { stems, leaves, knots, work } = self.spent;
         Pool {
             stems: AtomicUsize::new(stems),
@@ -112,6 +114,7 @@ impl Budget<'_> {
             knots: AtomicUsize::new(knots),
             work: AtomicU64::new(work),
             stop: AtomicBool::new(false),
+            waiting,
         }
     }
 
@@ -163,6 +166,10 @@ impl Budget<'_> {
         if !self.prunes && self.spent.stems + waiting > self.limits.stems {
             return Err(Exceeded::Stems);
         }
+        let waiting = match self.pool {
+            Some(pool) => waiting + pool.waiting,
+            None => waiting,
+        };
         let Limits { stems, .. } = self.limits;
         let most = stems.saturating_mul(WAITING_PER_STEM);
         let room = if stems > FREE_WAITING { stems } else { FREE_WAITING };
@@ -210,6 +217,11 @@ impl Budget<'_> {
         if let Some(pool) = self.pool {
             pool.stop.store(true, Relaxed);
         }
+    }
+
+    /// Steps of work so far.
+    pub(crate) const fn spent_work(&self) -> u64 {
+        self.spent.work
     }
 
     pub(crate) const fn limits(&self) -> &Limits {

@@ -45,8 +45,30 @@ impl Grid {
         self.down = down;
         self.words_per_row = (width as usize * ACROSS as usize).div_ceil(64);
         self.rows = (height * down) as usize;
+        self.clear();
+    }
+
+    /// Takes all samples out.
+    pub(super) fn clear(&mut self) {
         self.words.clear();
         self.words.resize((self.words_per_row + 1) * self.rows + fill::ROOM, 0);
+    }
+
+    /// A grid of this size that has yet to be cleared.
+    pub(super) const fn without_samples(&self) -> Self {
+        let Self { width, height, down, words_per_row, rows, .. } = *self;
+        Self { width, height, down, words_per_row, rows, words: Vec::new(), flips: Vec::new() }
+    }
+
+    /// Sets the samples of `other`, of the same size.
+    pub(super) fn unite(&mut self, other: &Self) {
+        debug_assert_eq!(self.words.len(), other.words.len(), "grids of one size");
+        self.words.iter_mut().zip(&other.words).for_each(|(word, more)| *word |= more);
+    }
+
+    /// Pixels across and down.
+    pub(super) const fn size(&self) -> [u32; 2] {
+        [self.width, self.height]
     }
 
     /// Samples of a pixel, at most 128.
