@@ -6,7 +6,7 @@ use crate::context::{Buffers, Scratch};
 use crate::stem::StemSpec;
 use pleach_tree::{Helpers, StemKind, Tree};
 use rayon::prelude::*;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Parts into which first-level branches are cut for the threads.
 const PARTS: usize = 32;
@@ -22,9 +22,16 @@ pub(crate) fn in_parallel(
     grow: &GrowBranch<'_>,
 ) -> Result<(), Exceeded> {
     let pool = budget.pool(branches.len());
-    let chunks = branches.par_chunks(part_of(branches));
-    let parts = chunks.map(|chunk| part(chunk, budget, &pool, &mut Scratch::default(), grow));
-    put_together(parts.collect::<Result<_, Exceeded>>()?, tree);
+    let grow = |chunk: &[StemSpec]| {
+        let mut tree = Tree::default();
+        part(chunk, budget, &pool, &mut Scratch::default(), &mut tree, grow)?;
+        // Room for more would be as much again, all parts together.
+        tree.shrink_to_fit();
+        Ok(tree)
+    };
+    let parts = branches.par_chunks(part_of(branches)).map(grow).collect::<Result<Vec<Tree>, Exceeded>>()?;
+    tree.reserve_for(&parts);
+    parts.iter().for_each(|part| add(part, tree));
     Ok(())
 }
 
@@ -42,24 +49,91 @@ pub(crate) fn shared(
 ) -> Result<bool, Exceeded> {
     let pool = budget.pool(branches.len());
     let chunks: Vec<&[StemSpec]> = branches.chunks(part_of(branches)).collect();
-    let done = Mutex::new(Vec::with_capacity(chunks.len()));
+    let before = [tree.stems.len(), tree.knots.len(), tree.leaves.len(), tree.blossoms.len()];
+    let sink = Sink {
+        end: Mutex::new(End { tree, parts: 0 }),
+        grown: Mutex::new(Grown {
+            parts: chunks.iter().map(|_| None).collect(),
+            free: Vec::new(),
+            failed: None,
+        }),
+    };
     helpers.share(chunks.len(), &|next| {
         let mut scratch = Scratch::default();
         while let Some(number) = next() {
-            let grown = part(chunks[number], budget, &pool, &mut scratch, grow);
-            done.lock().unwrap_or_else(PoisonError::into_inner).push((number, grown));
+            let mut tree = locked(&sink.grown).free.pop().unwrap_or_default();
+            match part(chunks[number], budget, &pool, &mut scratch, &mut tree, grow) {
+                Ok(()) => sink.add(number, tree),
+                Err(exceeded) => sink.fail(exceeded),
+            }
         }
     });
-    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    // Fewer stems may wait in a part than in a tree, and the others stop for that one.
-    if done.iter().any(|(_, grown)| matches!(grown, Err(Exceeded::Waiting))) {
-        return Ok(false);
+    let Sink { end, grown } = sink;
+    let failed = grown.into_inner().unwrap_or_else(PoisonError::into_inner).failed;
+    let Some(exceeded) = failed else { return Ok(true) };
+    let tree = end.into_inner().unwrap_or_else(PoisonError::into_inner).tree;
+    tree.stems.truncate(before[0]);
+    tree.knots.truncate(before[1]);
+    tree.leaves.truncate(before[2]);
+    tree.blossoms.truncate(before[3]);
+    // Fewer stems may wait in a part than in a tree. All else that parts have spent would have been spent on one
+    // thread, too.
+    if exceeded == Exceeded::Waiting { Ok(false) } else { Err(exceeded) }
+}
+
+/// Where the parts come together while others grow: the trees of parts are small, and used for one part after another.
+struct Sink<'a> {
+    end: Mutex<End<'a>>,
+    grown: Mutex<Grown>,
+}
+
+/// The tree to which parts are added in order, and how many have been.
+struct End<'a> {
+    tree: &'a mut Tree,
+    parts: usize,
+}
+
+/// The parts that wait to be added.
+struct Grown {
+    parts: Vec<Option<Tree>>,
+    free: Vec<Tree>,
+    /// The limit that has been passed: that on stems that wait before any other, since parts stop for each other.
+    failed: Option<Exceeded>,
+}
+
+impl Sink<'_> {
+    /// Adds part `number`, if all before it are there and no other thread is adding, and what waits for it.
+    fn add(&self, number: usize, part: Tree) {
+        locked(&self.grown).parts[number] = Some(part);
+        loop {
+            let Ok(mut end) = self.end.try_lock() else { return };
+            let End { tree, parts } = &mut *end;
+            let take = |number: usize| locked(&self.grown).parts.get_mut(number).and_then(Option::take);
+            while let Some(mut part) = take(*parts) {
+                add(&part, tree);
+                part.clear();
+                locked(&self.grown).free.push(part);
+                *parts += 1;
+            }
+            let next = *parts;
+            drop(end);
+            // A thread that found this one adding has left the part that it had.
+            if locked(&self.grown).parts.get(next).is_none_or(Option::is_none) {
+                return;
+            }
+        }
     }
-    done.sort_unstable_by_key(|(number, _)| *number);
-    // All else that parts have spent would have been spent on one thread, too.
-    let parts = done.into_iter().map(|(_, grown)| grown).collect::<Result<_, Exceeded>>()?;
-    put_together(parts, tree);
-    Ok(true)
+
+    fn fail(&self, exceeded: Exceeded) {
+        let failed = &mut locked(&self.grown).failed;
+        if *failed != Some(Exceeded::Waiting) {
+            *failed = Some(exceeded);
+        }
+    }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Branches of each part.
@@ -67,28 +141,25 @@ const fn part_of(branches: &[StemSpec]) -> usize {
     branches.len().div_ceil(PARTS)
 }
 
-/// Grows the branches of a part.
+/// Grows the branches of a part into `tree`, which is empty.
 fn part(
     branches: &[StemSpec],
     budget: &Budget<'_>,
     pool: &Pool,
     scratch: &mut Scratch,
+    tree: &mut Tree,
     grow: &GrowBranch<'_>,
-) -> Result<Tree, Exceeded> {
-    let mut tree = Tree::default();
-    let mut buffers = scratch.buffers(&mut tree, budget.part(pool));
+) -> Result<(), Exceeded> {
+    let mut buffers = scratch.buffers(tree, budget.part(pool));
     let grown = branches.iter().try_for_each(|branch| grow(&mut buffers, *branch));
     let grown = grown.and_then(|()| buffers.budget.tell());
     if grown.is_err() {
         buffers.budget.stop_all();
     }
-    // Room for more would be as much again, all parts together.
-    grown.map(|()| tree.shrink_to_fit()).map(|()| tree)
+    grown
 }
 
-fn put_together(parts: Vec<Tree>, tree: &mut Tree) {
-    tree.reserve_for(&parts);
-    for part in parts {
-        tree.append(&part, |stem| stem.level == 1 && stem.kind == StemKind::Branch);
-    }
+/// Adds a part at the end of `tree`.
+fn add(part: &Tree, tree: &mut Tree) {
+    tree.append(part, |stem| stem.level == 1 && stem.kind == StemKind::Branch);
 }

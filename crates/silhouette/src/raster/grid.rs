@@ -45,19 +45,8 @@ impl Grid {
         self.down = down;
         self.words_per_row = (width as usize * ACROSS as usize).div_ceil(64);
         self.rows = (height * down) as usize;
-        self.clear();
-    }
-
-    /// Takes all samples out.
-    pub(super) fn clear(&mut self) {
         self.words.clear();
         self.words.resize((self.words_per_row + 1) * self.rows + fill::ROOM, 0);
-    }
-
-    /// A grid of this size that has yet to be cleared.
-    pub(super) const fn without_samples(&self) -> Self {
-        let Self { width, height, down, words_per_row, rows, .. } = *self;
-        Self { width, height, down, words_per_row, rows, words: Vec::new(), flips: Vec::new() }
     }
 
     /// Sets the samples of `other`, of the same size.
@@ -66,9 +55,9 @@ impl Grid {
         self.words.iter_mut().zip(&other.words).for_each(|(word, more)| *word |= more);
     }
 
-    /// Pixels across and down.
-    pub(super) const fn size(&self) -> [u32; 2] {
-        [self.width, self.height]
+    /// Pixels across and down, and samples down each pixel.
+    pub(super) const fn size(&self) -> (u32, u32, u32) {
+        (self.width, self.height, self.down)
     }
 
     /// Samples of a pixel, at most 128.

@@ -45,9 +45,9 @@ impl Occlusion {
         }
     }
 
-    /// From now on this and all copies tell each other what they find in a picture of `size`.
-    pub(super) fn share(&mut self, size: [u32; 2]) {
-        let black = if self.is_known { self.black.clone() } else { Bitmap::new(size[0], size[1]) };
+    /// From now on this and all copies tell each other what they find in a picture of this size.
+    pub(super) fn share(&mut self, (width, height): (u32, u32)) {
+        let black = if self.is_known { self.black.clone() } else { Bitmap::new(width, height) };
         self.told = Some(Arc::new(Mutex::new(black)));
     }
 

@@ -15,6 +15,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Parts of a tree that have to be left for helpers to be called.
 const MIN_SHARED: usize = 4;
+/// Pixels of the largest picture of which more than one sheet is kept: half a megabyte of samples.
+const MAX_KEPT: usize = 1 << 17;
 
 /// Samples, and what is known while they are drawn.
 #[derive(Clone, Debug, Default)]
@@ -25,6 +27,8 @@ pub(super) struct Sheet {
     pub(super) outlines: Outlines,
     /// Number of the pass over a crown that is being drawn.
     pub(super) pass: usize,
+    /// Grids of helpers, kept for their memory.
+    spare: Vec<Grid>,
 }
 
 impl Sheet {
@@ -53,14 +57,23 @@ impl Sheet {
         helpers: &dyn Helpers,
         draw: &(dyn Fn(&mut Self, usize) + Sync),
     ) {
-        self.occlusion.share(self.grid.size());
-        let blank = self.blank();
+        let (width, height, down) = self.grid.size();
+        self.occlusion.share((width, height));
+        let Self { occlusion, outlines, pass, .. } = &*self;
+        let (occlusion, outlines, pass) = (occlusion.clone(), outlines.clone(), *pass);
+        let spare = Mutex::new(mem::take(&mut self.spare));
+        let blank = || {
+            let mut grid = locked(&spare).pop().unwrap_or_default();
+            grid.reset(width, height, down);
+            let (occlusion, outlines) = (occlusion.clone(), outlines.clone());
+            Self { grid, occlusion, outlines, pass, spare: Vec::new() }
+        };
         // Those that no thread draws on now.
         let free = Mutex::new(vec![mem::take(self)]);
         helpers.share(count, &|next| {
             let Some(mut part) = next() else { return };
             let sheet = locked(&free).pop();
-            let mut sheet = sheet.unwrap_or_else(|| blank.with_samples());
+            let mut sheet = sheet.unwrap_or_else(&blank);
             loop {
                 draw(&mut sheet, first + part);
                 let Some(another) = next() else { break };
@@ -74,33 +87,21 @@ impl Sheet {
                 };
                 drop(free);
                 sheet.grid.unite(&other.grid);
+                locked(&spare).push(other.grid);
             }
         });
         // Each thread that has drawn left one, and took all that were there.
         *self = locked(&free).pop().unwrap_or_default();
         self.occlusion.end_sharing();
+        self.spare = spare.into_inner().unwrap_or_else(PoisonError::into_inner);
+        if self.grid.area() > MAX_KEPT {
+            self.spare.clear();
+        }
     }
 
     /// Looks for black pixels if one shape for each `pixels_for_a_shape` was drawn since it was done last.
     pub(super) fn look(&mut self, pixels_for_a_shape: usize) {
         self.occlusion.look(&mut self.grid, pixels_for_a_shape);
-    }
-
-    /// All but the samples.
-    fn blank(&self) -> Self {
-        let Self { grid, occlusion, outlines, pass } = self;
-        Self {
-            grid: grid.without_samples(),
-            occlusion: occlusion.clone(),
-            outlines: outlines.clone(),
-            pass: *pass,
-        }
-    }
-
-    fn with_samples(&self) -> Self {
-        let mut sheet = self.clone();
-        sheet.grid.clear();
-        sheet
     }
 }
 
