@@ -114,8 +114,22 @@ impl Budget<'_> {
             knots: AtomicUsize::new(knots),
             work: AtomicU64::new(work),
             stop: AtomicBool::new(false),
-            waiting,
+            waiting: match self.pool {
+                Some(pool) => waiting + pool.waiting,
+                None => waiting,
+            },
         }
+    }
+
+    /// Counts what the parts of a pool that began with this budget have spent.
+    pub(crate) fn add(&mut self, pool: Pool) {
+        let Pool { stems, leaves, knots, work, .. } = pool;
+        self.spent = Spent {
+            stems: stems.into_inner(),
+            leaves: leaves.into_inner(),
+            knots: knots.into_inner(),
+            work: work.into_inner(),
+        };
     }
 
     /// The budget of a part.

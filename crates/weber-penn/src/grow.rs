@@ -113,9 +113,8 @@ impl GrowContext<'_> {
 
     /// Grows the first-level branches, which wait, and what they carry.
     fn branches(&self, buffers: &mut Buffers<'_>) -> Result<(), Exceeded> {
-        let all = buffers.children.len();
+        let (all, before) = (buffers.children.len(), buffers.budget.spent_work());
         buffers.children.reverse();
-        let before = buffers.budget.spent_work();
         let mut counts_ahead = self.growth.counts_ahead && !self.prunes();
         let mut helpers = self.growth.helpers;
         while let Some(branch) = buffers.children.pop() {
@@ -125,37 +124,51 @@ impl GrowContext<'_> {
                 counts_ahead = false;
                 census::count(self, buffers)?;
             }
-            let expected = (buffers.budget.spent_work() - before) * left as u64 / (all - left) as u64;
-            if left < SHARED_BRANCHES || expected < SHARED_STEPS {
-                continue;
-            }
-            if let Some(some) = helpers.filter(|helpers| helpers.are_idle()) {
-                if self.shared(buffers, some)? {
-                    return Ok(());
-                }
-                helpers = None;
-            }
+            self.shared(buffers, 0, (all, before), &mut helpers)?;
         }
         Ok(())
     }
 
-    /// Grows the first-level branches that wait, and what they carry, with helpers; whether it has.
-    fn shared(&self, buffers: &mut Buffers<'_>, helpers: &dyn Helpers) -> Result<bool, Exceeded> {
-        let Buffers { tree, children, budget, .. } = buffers;
-        children.reverse();
-        let grow = |buffers: &mut Buffers<'_>, branch| self.branch(buffers, branch);
-        let grown = parts::shared(children, budget, tree, helpers, &grow);
-        children.reverse();
-        grown
-    }
-
-    /// Grows the stems that wait, down to number `first`.
-    fn waiting(&self, buffers: &mut Buffers<'_>, first: usize) -> Result<(), Exceeded> {
+    /// Grows the stems that wait, down to number `first`. Stems of level `level` are those that carry them.
+    fn waiting(&self, buffers: &mut Buffers<'_>, first: usize, level: usize) -> Result<(), Exceeded> {
+        let begun = (buffers.children.len() - first, buffers.budget.spent_work());
         buffers.children[first..].reverse();
+        // A first-level branch may have most of a tree, what it carries hardly.
+        let mut helpers = self.growth.helpers.filter(|_| level == 1);
         while buffers.children.len() > first
             && let Some(child) = buffers.children.pop()
         {
             self.branch(buffers, child)?;
+            self.shared(buffers, first, begun, &mut helpers)?;
+        }
+        Ok(())
+    }
+
+    /// Grows the stems that wait, from number `first` on, with `helpers` if these are idle and there is enough to do:
+    /// there were `all` when so many steps had been done.
+    #[inline]
+    fn shared(
+        &self,
+        buffers: &mut Buffers<'_>,
+        first: usize,
+        (all, before): (usize, u64),
+        helpers: &mut Option<&dyn Helpers>,
+    ) -> Result<(), Exceeded> {
+        let Some(some) = *helpers else { return Ok(()) };
+        let left = buffers.children.len() - first;
+        let expected = (buffers.budget.spent_work() - before) * left as u64 / (all - left) as u64;
+        if left < SHARED_BRANCHES || expected < SHARED_STEPS || !some.are_idle() {
+            return Ok(());
+        }
+        // Whatever comes of it, one thread does the rest.
+        *helpers = None;
+        let Buffers { tree, children, budget, .. } = buffers;
+        children[first..].reverse();
+        let grow = |buffers: &mut Buffers<'_>, branch| self.branch(buffers, branch);
+        if parts::shared(children, first, budget, tree, some, &grow)? {
+            children.truncate(first);
+        } else {
+            children[first..].reverse();
         }
         Ok(())
     }
@@ -263,7 +276,7 @@ impl GrowContext<'_> {
 
         // The children of trunks wait: they are the branches that may grow in parallel.
         if stem.level > 0 {
-            self.waiting(buffers, first_child)?;
+            self.waiting(buffers, first_child, stem.level)?;
         }
 
         let last_fork = buffers.forked_stems.len();

@@ -31,26 +31,29 @@ pub(crate) fn in_parallel(
     };
     let parts = branches.par_chunks(part_of(branches)).map(grow).collect::<Result<Vec<Tree>, Exceeded>>()?;
     tree.reserve_for(&parts);
-    parts.iter().for_each(|part| add(part, tree));
+    parts.iter().for_each(|part| add(part, tree, 1));
     Ok(())
 }
 
-/// Grows `branches` with `helpers` and adds them to `tree`, which is left alone otherwise; whether it has. Where it
-/// has not, one thread has to say whether they pass a limit.
+/// Grows the stems of `waiting` from number `first` on with `helpers` and adds them to `tree`, which is left alone
+/// otherwise; whether it has. Where it has not, one thread has to say whether they pass a limit.
 ///
 /// # Errors
 /// A limit that they pass.
 pub(crate) fn shared(
-    branches: &[StemSpec],
-    budget: &Budget<'_>,
+    waiting: &[StemSpec],
+    first: usize,
+    budget: &mut Budget<'_>,
     tree: &mut Tree,
     helpers: &dyn Helpers,
     grow: &GrowBranch<'_>,
 ) -> Result<bool, Exceeded> {
-    let pool = budget.pool(branches.len());
+    let pool = budget.pool(waiting.len());
+    let branches = &waiting[first..];
     let chunks: Vec<&[StemSpec]> = branches.chunks(part_of(branches)).collect();
     let before = [tree.stems.len(), tree.knots.len(), tree.leaves.len(), tree.blossoms.len()];
     let sink = Sink {
+        level: branches[0].level,
         end: Mutex::new(End { tree, parts: 0 }),
         grown: Mutex::new(Grown {
             parts: chunks.iter().map(|_| None).collect(),
@@ -58,19 +61,23 @@ pub(crate) fn shared(
             failed: None,
         }),
     };
+    let common = &*budget;
     helpers.share(chunks.len(), &|next| {
         let mut scratch = Scratch::default();
         while let Some(number) = next() {
             let mut tree = locked(&sink.grown).free.pop().unwrap_or_default();
-            match part(chunks[number], budget, &pool, &mut scratch, &mut tree, grow) {
+            match part(chunks[number], common, &pool, &mut scratch, &mut tree, grow) {
                 Ok(()) => sink.add(number, tree),
                 Err(exceeded) => sink.fail(exceeded),
             }
         }
     });
-    let Sink { end, grown } = sink;
+    let Sink { end, grown, .. } = sink;
     let failed = grown.into_inner().unwrap_or_else(PoisonError::into_inner).failed;
-    let Some(exceeded) = failed else { return Ok(true) };
+    let Some(exceeded) = failed else {
+        budget.add(pool);
+        return Ok(true);
+    };
     let tree = end.into_inner().unwrap_or_else(PoisonError::into_inner).tree;
     tree.stems.truncate(before[0]);
     tree.knots.truncate(before[1]);
@@ -83,6 +90,8 @@ pub(crate) fn shared(
 
 /// Where the parts come together while others grow: the trees of parts are small, and used for one part after another.
 struct Sink<'a> {
+    /// Of the stems whose parents are in the tree already.
+    level: usize,
     end: Mutex<End<'a>>,
     grown: Mutex<Grown>,
 }
@@ -110,7 +119,7 @@ impl Sink<'_> {
             let End { tree, parts } = &mut *end;
             let take = |number: usize| locked(&self.grown).parts.get_mut(number).and_then(Option::take);
             while let Some(mut part) = take(*parts) {
-                add(&part, tree);
+                add(&part, tree, self.level);
                 part.clear();
                 locked(&self.grown).free.push(part);
                 *parts += 1;
@@ -159,7 +168,7 @@ fn part(
     grown
 }
 
-/// Adds a part at the end of `tree`.
-fn add(part: &Tree, tree: &mut Tree) {
-    tree.append(part, |stem| stem.level == 1 && stem.kind == StemKind::Branch);
+/// Adds a part at the end of `tree`, which has the parents of the branches of `level`.
+fn add(part: &Tree, tree: &mut Tree, level: usize) {
+    tree.append(part, |stem| usize::from(stem.level) == level && stem.kind == StemKind::Branch);
 }

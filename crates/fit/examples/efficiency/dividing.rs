@@ -26,6 +26,8 @@ pub(crate) struct Divided {
 #[derive(Debug, Default)]
 struct Log {
     pieces: Vec<Piece>,
+    /// How many pieces are being shared: a part may be shared in turn.
+    depth: usize,
     /// Parts of the piece that is being shared, and what threads do once there are no more.
     parts: Vec<f64>,
     ends: Vec<f64>,
@@ -87,12 +89,23 @@ impl Helpers for Divided {
     }
 
     fn share(&self, parts: usize, work: &(dyn Fn(&mut NextPart<'_>) + Sync)) {
-        self.log(|log| {
-            let alone = log.lap();
-            log.pieces.push(Piece::Alone(alone));
+        let is_part = self.log(|log| {
+            let before = log.lap();
+            log.depth += 1;
+            // What a part has done before it is shared is a part, and its own parts are as all others.
+            if log.depth > 1 {
+                log.parts.push(before)
+            } else {
+                log.pieces.push(Piece::Alone(before))
+            }
+            log.depth > 1
         });
         self.thread(0, parts, work);
         self.log(|log| {
+            log.depth -= 1;
+            if is_part {
+                return;
+            }
             let (mut parts, mut ends) = (mem::take(&mut log.parts), mem::take(&mut log.ends));
             // What threads do at their end, such as to lay what they have drawn over what another has, is shared but
             // for the last.

@@ -4,13 +4,13 @@ use pleach_tree::{Helpers, NextPart};
 use std::sync::atomic::{AtomicUsize, Ordering::Acquire, Ordering::Relaxed, Ordering::Release};
 use std::thread;
 
-/// Trees that are being scored. Where a process has several pools it is one count, and threads help less.
+/// Threads that score trees or help with them. Where a process has several pools it is one count, and they help less.
 static AT_WORK: AtomicUsize = AtomicUsize::new(0);
 
 /// How often in a row threads have to be seen idle: between two trees, each seems to be for a moment.
 const SEEN: usize = 2;
 
-/// A thread that scores a tree.
+/// A thread that scores a tree, or helps.
 pub(super) struct AtWork;
 
 impl AtWork {
@@ -65,7 +65,7 @@ impl Helpers for IdleThreads {
                 scope.spawn(move |_| {
                     if taken.load(Relaxed) < parts {
                         begun.fetch_add(1, Relaxed);
-                        let _ended = Ended(ended);
+                        let (_at_work, _ended) = (AtWork::begin(), Ended(ended));
                         take_part();
                     }
                 });
