@@ -12,6 +12,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
 const TELL: u64 = 1024;
 /// Stems that wait in one part may be this fraction of the limit; beyond, one thread grows alone.
 const WAITING_SHARE: usize = 16;
+/// Always allowed: eight megabytes.
+const FREE_PART: usize = 30_000;
 
 /// Part of a limit that has to be spent before it is worth counting what is to come.
 const MIN_SPENT: f64 = 0.01;
@@ -121,14 +123,13 @@ impl Budget<'_> {
         }
     }
 
-    /// Counts what the parts of a pool that began with this budget have spent.
-    pub(crate) fn add(&mut self, pool: Pool) {
-        let Pool { stems, leaves, knots, work, .. } = pool;
+    /// Counts what the parts of a pool that began with this budget have spent so far.
+    pub(crate) fn add(&mut self, pool: &Pool) {
         self.spent = Spent {
-            stems: stems.into_inner(),
-            leaves: leaves.into_inner(),
-            knots: knots.into_inner(),
-            work: work.into_inner(),
+            stems: pool.stems.load(Relaxed),
+            leaves: pool.leaves.load(Relaxed),
+            knots: pool.knots.load(Relaxed),
+            work: pool.work.load(Relaxed),
         };
     }
 
@@ -174,7 +175,8 @@ impl Budget<'_> {
 
     /// Minds that `waiting` stems are yet to be grown. Without pruning each will be one of the tree.
     pub(crate) const fn wait(&self, waiting: usize) -> Result<(), Exceeded> {
-        if self.pool.is_some() && waiting > self.limits.stems / WAITING_SHARE {
+        let share = self.limits.stems / WAITING_SHARE;
+        if self.pool.is_some() && waiting > share && waiting > FREE_PART {
             return Err(Exceeded::Waiting);
         }
         if !self.prunes && self.spent.stems + waiting > self.limits.stems {

@@ -12,7 +12,7 @@ use crate::context::{Buffers, GrowContext, Scratch};
 use crate::course::Course;
 use crate::leaves;
 use crate::model::Model;
-use crate::parts;
+use crate::parts::{self, Waiting};
 use crate::path::{Forks, PathPoint, lay_out, stretch, walk};
 use crate::prune;
 use crate::purpose;
@@ -124,7 +124,7 @@ impl GrowContext<'_> {
                 counts_ahead = false;
                 census::count(self, buffers)?;
             }
-            self.shared(buffers, 0, (all, before), &mut helpers)?;
+            self.shared(buffers, 0, (all, before), counts_ahead, &mut helpers)?;
         }
         Ok(())
     }
@@ -139,19 +139,20 @@ impl GrowContext<'_> {
             && let Some(child) = buffers.children.pop()
         {
             self.branch(buffers, child)?;
-            self.shared(buffers, first, begun, &mut helpers)?;
+            self.shared(buffers, first, begun, false, &mut helpers)?;
         }
         Ok(())
     }
 
     /// Grows the stems that wait, from number `first` on, with `helpers` if these are idle and there is enough to do:
-    /// there were `all` when so many steps had been done.
+    /// there were `all` when so many steps had been done. With `counts_ahead` they may be counted, too.
     #[inline]
     fn shared(
         &self,
         buffers: &mut Buffers<'_>,
         first: usize,
         (all, before): (usize, u64),
+        counts_ahead: bool,
         helpers: &mut Option<&dyn Helpers>,
     ) -> Result<(), Exceeded> {
         let Some(some) = *helpers else { return Ok(()) };
@@ -165,7 +166,9 @@ impl GrowContext<'_> {
         let Buffers { tree, children, budget, .. } = buffers;
         children[first..].reverse();
         let grow = |buffers: &mut Buffers<'_>, branch| self.branch(buffers, branch);
-        if parts::shared(children, first, budget, tree, some, &grow)? {
+        let count = |buffers: &mut Buffers<'_>| census::count(self, buffers).map(|_| ());
+        let count = counts_ahead.then_some(parts::Count { done: all - left, all, count: &count });
+        if parts::shared(&Waiting { all: children, first }, budget, tree, some, &grow, count)? {
             children.truncate(first);
         } else {
             children[first..].reverse();

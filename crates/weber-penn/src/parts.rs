@@ -6,6 +6,7 @@ use crate::context::{Buffers, Scratch};
 use crate::stem::StemSpec;
 use pleach_tree::{Helpers, StemKind, Tree};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Parts into which first-level branches are cut for the threads.
@@ -35,21 +36,36 @@ pub(crate) fn in_parallel(
     Ok(())
 }
 
-/// Grows the stems of `waiting` from number `first` on with `helpers` and adds them to `tree`, which is left alone
-/// otherwise; whether it has. Where it has not, one thread has to say whether they pass a limit.
+/// Stems that wait to be grown, of which those from number `first` on are.
+pub(crate) struct Waiting<'a> {
+    pub(crate) all: &'a [StemSpec],
+    pub(crate) first: usize,
+}
+
+/// How stems are counted without being grown.
+pub(crate) struct Count<'a> {
+    /// How many of the stems with these had been grown before.
+    pub(crate) done: usize,
+    pub(crate) all: usize,
+    /// Counts those that wait.
+    pub(crate) count: &'a (dyn Fn(&mut Buffers<'_>) -> Result<(), Exceeded> + Sync),
+}
+
+/// Grows the stems of `waiting` with `helpers` and adds them to `tree`, which is left alone otherwise; whether it has.
+/// Where it has not, one thread has to say whether they pass a limit. Once they look too many, they are counted.
 ///
 /// # Errors
 /// A limit that they pass.
 pub(crate) fn shared(
-    waiting: &[StemSpec],
-    first: usize,
+    waiting: &Waiting<'_>,
     budget: &mut Budget<'_>,
     tree: &mut Tree,
     helpers: &dyn Helpers,
     grow: &GrowBranch<'_>,
+    count: Option<Count<'_>>,
 ) -> Result<bool, Exceeded> {
-    let pool = budget.pool(waiting.len());
-    let branches = &waiting[first..];
+    let pool = budget.pool(waiting.all.len());
+    let branches = &waiting.all[waiting.first..];
     let chunks: Vec<&[StemSpec]> = branches.chunks(part_of(branches)).collect();
     let before = [tree.stems.len(), tree.knots.len(), tree.leaves.len(), tree.blossoms.len()];
     let sink = Sink {
@@ -61,12 +77,26 @@ pub(crate) fn shared(
             failed: None,
         }),
     };
-    let common = &*budget;
+    let (common, done, is_counted) = (&*budget, AtomicUsize::new(0), AtomicBool::new(count.is_none()));
+    let count = |scratch: &mut Scratch, grown: usize| {
+        let done = done.fetch_add(grown, Relaxed) + grown;
+        let Some(Count { done: before, all, count }) = &count else { return Ok(()) };
+        let (mut so_far, mut none) = (common.trial(), Tree::default());
+        so_far.add(&pool);
+        if !so_far.looks_short(before + done, *all) || is_counted.swap(true, Relaxed) {
+            return Ok(());
+        }
+        let mut buffers = scratch.buffers(&mut none, common.trial());
+        buffers.children.extend(branches.iter().rev());
+        count(&mut buffers).inspect_err(|_| common.part(&pool).stop_all())
+    };
     helpers.share(chunks.len(), &|next| {
         let mut scratch = Scratch::default();
         while let Some(number) = next() {
             let mut tree = locked(&sink.grown).free.pop().unwrap_or_default();
-            match part(chunks[number], common, &pool, &mut scratch, &mut tree, grow) {
+            let grown = part(chunks[number], common, &pool, &mut scratch, &mut tree, grow);
+            let counted = grown.and_then(|()| count(&mut scratch, chunks[number].len()));
+            match counted {
                 Ok(()) => sink.add(number, tree),
                 Err(exceeded) => sink.fail(exceeded),
             }
@@ -75,7 +105,7 @@ pub(crate) fn shared(
     let Sink { end, grown, .. } = sink;
     let failed = grown.into_inner().unwrap_or_else(PoisonError::into_inner).failed;
     let Some(exceeded) = failed else {
-        budget.add(pool);
+        budget.add(&pool);
         return Ok(true);
     };
     let tree = end.into_inner().unwrap_or_else(PoisonError::into_inner).tree;
