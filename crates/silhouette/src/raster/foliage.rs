@@ -4,7 +4,7 @@ use super::grid::{Corner, Grid};
 use super::occlusion::Occlusion;
 use super::outline::{Blade, look_alike};
 use super::sheet::Sheet;
-use super::{PARTS, Rasterizer, Scene, part_of};
+use super::{Rasterizer, Scene, part_of, parts_of};
 use crate::view::Camera;
 use glam::{Vec2, Vec3};
 use pleach_plant::leaf_shape::{Faces, Outline};
@@ -22,7 +22,7 @@ impl Rasterizer {
         runs.clear();
         Run::add_all(&tree.leaves, &mut runs);
         let passes = self.passes(tree.leaves.len() * LEAVES_TO_SWEEP);
-        let parts = if tree.leaves.len() < MIN_SHARED_LEAVES { 1 } else { PARTS };
+        let parts = parts_of(tree.leaves.len());
         self.in_passes(passes, parts, helpers, &|sheet, pass, part| {
             every_so_many_leaves(
                 sheet,
@@ -44,7 +44,7 @@ impl Rasterizer {
             self.sheet.look(PIXELS_FOR_A_LEAF);
         }
         let passes = self.passes(tree.blossoms.len() * BLOSSOMS_TO_SWEEP);
-        let parts = if tree.blossoms.len() < MIN_SHARED_LEAVES { 1 } else { PARTS };
+        let parts = parts_of(tree.blossoms.len());
         self.in_passes(passes, parts, helpers, &|sheet, pass, part| {
             let blossoms = &tree.blossoms[part_of(tree.blossoms.len(), part, parts)];
             every_so_many_blossoms(sheet, tree, &placer, blossoms, (pass, passes))
@@ -213,8 +213,6 @@ const BLOSSOMS_TO_SWEEP: usize = 64;
 /// Black pixels are looked for after a pass once there is a shape per this many pixels.
 const PIXELS_FOR_A_LEAF: usize = 100;
 
-/// Leaves or blossoms from which on threads may share them: a quarter of a millisecond.
-const MIN_SHARED_LEAVES: usize = 4096;
 /// Leaves in a row that one part has, a multiple of [`PASSES`].
 const LONGEST_RUN: usize = 512;
 

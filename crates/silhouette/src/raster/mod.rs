@@ -167,7 +167,7 @@ impl Rasterizer {
         self.sheet.occlusion.reset();
         let flattens = self.flattens && camera.is_orthographic();
         let hides = self.saturates && tree.knots.len() > self.sheet.grid.area() / KNOTS_TO_HIDE;
-        let count = if tree.knots.len() < MIN_SHARED_KNOTS { 1 } else { PARTS };
+        let count = parts_of(tree.knots.len());
         self.sheet.draw(count, helpers, &|sheet, part| {
             let stems = &tree.stems[part_of(tree.stems.len(), part, count)];
             for stem in stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
@@ -249,10 +249,15 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Parts into which the stems, and each pass over the foliage, are cut for helpers.
+/// Most parts into which the stems, and each pass over the foliage, are cut for helpers.
 const PARTS: usize = 32;
-/// Knots from which on threads may share stems: a quarter of a millisecond.
-const MIN_SHARED_KNOTS: usize = 4096;
+/// Knots, leaves or blossoms of a part on average, at least: what takes as long as to clear a sheet a few times.
+const MIN_PART: usize = 512;
+
+/// Parts into which so many knots, leaves or blossoms are cut.
+fn parts_of(count: usize) -> usize {
+    (count / MIN_PART).clamp(1, PARTS)
+}
 
 /// The items of part `part` if `count` items are cut into `parts`.
 const fn part_of(count: usize, part: usize, parts: usize) -> Range<usize> {
