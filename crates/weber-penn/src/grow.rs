@@ -38,6 +38,8 @@ const SHARED_STEPS: u64 = 10_000;
 pub(crate) struct Memory {
     stacks: Scratch,
     sites: Vec<DVec2>,
+    /// Steps that the last tree took: trees of a search are much alike.
+    last_work: u64,
 }
 
 pub(crate) fn grow(
@@ -58,7 +60,9 @@ pub(crate) fn grow(
     let root = Key::root(growth.seed);
 
     let mut buffers = memory.stacks.buffers(tree, Budget::new(growth.limits, context.prunes()));
-    if let Err(exceeded) = context.tree(&mut buffers, root, &mut memory.sites) {
+    let grown = context.tree(&mut buffers, root, &mut memory.sites, memory.last_work);
+    memory.last_work = buffers.budget.spent_work();
+    if let Err(exceeded) = grown {
         return Err(blame::error(exceeded, model, &buffers.budget, buffers.tree, buffers.children));
     }
     if buffers.tree.stems.is_empty() {
@@ -72,8 +76,14 @@ pub(crate) fn grow(
 }
 
 impl GrowContext<'_> {
-    /// Grows the trunks, then what they carry.
-    fn tree(&self, buffers: &mut Buffers<'_>, root: Key, sites: &mut Vec<DVec2>) -> Result<(), Exceeded> {
+    /// Grows the trunks, then what they carry, which is expected to take `work` steps.
+    fn tree(
+        &self,
+        buffers: &mut Buffers<'_>,
+        root: Key,
+        sites: &mut Vec<DVec2>,
+        work: u64,
+    ) -> Result<(), Exceeded> {
         self.trunks(buffers, root, sites)?;
         if self.growth.parallel && buffers.children.len() >= PARALLEL_BRANCHES {
             let Buffers { tree, children, budget, .. } = buffers;
@@ -83,7 +93,7 @@ impl GrowContext<'_> {
                 return Ok(());
             }
         }
-        self.branches(buffers)
+        self.branches(buffers, work)
     }
 
     /// Grows the trunks; their branches wait.
@@ -111,12 +121,13 @@ impl GrowContext<'_> {
         Ok(())
     }
 
-    /// Grows the first-level branches, which wait, and what they carry.
-    fn branches(&self, buffers: &mut Buffers<'_>) -> Result<(), Exceeded> {
+    /// Grows the first-level branches, which wait, and what they carry: `work` steps, by the last tree.
+    fn branches(&self, buffers: &mut Buffers<'_>, work: u64) -> Result<(), Exceeded> {
         let (all, before) = (buffers.children.len(), buffers.budget.spent_work());
         buffers.children.reverse();
         let mut counts_ahead = self.growth.counts_ahead && !self.prunes();
         let mut helpers = self.growth.helpers;
+        self.shared(buffers, (0, all), work, counts_ahead, &mut helpers)?;
         while let Some(branch) = buffers.children.pop() {
             self.branch(buffers, branch)?;
             let left = buffers.children.len();
@@ -124,14 +135,15 @@ impl GrowContext<'_> {
                 counts_ahead = false;
                 census::count(self, buffers)?;
             }
-            self.shared(buffers, 0, (all, before), counts_ahead, &mut helpers)?;
+            let work = (buffers.budget.spent_work() - before) * left as u64 / (all - left) as u64;
+            self.shared(buffers, (0, all), work, counts_ahead, &mut helpers)?;
         }
         Ok(())
     }
 
     /// Grows the stems that wait, down to number `first`. Stems of level `level` are those that carry them.
     fn waiting(&self, buffers: &mut Buffers<'_>, first: usize, level: usize) -> Result<(), Exceeded> {
-        let begun = (buffers.children.len() - first, buffers.budget.spent_work());
+        let (all, before) = (buffers.children.len() - first, buffers.budget.spent_work());
         buffers.children[first..].reverse();
         // A first-level branch may have most of a tree, what it carries hardly.
         let mut helpers = self.growth.helpers.filter(|_| level == 1);
@@ -139,28 +151,28 @@ impl GrowContext<'_> {
             && let Some(child) = buffers.children.pop()
         {
             self.branch(buffers, child)?;
-            self.shared(buffers, first, begun, false, &mut helpers)?;
+            if helpers.is_some() {
+                let left = buffers.children.len() - first;
+                let work = (buffers.budget.spent_work() - before) * left as u64 / (all - left) as u64;
+                self.shared(buffers, (first, all), work, false, &mut helpers)?;
+            }
         }
         Ok(())
     }
 
-    /// Grows the stems that wait, from number `first` on, with `helpers` if these are idle and there is enough to do:
-    /// there were `all` when so many steps had been done. With `counts_ahead` they may be counted, too.
-    #[inline]
+    /// Grows the stems that wait, from number `first` on, with `helpers` if these are idle and there is enough `work`
+    /// to expect. There were `all` at first. With `counts_ahead` they may be counted, too.
     fn shared(
         &self,
         buffers: &mut Buffers<'_>,
-        first: usize,
-        (all, before): (usize, u64),
+        (first, all): (usize, usize),
+        work: u64,
         counts_ahead: bool,
         helpers: &mut Option<&dyn Helpers>,
     ) -> Result<(), Exceeded> {
-        let Some(some) = *helpers else { return Ok(()) };
         let left = buffers.children.len() - first;
-        let expected = (buffers.budget.spent_work() - before) * left as u64 / (all - left) as u64;
-        if left < SHARED_BRANCHES || expected < SHARED_STEPS || !some.are_idle() {
-            return Ok(());
-        }
+        let is_large = left >= SHARED_BRANCHES && work >= SHARED_STEPS;
+        let Some(some) = helpers.filter(|helpers| is_large && helpers.are_idle()) else { return Ok(()) };
         // Whatever comes of it, one thread does the rest.
         *helpers = None;
         let Buffers { tree, children, budget, .. } = buffers;
@@ -460,7 +472,7 @@ mod tests {
         let counted = census::count(&context, &mut buffers).unwrap();
         assert!(buffers.forked_stems.is_empty(), "the census leaves nothing behind");
         buffers.children.reverse();
-        context.branches(&mut buffers).unwrap();
+        context.branches(&mut buffers, 0).unwrap();
         (buffers.budget.trial(), counted.trial())
     }
 

@@ -146,6 +146,7 @@ impl Machine {
         }
         let tree = self.first;
         self.first += 1;
+        self.trees[tree].seen = usize::from(self.running() < self.tasks.len());
         self.tasks[thread] = Task::Waits { tree };
         self.start_piece(tree);
         true
@@ -181,9 +182,14 @@ impl Machine {
         };
     }
 
+    /// Threads that have a tree of their own, or help.
+    fn running(&self) -> usize {
+        self.tasks.iter().filter(|task| **task != Task::Idle).count()
+    }
+
     /// Takes the next part of a tree: the seconds that it takes.
     fn part(&mut self, tree: usize) -> Option<f64> {
-        let running = self.trees[..self.first].iter().filter(|tree| tree.done.is_none()).count();
+        let running = self.running();
         let own = &mut self.trees[tree];
         let Some(Piece::Parts(parts)) = own.pieces.front() else { return None };
         let seconds = parts.get(own.next)?;

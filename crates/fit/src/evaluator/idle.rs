@@ -39,7 +39,9 @@ impl IdleThreads {
     pub(super) fn beside_this() -> Option<Self> {
         rayon::current_thread_index()?;
         let threads = rayon::current_num_threads();
-        (threads > 1).then_some(Self { threads, seen: AtomicUsize::new(0) })
+        let idle = Self { threads, seen: AtomicUsize::new(0) };
+        idle.are_idle();
+        (threads > 1).then_some(idle)
     }
 }
 

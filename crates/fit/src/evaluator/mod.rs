@@ -146,10 +146,12 @@ impl Evaluator {
     /// [`Evaluator::evaluate`] in memory that the evaluator keeps for as many threads as have asked at once, and with
     /// the help of those that are idle.
     fn evaluate_helped(&self, genome: &Genome, max_size: Size, terms: Terms) -> Score {
-        let idle = IdleThreads::beside_this();
-        let idle = idle.as_ref().map(|idle| idle as &dyn Helpers);
-        let helpers = self.helpers.as_deref().or(idle);
-        self.with_memory(|memory| self.evaluate_within(genome, memory, Question { max_size, terms, helpers }))
+        self.with_memory(|memory| {
+            let idle = IdleThreads::beside_this();
+            let idle = idle.as_ref().map(|idle| idle as &dyn Helpers);
+            let helpers = self.helpers.as_deref().or(idle);
+            self.evaluate_within(genome, memory, Question { max_size, terms, helpers })
+        })
     }
 
     /// The terms that the objective needs.

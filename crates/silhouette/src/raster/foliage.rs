@@ -2,7 +2,7 @@
 
 use super::grid::{Corner, Grid};
 use super::occlusion::Occlusion;
-use super::outline::{Blade, look_alike};
+use super::outline::{Blade, Looks};
 use super::sheet::Sheet;
 use super::{Rasterizer, Scene, part_of, parts_of};
 use crate::view::Camera;
@@ -226,17 +226,24 @@ pub(super) struct Run {
 }
 
 impl Run {
+    /// Adds the runs of all leaves, each of which looks like the one before.
     fn add_all(leaves: &[Leaf], runs: &mut Vec<Self>) {
-        let mut like = 0;
-        for run in leaves.chunk_by(look_alike) {
-            let end = like + run.len();
-            runs.extend((like..end).step_by(LONGEST_RUN).map(|start| Self {
-                like,
-                start,
-                end: end.min(start + LONGEST_RUN),
-            }));
-            like = end;
+        let mut rest = leaves.iter().enumerate();
+        let Some((_, first)) = rest.next() else { return };
+        let (mut last, mut run) = (Looks::new(first), Self { like: 0, start: 0, end: 1 });
+        for (i, leaf) in rest {
+            let looks = Looks::new(leaf);
+            if !last.are_those(&looks) {
+                runs.push(run);
+                run = Self { like: i, start: i, end: i };
+            } else if i - run.start == LONGEST_RUN {
+                runs.push(run);
+                run.start = i;
+            }
+            run.end = i + 1;
+            last = looks;
         }
+        runs.push(run);
     }
 }
 
