@@ -10,14 +10,14 @@ use pleach_tree::{Foliage, Limits};
 use std::sync::Arc;
 
 /// Lists around the one that a search starts from, some of them far.
-fn genomes(problem: &FitProblem, count: u64) -> Vec<Genome> {
+fn genomes(problem: &FitProblem, count: u32) -> Vec<Genome> {
     let (generator, base) = (Arc::clone(&problem.start.generator), problem.start.params.values());
     let space = SearchSpace::new(generator, base, &Freedom::default(), TreeSeed::Fixed(1)).unwrap();
-    let near = |i: u64| {
+    let near = |i: u32| {
         let mut draws = Stream::at(1, 9, 0, i);
-        let mut genome = space.individual(base, 1 + i);
+        let mut genome = space.individual(base, 1 + u64::from(i));
         for gene in space.genes() {
-            let unit = gene.to_unit(gene.get(&genome)) + 0.01 * i as f64 * draws.signed();
+            let unit = gene.to_unit(gene.get(&genome)) + 0.01 * f64::from(i) * draws.signed();
             gene.set(&mut genome, gene.from_unit(unit));
         }
         genome

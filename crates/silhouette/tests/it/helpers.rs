@@ -33,8 +33,8 @@ fn pictures_are_the_same_with_help() {
     let near = Projection::Perspective { distance: 60.0 };
     let mut calls = 0;
     for (name, tree) in trees() {
-        for view in [View::FRONT, View::degrees(40.0, 30.0), View { projection: near, ..View::FRONT }] {
-            let whole = Frame::automatic(&tree, &view, Parts::LEAFY, 200, 180);
+        for view in [View::degrees(40.0, 30.0), View { projection: near, ..View::FRONT }] {
+            let whole = Frame::automatic(&tree, &view, Parts::LEAFY, 160, 150);
             // Larger than the picture as well, so that the tree lies across its edges.
             for frame in [whole, Frame { meters_per_pixel: 0.4 * whole.meters_per_pixel, ..whole }] {
                 for mut rasterizer in
@@ -43,7 +43,7 @@ fn pictures_are_the_same_with_help() {
                     let [mut stems, mut alone] = [Bitmap::default(), Bitmap::default()];
                     let pictures = [&mut stems, &mut alone];
                     rasterizer.draw_with_stems(&tree, &view, &frame, Parts::LEAFY, pictures);
-                    for (threads, patience) in [(1, 0), (2, 0), (3, 20), (8, 5), (3, 200)] {
+                    for (threads, patience) in [(1, 0), (2, 5), (3, 40), (8, 0)] {
                         let helpers = Volunteers::new(threads, patience);
                         let [mut helped_stems, mut helped] = [Bitmap::default(), Bitmap::default()];
                         let pictures = [&mut helped_stems, &mut helped];
@@ -60,7 +60,7 @@ fn pictures_are_the_same_with_help() {
             }
         }
     }
-    assert!(calls > 1000, "{calls}");
+    assert!(calls > 200, "{calls}");
 }
 
 #[test]
