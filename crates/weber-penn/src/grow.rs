@@ -30,7 +30,7 @@ use std::sync::Arc;
 const PARALLEL_BRANCHES: usize = 16;
 /// The same of threads that help, which have been started.
 const SHARED_BRANCHES: usize = 4;
-/// Steps that have to be left, by those of the branches so far, for helpers to be worth their start: half a millisecond.
+/// Steps that have to be expected for helpers to be worth their start: half a millisecond.
 const SHARED_STEPS: u64 = 10_000;
 
 /// Memory reused from tree to tree.

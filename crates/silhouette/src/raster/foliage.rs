@@ -95,8 +95,8 @@ impl Rasterizer {
     }
 }
 
-/// Draws the leaves of each run at `first`, and every `step` from there on; returns how many were drawn. Those are not that
-/// lie where all is black: of pixels, or of samples while no black pixels are known.
+/// Draws the leaves of each run at `first`, and every `step` from there on; returns how many were drawn. Those are not
+/// that lie where all is black: of pixels, or of samples while no black pixels are known.
 fn every_so_many_leaves(
     sheet: &mut Sheet,
     tree: &Tree,
