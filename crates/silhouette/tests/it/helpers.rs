@@ -47,7 +47,7 @@ fn pictures_are_the_same_with_help() {
                         let helpers = Volunteers::new(threads, patience);
                         let [mut helped_stems, mut helped] = [Bitmap::default(), Bitmap::default()];
                         let pictures = [&mut helped_stems, &mut helped];
-                        let mut drawing = rasterizer.helped(Some(&helpers));
+                        let drawing = rasterizer.helped(Some(&helpers));
                         drawing.draw_with_stems(&tree, &view, &frame, Parts::LEAFY, pictures);
                         assert_eq!(helped_stems.differing(&stems), 0, "stems of {name}, {threads} threads");
                         assert_eq!(helped.differing(&alone), 0, "{name}, {threads} threads");
