@@ -18,7 +18,7 @@ pub(crate) enum Piece {
 /// As many threads as are asked for, which take parts in turn; all of them are the one that asks.
 #[derive(Debug, Default)]
 pub(crate) struct Divided {
-    /// Threads among which trees are divided; none if they are not.
+    /// Threads among which trees are divided: no more than one where they are not.
     threads: AtomicUsize,
     log: Mutex<Log>,
 }
