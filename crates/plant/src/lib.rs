@@ -51,6 +51,7 @@
 mod appearance;
 mod dendrometry;
 mod fnv;
+mod helpers;
 mod individual;
 pub mod leaf_shape;
 mod leaflets;
@@ -66,6 +67,7 @@ pub use appearance::{Appearance, BarkPattern, Color, Look, Season, oklab};
 pub use dendrometry::{BREAST_HEIGHT, Dendrometry};
 pub use fnv::Fnv;
 pub use glam;
+pub use helpers::{Helpers, NextPart};
 pub use individual::{
     Address, BadStemPath, DENSEST, Draw, Draws, Hull, HullView, Individual, Spread, StemPath, Step, Trial,
 };

@@ -174,7 +174,7 @@ impl NativeProblem {
             // A tree that does not grow has an empty picture, as its cost is infinite.
             let _ = self.evaluator.pictures(genome, |placed| {
                 if number == view {
-                    let PlacedTree { tree, view, frame, parts } = placed;
+                    let PlacedTree { tree, view, frame, parts, .. } = placed;
                     Rasterizer::default().draw(tree, view, frame, *parts, &mut picture);
                 }
                 number += 1;

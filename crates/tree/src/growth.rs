@@ -1,6 +1,6 @@
 //! One request to grow a tree, and what is reused from one tree to the next.
 
-use pleach_plant::{Address, Draw, Draws, Foliage, Hull};
+use pleach_plant::{Address, Draw, Draws, Foliage, Helpers, Hull};
 use std::any::Any;
 use std::fmt;
 
@@ -46,6 +46,10 @@ pub struct Growth<'a> {
     pub foliage: Foliage,
     /// Whether the stems of a big tree may be grown on rayon's threads. The tree is the same.
     pub parallel: bool,
+    /// Threads that may help with a big tree from any time on at which they have nothing else to do. The tree is the
+    /// same, and one beyond the limits fails; but the error may name another one of the limits that it passes.
+    /// Generators that cannot share their work do not.
+    pub helpers: Option<&'a dyn Helpers>,
     /// Whether a tree that looks too large while it grows is counted ahead, without growing the rest, and given up
     /// at once if it will pass a limit. Trees within the limits are the same, and those beyond fail; but the
     /// error may name another one of the limits that they pass, and blame other parameters. Generators that

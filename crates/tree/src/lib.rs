@@ -35,9 +35,9 @@ pub use model::ModelId;
 pub use param::{CheckedParams, Kind, Param, ParamSpace, Slot, Unit};
 pub use pleach_plant::{
     Address, Appearance, BREAST_HEIGHT, BadStemPath, BarkPattern, Blob, Bounds, Color, DENSEST, Dendrometry,
-    Draw, Draws, Fnv, Foliage, Hull, HullView, Individual, Key, Knot, Leaf, Look, MalformedTree, Parts,
-    Season, Spread, Stem, StemKind, StemPath, Step, Tree, TreeStats, Trial, leaflet_size, piece,
-    push_leaflets,
+    Draw, Draws, Fnv, Foliage, Helpers, Hull, HullView, Individual, Key, Knot, Leaf, Look, MalformedTree,
+    NextPart, Parts, Season, Spread, Stem, StemKind, StemPath, Step, Tree, TreeStats, Trial, leaflet_size,
+    piece, push_leaflets,
 };
 pub use pleach_plant::{leaf_shape, math, random, spline, trig, turtle};
 pub use species::{Family, Species, SpeciesDoc, SpeciesError};

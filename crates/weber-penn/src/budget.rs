@@ -12,6 +12,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
 const TELL: u64 = 1024;
 /// Stems that wait in one part may be this fraction of the limit; beyond, one thread grows alone.
 const WAITING_SHARE: usize = 16;
+/// Always allowed: eight megabytes.
+const FREE_PART: usize = 30_000;
 
 /// Part of a limit that has to be spent before it is worth counting what is to come.
 const MIN_SPENT: f64 = 0.01;
@@ -81,6 +83,8 @@ pub(crate) struct Pool {
     work: AtomicU64,
     /// Set when a part has failed: the others need not go on.
     stop: AtomicBool,
+    /// Stems that wait in all parts when they begin: on one thread they would wait beside those of any part.
+    waiting: usize,
 }
 
 /// The counts of one thread.
@@ -103,8 +107,8 @@ impl Budget<'static> {
 }
 
 impl Budget<'_> {
-    /// The pool of the parts to come, which begins with what has been spent so far.
-    pub(crate) const fn pool(&self) -> Pool {
+    /// The pool of the parts to come, which have `waiting` stems and begin with what has been spent so far.
+    pub(crate) const fn pool(&self, waiting: usize) -> Pool {
         let Spent { stems, leaves, knots, work } = self.spent;
         Pool {
             stems: AtomicUsize::new(stems),
@@ -112,7 +116,21 @@ impl Budget<'_> {
             knots: AtomicUsize::new(knots),
             work: AtomicU64::new(work),
             stop: AtomicBool::new(false),
+            waiting: match self.pool {
+                Some(pool) => waiting + pool.waiting,
+                None => waiting,
+            },
         }
+    }
+
+    /// Counts what the parts of a pool that began with this budget have spent so far.
+    pub(crate) fn add(&mut self, pool: &Pool) {
+        self.spent = Spent {
+            stems: pool.stems.load(Relaxed),
+            leaves: pool.leaves.load(Relaxed),
+            knots: pool.knots.load(Relaxed),
+            work: pool.work.load(Relaxed),
+        };
     }
 
     /// The budget of a part.
@@ -157,12 +175,17 @@ impl Budget<'_> {
 
     /// Minds that `waiting` stems are yet to be grown. Without pruning each will be one of the tree.
     pub(crate) const fn wait(&self, waiting: usize) -> Result<(), Exceeded> {
-        if self.pool.is_some() && waiting > self.limits.stems / WAITING_SHARE {
+        let share = self.limits.stems / WAITING_SHARE;
+        if self.pool.is_some() && waiting > share && waiting > FREE_PART {
             return Err(Exceeded::Waiting);
         }
         if !self.prunes && self.spent.stems + waiting > self.limits.stems {
             return Err(Exceeded::Stems);
         }
+        let waiting = match self.pool {
+            Some(pool) => waiting + pool.waiting,
+            None => waiting,
+        };
         let Limits { stems, .. } = self.limits;
         let most = stems.saturating_mul(WAITING_PER_STEM);
         let room = if stems > FREE_WAITING { stems } else { FREE_WAITING };
@@ -210,6 +233,11 @@ impl Budget<'_> {
         if let Some(pool) = self.pool {
             pool.stop.store(true, Relaxed);
         }
+    }
+
+    /// Steps of work so far.
+    pub(crate) const fn spent_work(&self) -> u64 {
+        self.spent.work
     }
 
     pub(crate) const fn limits(&self) -> &Limits {

@@ -27,6 +27,25 @@ impl GrowContext<'_> {
     }
 }
 
+/// Memory reused from tree to tree.
+#[derive(Debug, Default)]
+pub(crate) struct Scratch {
+    pub(crate) path: Vec<PathPoint>,
+    forked_stems: Vec<StemSpec>,
+    children: Vec<StemSpec>,
+}
+
+impl Scratch {
+    /// Empty stacks to grow `tree` with.
+    pub(crate) fn buffers<'a>(&'a mut self, tree: &'a mut Tree, budget: Budget<'a>) -> Buffers<'a> {
+        let Self { path, forked_stems, children } = self;
+        path.clear();
+        forked_stems.clear();
+        children.clear();
+        Buffers { tree, path, forked_stems, children, budget }
+    }
+}
+
 /// The tree being grown and the stacks that growing it needs.
 pub(crate) struct Buffers<'a> {
     pub(crate) tree: &'a mut Tree,

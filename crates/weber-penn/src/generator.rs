@@ -2,7 +2,7 @@
 
 use crate::adapt::adapt;
 use crate::blame;
-use crate::grow::{Scratch, grow};
+use crate::grow::{Memory, grow};
 use crate::leafless::leafless;
 use crate::model::Model;
 use crate::params::active::is_active;
@@ -41,7 +41,7 @@ impl Generator for WeberPenn {
     ) -> Result<(), GrowError> {
         let model = Model::read(params.values_in(space())?);
         check(&model)?;
-        grow(&model, &self.surroundings, growth, workspace.scratch::<Scratch>(), tree)
+        grow(&model, &self.surroundings, growth, workspace.scratch::<Memory>(), tree)
     }
 
     fn is_active(&self, values: &[f64], slot: Slot) -> bool {

@@ -8,10 +8,11 @@ use crate::budget::{Budget, Cause, Exceeded, POINT_STEPS, SOLIDS_A_STEP, TRIAL_S
 use crate::census;
 use crate::certain;
 use crate::children;
-use crate::context::{Buffers, GrowContext};
+use crate::context::{Buffers, GrowContext, Scratch};
 use crate::course::Course;
 use crate::leaves;
 use crate::model::Model;
+use crate::parts::{self, Waiting};
 use crate::path::{Forks, PathPoint, lay_out, stretch, walk};
 use crate::prune;
 use crate::purpose;
@@ -21,30 +22,31 @@ use crate::trunks;
 use glam::{DVec2, DVec3};
 use pleach_tree::piece;
 use pleach_tree::turtle::Turtle;
-use pleach_tree::{Address, Draw, Foliage, GrowError, Growth, Key, Knot, Stem, StemKind, Tree};
-use rayon::prelude::*;
+use pleach_tree::{Address, Draw, Foliage, GrowError, Growth, Helpers, Key, Knot, Stem, StemKind, Tree};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// First-level branches below which threads are not worth their start.
 const PARALLEL_BRANCHES: usize = 16;
-/// Parts into which first-level branches are cut for the threads.
-const PARTS: usize = 32;
+/// The same of threads that help, which have been started.
+const SHARED_BRANCHES: usize = 4;
+/// Steps that have to be expected for helpers to be worth their start: half a millisecond.
+const SHARED_STEPS: u64 = 10_000;
 
 /// Memory reused from tree to tree.
 #[derive(Debug, Default)]
-pub(crate) struct Scratch {
-    pub(crate) path: Vec<PathPoint>,
-    forked_stems: Vec<StemSpec>,
-    children: Vec<StemSpec>,
+pub(crate) struct Memory {
+    stacks: Scratch,
     sites: Vec<DVec2>,
+    /// Steps that the last tree took: trees of a search are much alike.
+    last_work: u64,
 }
 
 pub(crate) fn grow(
     model: &Model,
     surroundings: &Surroundings,
     growth: &Growth<'_>,
-    scratch: &mut Scratch,
+    memory: &mut Memory,
     tree: &mut Tree,
 ) -> Result<(), GrowError> {
     tree.clear();
@@ -53,17 +55,14 @@ pub(crate) fn grow(
     }
     tree.leaf_shapes.push(Arc::clone(model.leaf_shape.outline()));
     tree.blossom_shapes.push(model.blossom_shape);
-    let Scratch { path, forked_stems, children, sites } = scratch;
-    path.clear();
-    forked_stems.clear();
-    children.clear();
     let course = Course::new(model);
     let context = GrowContext { model, surroundings, course, growth, prunes_trunks: true };
     let root = Key::root(growth.seed);
 
-    let budget = Budget::new(growth.limits, context.prunes());
-    let mut buffers = Buffers { tree, path, forked_stems, children, budget };
-    if let Err(exceeded) = context.tree(&mut buffers, root, sites) {
+    let mut buffers = memory.stacks.buffers(tree, Budget::new(growth.limits, context.prunes()));
+    let grown = context.tree(&mut buffers, root, &mut memory.sites, memory.last_work);
+    memory.last_work = buffers.budget.spent_work();
+    if let Err(exceeded) = grown {
         return Err(blame::error(exceeded, model, &buffers.budget, buffers.tree, buffers.children));
     }
     if buffers.tree.stems.is_empty() {
@@ -77,14 +76,24 @@ pub(crate) fn grow(
 }
 
 impl GrowContext<'_> {
-    /// Grows the trunks, then what they carry.
-    fn tree(&self, buffers: &mut Buffers<'_>, root: Key, sites: &mut Vec<DVec2>) -> Result<(), Exceeded> {
+    /// Grows the trunks, then what they carry, which is expected to take `work` steps.
+    fn tree(
+        &self,
+        buffers: &mut Buffers<'_>,
+        root: Key,
+        sites: &mut Vec<DVec2>,
+        work: u64,
+    ) -> Result<(), Exceeded> {
         self.trunks(buffers, root, sites)?;
-        let parallel = self.growth.parallel && buffers.children.len() >= PARALLEL_BRANCHES;
-        if parallel && self.branches_in_parallel(buffers.children, &buffers.budget, buffers.tree).is_ok() {
-            return Ok(());
+        if self.growth.parallel && buffers.children.len() >= PARALLEL_BRANCHES {
+            let Buffers { tree, children, budget, .. } = buffers;
+            if parts::in_parallel(children, budget, tree, &|buffers, branch| self.branch(buffers, branch))
+                .is_ok()
+            {
+                return Ok(());
+            }
         }
-        self.branches(buffers)
+        self.branches(buffers, work)
     }
 
     /// Grows the trunks; their branches wait.
@@ -112,11 +121,13 @@ impl GrowContext<'_> {
         Ok(())
     }
 
-    /// Grows the first-level branches, which wait, and what they carry.
-    fn branches(&self, buffers: &mut Buffers<'_>) -> Result<(), Exceeded> {
-        let all = buffers.children.len();
+    /// Grows the first-level branches, which wait, and what they carry: `work` steps, by the last tree.
+    fn branches(&self, buffers: &mut Buffers<'_>, work: u64) -> Result<(), Exceeded> {
+        let (all, before) = (buffers.children.len(), buffers.budget.spent_work());
         buffers.children.reverse();
         let mut counts_ahead = self.growth.counts_ahead && !self.prunes();
+        let mut helpers = self.growth.helpers;
+        self.shared(buffers, (0, all), work, counts_ahead, &mut helpers)?;
         while let Some(branch) = buffers.children.pop() {
             self.branch(buffers, branch)?;
             let left = buffers.children.len();
@@ -124,17 +135,55 @@ impl GrowContext<'_> {
                 counts_ahead = false;
                 census::count(self, buffers)?;
             }
+            let work = (buffers.budget.spent_work() - before) * left as u64 / (all - left) as u64;
+            self.shared(buffers, (0, all), work, counts_ahead, &mut helpers)?;
         }
         Ok(())
     }
 
-    /// Grows the stems that wait, down to number `first`.
-    fn waiting(&self, buffers: &mut Buffers<'_>, first: usize) -> Result<(), Exceeded> {
+    /// Grows the stems that wait, down to number `first`. Stems of level `level` are those that carry them.
+    fn waiting(&self, buffers: &mut Buffers<'_>, first: usize, level: usize) -> Result<(), Exceeded> {
+        let (all, before) = (buffers.children.len() - first, buffers.budget.spent_work());
         buffers.children[first..].reverse();
+        // A first-level branch may have most of a tree, what it carries hardly.
+        let mut helpers = self.growth.helpers.filter(|_| level == 1);
         while buffers.children.len() > first
             && let Some(child) = buffers.children.pop()
         {
             self.branch(buffers, child)?;
+            if helpers.is_some() {
+                let left = buffers.children.len() - first;
+                let work = (buffers.budget.spent_work() - before) * left as u64 / (all - left) as u64;
+                self.shared(buffers, (first, all), work, false, &mut helpers)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Grows the stems that wait, from number `first` on, with `helpers` if these are idle and there is enough `work`
+    /// to expect. There were `all` at first. With `counts_ahead` they may be counted, too.
+    fn shared(
+        &self,
+        buffers: &mut Buffers<'_>,
+        (first, all): (usize, usize),
+        work: u64,
+        counts_ahead: bool,
+        helpers: &mut Option<&dyn Helpers>,
+    ) -> Result<(), Exceeded> {
+        let left = buffers.children.len() - first;
+        let is_large = left >= SHARED_BRANCHES && work >= SHARED_STEPS;
+        let Some(some) = helpers.filter(|helpers| is_large && helpers.are_idle()) else { return Ok(()) };
+        // Whatever comes of it, one thread does the rest.
+        *helpers = None;
+        let Buffers { tree, children, budget, .. } = buffers;
+        children[first..].reverse();
+        let grow = |buffers: &mut Buffers<'_>, branch| self.branch(buffers, branch);
+        let count = |buffers: &mut Buffers<'_>| census::count(self, buffers).map(|_| ());
+        let count = counts_ahead.then_some(parts::Count { done: all - left, all, count: &count });
+        if parts::shared(&Waiting { all: children, first }, budget, tree, some, &grow, count)? {
+            children.truncate(first);
+        } else {
+            children[first..].reverse();
         }
         Ok(())
     }
@@ -186,36 +235,6 @@ impl GrowContext<'_> {
     fn branch(&self, buffers: &mut Buffers<'_>, branch: StemSpec) -> Result<(), Exceeded> {
         let mut carry = branch.first_carry(self.model);
         self.stem(buffers, branch, &mut carry)
-    }
-
-    /// Grows `branches` on many threads and adds them to `tree`, or leaves it alone and fails.
-    fn branches_in_parallel(
-        &self,
-        branches: &[StemSpec],
-        budget: &Budget<'_>,
-        tree: &mut Tree,
-    ) -> Result<(), Exceeded> {
-        let pool = budget.pool();
-        let part = branches.len().div_ceil(PARTS);
-        let grow = |chunk: &[StemSpec]| {
-            let (mut tree, mut scratch) = (Tree::default(), Scratch::default());
-            let Scratch { path, forked_stems, children, .. } = &mut scratch;
-            let mut buffers =
-                Buffers { tree: &mut tree, path, forked_stems, children, budget: budget.part(&pool) };
-            let grown = chunk.iter().try_for_each(|branch| self.branch(&mut buffers, *branch));
-            let grown = grown.and_then(|()| buffers.budget.tell());
-            if grown.is_err() {
-                buffers.budget.stop_all();
-            }
-            // Room for more would be as much again, all parts together.
-            grown.map(|()| tree.shrink_to_fit()).map(|()| tree)
-        };
-        let parts = branches.par_chunks(part).map(grow).collect::<Result<Vec<Tree>, Exceeded>>()?;
-        tree.reserve_for(&parts);
-        for part in parts {
-            tree.append(&part, |stem| stem.level == 1 && stem.kind == StemKind::Branch);
-        }
-        Ok(())
     }
 
     /// Grows one stem, what it carries, and its forks.
@@ -272,7 +291,7 @@ impl GrowContext<'_> {
 
         // The children of trunks wait: they are the branches that may grow in parallel.
         if stem.level > 0 {
-            self.waiting(buffers, first_child)?;
+            self.waiting(buffers, first_child, stem.level)?;
         }
 
         let last_fork = buffers.forked_stems.len();
@@ -447,15 +466,13 @@ mod tests {
             prunes_trunks: true,
         };
         let (mut tree, mut scratch) = (Tree::default(), Scratch::default());
-        let Scratch { path, forked_stems, children, sites } = &mut scratch;
-        let budget = Budget::new(Limits::DEFAULT, false);
-        let mut buffers = Buffers { tree: &mut tree, path, forked_stems, children, budget };
-        context.trunks(&mut buffers, Key::root(seed), sites).unwrap();
+        let mut buffers = scratch.buffers(&mut tree, Budget::new(Limits::DEFAULT, false));
+        context.trunks(&mut buffers, Key::root(seed), &mut Vec::new()).unwrap();
         buffers.children.reverse();
         let counted = census::count(&context, &mut buffers).unwrap();
         assert!(buffers.forked_stems.is_empty(), "the census leaves nothing behind");
         buffers.children.reverse();
-        context.branches(&mut buffers).unwrap();
+        context.branches(&mut buffers, 0).unwrap();
         (buffers.budget.trial(), counted.trial())
     }
 

@@ -31,6 +31,7 @@ mod leafless;
 mod leaves;
 mod model;
 mod params;
+mod parts;
 mod path;
 mod prune;
 mod purpose;

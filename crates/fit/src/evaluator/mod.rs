@@ -4,6 +4,7 @@ mod evaluate;
 mod fine;
 mod grow;
 mod height;
+mod idle;
 mod measured;
 mod silhouette;
 mod viewpoint;
@@ -21,8 +22,9 @@ use crate::problem::{
     ProblemError, Score, Size, Terms,
 };
 use height::GoalHeight;
+use idle::{AtWork, IdleThreads};
 use pleach_silhouette::{Frame, Rasterizer, View};
-use pleach_tree::{Foliage, Generator, Growth, Limits, Tree};
+use pleach_tree::{Foliage, Generator, Growth, Helpers, Limits, Tree};
 use rayon::prelude::*;
 use std::num::NonZeroU32;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -43,6 +45,8 @@ pub struct Evaluator {
     empty_accuracy: f64,
     /// Trees per individual.
     seeds: u32,
+    /// Who helps in place of the idle threads of rayon's pool.
+    helpers: Option<Arc<dyn Helpers>>,
     pool: Mutex<Vec<EvalWorkspace>>,
 }
 
@@ -75,6 +79,7 @@ impl Evaluator {
             height: None,
             empty_accuracy: empty.sum::<f64>() / problem.goals.len() as f64,
             seeds: 1,
+            helpers: None,
             pool: Mutex::default(),
         })
     }
@@ -82,7 +87,8 @@ impl Evaluator {
     /// The same for individuals of another generator; shares the prepared goals.
     #[must_use]
     pub(crate) fn with_generator(&self, generator: Arc<dyn Generator>) -> Self {
-        Self { generator, goals: Arc::clone(&self.goals), pool: Mutex::default(), ..*self }
+        let (goals, helpers) = (Arc::clone(&self.goals), self.helpers.clone());
+        Self { generator, goals, helpers, pool: Mutex::default(), ..*self }
     }
 
     /// Scores an individual by the mean over `count` trees, of its tree seed and the following ones, so that
@@ -100,6 +106,13 @@ impl Evaluator {
     #[must_use]
     pub fn with_height_matching(self) -> Self {
         Self { height: self.goal_height, ..self }
+    }
+
+    /// Has `helpers` help with large trees in place of those threads of rayon's pool that have no tree of their own.
+    /// Scores are the same.
+    #[must_use]
+    pub fn with_helpers(self, helpers: Arc<dyn Helpers>) -> Self {
+        Self { helpers: Some(helpers), ..self }
     }
 
     /// Abandons trees that take more than `work` steps or have more than `leaves` leaves.
@@ -121,9 +134,24 @@ impl Evaluator {
 
     /// Grows `genome`'s tree, draws it and scores it; [`Score::INVALID`] if it does not grow.
     ///
-    /// Allocates nothing once `memory` has held a tree as large as this one.
+    /// On the calling thread alone. Allocates nothing once `memory` has held a tree as large as this one.
     pub fn evaluate(&self, genome: &Genome, memory: &mut EvalWorkspace) -> Score {
-        self.evaluate_within(genome, Size::ANY, memory, self.terms())
+        self.evaluate_within(
+            genome,
+            memory,
+            Question { max_size: Size::ANY, terms: self.terms(), helpers: None },
+        )
+    }
+
+    /// [`Evaluator::evaluate`] in memory that the evaluator keeps for as many threads as have asked at once, and with
+    /// the help of those that are idle.
+    fn evaluate_helped(&self, genome: &Genome, max_size: Size, terms: Terms) -> Score {
+        self.with_memory(|memory| {
+            let idle = IdleThreads::beside_this();
+            let idle = idle.as_ref().map(|idle| idle as &dyn Helpers);
+            let helpers = self.helpers.as_deref().or(idle);
+            self.evaluate_within(genome, memory, Question { max_size, terms, helpers })
+        })
     }
 
     /// The terms that the objective needs.
@@ -133,16 +161,17 @@ impl Evaluator {
 
     /// The score of `genome` with its likeness, whatever the objective is.
     pub(crate) fn evaluate_with_likeness(&self, genome: &Genome) -> Score {
-        let terms = Terms { likeness: true, ..self.terms() };
-        self.with_memory(|memory| self.evaluate_within(genome, Size::ANY, memory, terms))
+        self.evaluate_helped(genome, Size::ANY, Terms { likeness: true, ..self.terms() })
     }
 
-    /// [`Evaluator::evaluate`] in memory that the evaluator keeps for as many threads as have asked at once.
+    /// [`Evaluator::evaluate`] in memory that the evaluator keeps for as many threads as have asked at once. Those of
+    /// them that are idle may help.
     pub fn score(&self, genome: &Genome) -> Score {
-        self.with_memory(|memory| self.evaluate(genome, memory))
+        self.evaluate_helped(genome, Size::ANY, self.terms())
     }
 
     fn with_memory<T>(&self, work: impl FnOnce(&mut EvalWorkspace) -> T) -> T {
+        let _at_work = AtWork::begin();
         let pool = || self.pool.lock().unwrap_or_else(PoisonError::into_inner);
         let taken = pool().pop();
         let mut memory = taken.unwrap_or_else(|| self.workspace());
@@ -154,13 +183,7 @@ impl Evaluator {
     }
 
     /// The mean over seeds and views.
-    fn evaluate_within(
-        &self,
-        genome: &Genome,
-        max_size: Size,
-        memory: &mut EvalWorkspace,
-        terms: Terms,
-    ) -> Score {
+    fn evaluate_within(&self, genome: &Genome, memory: &mut EvalWorkspace, question: Question<'_>) -> Score {
         let own;
         let generator = match &genome.structure {
             None => &*self.generator,
@@ -171,7 +194,8 @@ impl Evaluator {
                 &*own
             }
         };
-        let mut growth = self.growth(genome.tree_seed, self.foliage, max_size);
+        let growth = self.growth(genome.tree_seed, self.foliage, question.max_size);
+        let mut growth = Growth { helpers: question.helpers, ..growth };
         let Some(Matched { resized, mut magnified }) = self.grow_matched(generator, genome, &growth, memory)
         else {
             return Score::INVALID;
@@ -187,7 +211,7 @@ impl Evaluator {
                 magnified = 1.0;
             }
             for number in 0..self.goals.len() {
-                sum.add(&self.measure(number, genome, magnified, memory, terms));
+                sum.add(&self.measure(number, genome, magnified, memory, question));
             }
         }
         Score { size, resized, ..sum.mean(f64::from(self.seeds) * self.goals.len() as f64) }
@@ -240,18 +264,19 @@ impl Evaluator {
         genome: &Genome,
         magnified: f64,
         memory: &mut EvalWorkspace,
-        terms: Terms,
+        question: Question<'_>,
     ) -> Agreement {
         let EvalWorkspace { tree, evidence: memories, .. } = memory;
         let placed = self.standing(number, genome, magnified, tree);
-        self.goals[number].evidence.measure(&placed, terms, &mut *memories[number])
+        let placed = PlacedTree { helpers: question.helpers, ..placed };
+        self.goals[number].evidence.measure(&placed, question.terms, &mut *memories[number])
     }
 
     /// `tree`, `magnified` times as large, as it stands in goal `number`.
     fn standing<'a>(&self, number: usize, genome: &Genome, magnified: f64, tree: &'a Tree) -> PlacedTree<'a> {
         let (view, mut frame) = self.goals[number].viewpoint.placed(&genome.nuisances);
         frame.meters_per_pixel /= magnified;
-        PlacedTree { tree, view, frame, parts: self.foliage.into() }
+        PlacedTree { tree, view, frame, parts: self.foliage.into(), helpers: None }
     }
 
     /// The direction and the frame of each goal; unknowns are as in `genome`.
@@ -316,6 +341,14 @@ impl Evaluator {
     }
 }
 
+/// What is asked about a tree, and who may help.
+#[derive(Clone, Copy)]
+struct Question<'a> {
+    max_size: Size,
+    terms: Terms,
+    helpers: Option<&'a dyn Helpers>,
+}
+
 /// Trees that would be resized by less than this factor are drawn at another scale instead.
 const NEAR: f64 = 1.15;
 
@@ -360,9 +393,7 @@ impl Sum {
 
 impl Evaluate for Evaluator {
     fn scores(&self, genomes: &[Genome], max_size: Size) -> Vec<Score> {
-        let score = |genome: &Genome| {
-            self.with_memory(|memory| self.evaluate_within(genome, max_size, memory, self.terms()))
-        };
+        let score = |genome: &Genome| self.evaluate_helped(genome, max_size, self.terms());
         // Trees differ a hundredfold in time: each is a task of its own.
         genomes.par_iter().with_max_len(1).map(score).collect()
     }

@@ -46,8 +46,9 @@ impl Default for SilhouetteMemory {
 impl SilhouetteMemory {
     /// Draws `placed`, and its stems alone into `stems`.
     pub(super) fn draw_with_stems(&mut self, placed: &PlacedTree<'_>, stems: &mut Bitmap) {
-        let PlacedTree { tree, view, frame, parts } = placed;
-        self.rasterizer.draw_with_stems(tree, view, frame, *parts, [stems, &mut self.picture]);
+        let PlacedTree { tree, view, frame, parts, helpers } = placed;
+        let pictures = [stems, &mut self.picture];
+        self.rasterizer.helped(*helpers).draw_with_stems(tree, view, frame, *parts, pictures);
     }
 
     /// The picture of the tree that was drawn last.
@@ -70,8 +71,8 @@ impl Evidence for Silhouette {
     }
 
     fn draw(&self, placed: &PlacedTree<'_>, memory: &mut SilhouetteMemory) {
-        let PlacedTree { tree, view, frame, parts } = placed;
-        memory.rasterizer.draw(tree, view, frame, *parts, &mut memory.picture);
+        let PlacedTree { tree, view, frame, parts, helpers } = placed;
+        memory.rasterizer.helped(*helpers).draw(tree, view, frame, *parts, &mut memory.picture);
     }
 
     fn compare(&self, goal: &SilhouetteGoal, terms: Terms, memory: &mut SilhouetteMemory) -> Agreement {

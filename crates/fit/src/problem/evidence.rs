@@ -2,7 +2,7 @@
 
 use super::objective::Objective;
 use pleach_silhouette::{Bitmap, Frame, View};
-use pleach_tree::{Parts, Tree};
+use pleach_tree::{Helpers, Parts, Tree};
 use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
@@ -71,6 +71,8 @@ pub struct PlacedTree<'a> {
     pub frame: Frame,
     /// Which parts of the tree the problem is about.
     pub parts: Parts,
+    /// Threads that may help to draw it; for [`Rasterizer::helped`](pleach_silhouette::Rasterizer::helped).
+    pub helpers: Option<&'a dyn Helpers>,
 }
 
 /// The terms of a comparison that are asked for.

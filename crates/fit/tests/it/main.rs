@@ -7,6 +7,7 @@ mod families;
 mod grows;
 mod guess;
 mod height;
+mod helpers;
 mod hull;
 mod individual;
 mod judged;

@@ -6,9 +6,9 @@
 
 use super::Rasterizer;
 use super::grid::{ACROSS, Corner, SKEW};
-use super::outline::look_alike;
+use super::outline::{Blade, look_alike};
 use super::strip::{self, Canvas, Chord};
-use super::{Blade, Placer};
+use super::{Placer, Scene};
 use crate::bitmap::Bitmap;
 use crate::view::{Camera, Frame, View};
 use glam::{DVec3, Vec2, Vec3};
@@ -56,7 +56,7 @@ impl Rasterizer {
         for stem in tree.stems.iter().filter(|stem| parts.has_stem(stem.kind)) {
             strip::draw(&mut canvas, &camera, scale, tree, stem);
         }
-        let placer = Placer::new(&camera, scale);
+        let placer = Placer::new(&Scene::new(tree, &camera, down, parts));
         if parts.contains(Parts::LEAVES) {
             self.leaf_depths(tree, &placer, &mut canvas);
         }
@@ -80,7 +80,7 @@ impl Rasterizer {
         let mut corners = Vec::new();
         for run in tree.leaves.chunk_by(look_alike) {
             let size = [run[0].across.length() * pixels, run[0].along.length() * pixels];
-            let Blade { outline, .. } = self.outlines.get(tree.outline_of(&run[0]), size);
+            let Blade { outline, .. } = self.sheet.outlines.get(tree.outline_of(&run[0]), size);
             for leaf in run {
                 let vertices = outline.iter().map(|&[u, v]| [u, v, 0.0]);
                 canvas.leaf(placer, leaf, vertices, &mut corners);

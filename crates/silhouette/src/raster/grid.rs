@@ -49,6 +49,17 @@ impl Grid {
         self.words.resize((self.words_per_row + 1) * self.rows + fill::ROOM, 0);
     }
 
+    /// Sets the samples of `other`, of the same size.
+    pub(super) fn unite(&mut self, other: &Self) {
+        debug_assert_eq!(self.words.len(), other.words.len(), "grids of one size");
+        self.words.iter_mut().zip(&other.words).for_each(|(word, more)| *word |= more);
+    }
+
+    /// Pixels across and down, and samples down each pixel.
+    pub(super) const fn size(&self) -> (u32, u32, u32) {
+        (self.width, self.height, self.down)
+    }
+
     /// Samples of a pixel, at most 128.
     pub(crate) const fn samples(&self) -> u8 {
         (ACROSS * self.down) as u8

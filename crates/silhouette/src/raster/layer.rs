@@ -6,7 +6,7 @@
 //! addition of one bit with carry, 64 samples at a time.
 
 use super::grid::{Half, count};
-use super::{ACROSS, Detail, Rasterizer};
+use super::{ACROSS, Detail, Rasterizer, Scene};
 use crate::bitmap::Bitmap;
 use crate::view::{Camera, Frame, View};
 use glam::DVec3;
@@ -63,7 +63,7 @@ impl LayerPainter {
     pub fn new(view: &View, frame: &Frame, detail: Detail) -> Self {
         let mut rasterizer = Rasterizer::with_detail(detail);
         let down = detail.down(f32::INFINITY);
-        rasterizer.grid.reset(frame.width, frame.height, down);
+        rasterizer.sheet.grid.reset(frame.width, frame.height, down);
         Self { rasterizer, camera: Camera::new(view, frame), frame: *frame, down }
     }
 
@@ -72,9 +72,9 @@ impl LayerPainter {
         (out.across, out.rows) = self.extent(tree, parts);
         out.down = self.down;
         out.words.clear();
-        self.rasterizer.sample_onto(tree, &self.camera, self.down, parts);
+        self.rasterizer.sample_onto(&Scene::new(tree, &self.camera, self.down, parts));
         let samples = (out.rows.start * self.down) as usize..(out.rows.end * self.down) as usize;
-        self.rasterizer.grid.take(out.across.clone(), samples, &mut out.words);
+        self.rasterizer.sheet.grid.take(out.across.clone(), samples, &mut out.words);
     }
 
     /// Rewrites `picture`, which is that of `stack`, where it would be another one with `parts` of `tree` in the place
@@ -90,13 +90,13 @@ impl LayerPainter {
         for y in rows.clone() {
             for row in (y * self.down) as usize..((y + 1) * self.down) as usize {
                 stack.without(old, row, &across, &mut rest);
-                self.rasterizer.grid.set_line(row, across.start, &rest);
+                self.rasterizer.sheet.grid.set_line(row, across.start, &rest);
             }
-            self.rasterizer.grid.saturate(y, across.clone(), stack.half);
+            self.rasterizer.sheet.grid.saturate(y, across.clone(), stack.half);
         }
-        self.rasterizer.sample_onto(tree, &self.camera, self.down, parts);
+        self.rasterizer.sample_onto(&Scene::new(tree, &self.camera, self.down, parts));
         for y in rows {
-            self.rasterizer.grid.resolve_and_clear(y, across.clone(), stack.half, picture.row_mut(y));
+            self.rasterizer.sheet.grid.resolve_and_clear(y, across.clone(), stack.half, picture.row_mut(y));
         }
     }
 

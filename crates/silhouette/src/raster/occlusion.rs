@@ -2,6 +2,7 @@
 
 use super::grid::{ACROSS, Grid};
 use crate::bitmap::Bitmap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The black pixels of a picture that is being drawn, as far as they have been looked for.
 #[derive(Clone, Debug, Default)]
@@ -11,6 +12,8 @@ pub(super) struct Occlusion {
     is_known: bool,
     /// Shapes that were drawn since then.
     drawn: usize,
+    /// What other threads know of the same picture.
+    told: Option<Arc<Mutex<Bitmap>>>,
 }
 
 impl Occlusion {
@@ -34,7 +37,23 @@ impl Occlusion {
         if self.drawn * pixels_for_a_shape > grid.area() {
             grid.sweep(&mut self.black);
             (self.is_known, self.drawn) = (true, 0);
+            if let Some(told) = &self.told {
+                let mut all = told.lock().unwrap_or_else(PoisonError::into_inner);
+                all.unite(&self.black);
+                self.black.clone_from(&all);
+            }
         }
+    }
+
+    /// From now on this and all copies tell each other what they find in a picture of this size.
+    pub(super) fn share(&mut self, (width, height): (u32, u32)) {
+        let black = if self.is_known { self.black.clone() } else { Bitmap::new(width, height) };
+        self.told = Some(Arc::new(Mutex::new(black)));
+    }
+
+    /// Ends what [`Self::share`] began.
+    pub(super) fn end_sharing(&mut self) {
+        self.told = None;
     }
 
     /// Whether all pixels of a box are known to be black; never of one that is wider than 63 pixels or across an edge.

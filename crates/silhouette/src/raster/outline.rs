@@ -58,10 +58,27 @@ const ALIKE: f32 = 1e-3;
 
 /// Whether one simplified outline serves both leaves: the same shape, nearly the same size.
 pub(crate) fn look_alike(one: &Leaf, other: &Leaf) -> bool {
-    let near = |a: f32, b: f32| (a - b).abs() <= ALIKE * a.abs();
-    one.shape == other.shape
-        && near(one.along.length_squared(), other.along.length_squared())
-        && near(one.across.length_squared(), other.across.length_squared())
+    Looks::new(one).are_those(&Looks::new(other))
+}
+
+/// Shape and size of a leaf.
+pub(super) struct Looks {
+    shape: u16,
+    along: f32,
+    across: f32,
+}
+
+impl Looks {
+    pub(super) fn new(leaf: &Leaf) -> Self {
+        let Leaf { along, across, shape, .. } = leaf;
+        Self { shape: *shape, along: along.length_squared(), across: across.length_squared() }
+    }
+
+    /// Whether one simplified outline serves both.
+    pub(super) fn are_those(&self, other: &Self) -> bool {
+        let near = |a: f32, b: f32| (a - b).abs() <= ALIKE * a.abs();
+        self.shape == other.shape && near(self.along, other.along) && near(self.across, other.across)
+    }
 }
 
 /// Tolerance of outlines in pixels: over half a sample's height.

@@ -4,6 +4,7 @@
 
 mod bent;
 mod goals;
+mod helpers;
 mod misread;
 mod referee;
 mod shapes;

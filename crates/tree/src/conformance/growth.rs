@@ -1,6 +1,6 @@
 //! Promises about growing.
 
-use super::{SEED, all};
+use super::{SEED, Volunteers, all};
 use crate::grow_error::GrowError;
 use crate::growth::{Growth, Limits, Workspace};
 use crate::param::{ForeignParams, Kind, Param, ParamSpace};
@@ -41,6 +41,9 @@ pub fn the_same_seed_is_the_same_tree(family: &dyn Family) {
         assert!(tree == reused, "{name}: reused memory changes nothing");
         let parallel = species.grow_with(&Growth { parallel: true, ..Growth::seed(SEED) });
         assert!(Ok(&tree) == parallel.as_ref(), "{name}: growing in parallel changes nothing");
+        let helpers = Volunteers::new(3, 2);
+        let helped = species.grow_with(&Growth { helpers: Some(&helpers), ..Growth::seed(SEED) });
+        assert!(Ok(&tree) == helped.as_ref(), "{name}: help changes nothing");
     }
 }
 

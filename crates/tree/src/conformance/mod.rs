@@ -17,6 +17,7 @@ mod growth;
 mod hulls;
 mod individuals;
 mod numbers;
+mod volunteers;
 
 pub use files::{
     files_name_their_family, misplaced_names_are_told, models_are_told_apart_by_structure,
@@ -33,6 +34,7 @@ pub use numbers::{
     at_ends_or_between, conflicts_are_told_before_growing, declarations_are_consistent,
     inactive_numbers_change_nothing, list_within, resizing_is_similar_or_refused,
 };
+pub use volunteers::Volunteers;
 
 use crate::species::Family;
 use crate::species::{Species, SpeciesDoc, preset};

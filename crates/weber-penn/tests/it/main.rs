@@ -5,6 +5,7 @@
 mod behaviour;
 mod census;
 mod conformance;
+mod helpers;
 mod hulls;
 mod leafless;
 mod stature;
