@@ -20,6 +20,10 @@ use std::ops::RangeInclusive;
 const SEEDS: u64 = 3;
 const FIRST: u64 = 4000;
 const OWN: f64 = 2.0;
+/// By how much that tree may cost more.
+const MAX_RISE: f64 = 0.01;
+/// A tree of a lower cost is the very tree of the goal, and stays as it is: two trees of a species have about 0.2.
+const FOUND: f64 = 0.1;
 /// So many of them are looked at first: a move by which they cost this much more is not worth the others.
 const FIRST_SEEDS: u64 = 1;
 const HOPELESS: f64 = 0.005;
@@ -29,7 +33,7 @@ const NEAREST: f64 = 0.25;
 
 /// `best` with numbers where they are expected (`expected`, the least certain last) as far as its trees look as much like
 /// the goals as before, and the slots that have exactly the numbers that are expected; as it is where trees of other seeds
-/// do not grow.
+/// do not grow, and where it is the goal's own tree.
 ///
 /// # Errors
 /// Those of [`crate::fit`] on the same problem and settings, and [`FitError::Interrupted`] once asked to stop.
@@ -45,7 +49,7 @@ pub fn with_expected_numbers(
     let Some(before) = costs(&evaluator, &best.genome, 0..=SEEDS, until)? else {
         return Ok((best.clone(), Vec::new()));
     };
-    if !mean(&before).is_finite() {
+    if !mean(&before).is_finite() || before[0] < FOUND {
         return Ok((best.clone(), Vec::new()));
     }
     let mut kept = best.genome.clone();
@@ -69,6 +73,9 @@ pub fn with_expected_numbers(
             waiting.extend([(part.start..middle, 1.0), (middle..part.end, 1.0)]);
         }
     }
+    if kept == best.genome {
+        return Ok((best.clone(), Vec::new()));
+    }
     let evaluator = evaluator.with_seeds(settings.robust);
     let score = evaluator.evaluate_with_likeness(&kept);
     let there = expected.iter().filter(|(slot, value)| {
@@ -86,6 +93,9 @@ fn is_no_worse(
     until: Until<'_>,
 ) -> Result<Option<bool>, FitError> {
     let Some(mut after) = costs(evaluator, genome, 0..=FIRST_SEEDS, until)? else { return Ok(None) };
+    if after[0] > before[0] + MAX_RISE {
+        return Ok(Some(false));
+    }
     if mean(&after) > mean(&before[..after.len()]) + HOPELESS {
         return Ok(Some(false));
     }

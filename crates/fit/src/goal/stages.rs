@@ -51,13 +51,13 @@ pub(super) fn conclude(
     let left =
         TimeLeft::new(settings.deadline, settings.individual, outcome.elapsed, control.clock, evaluate)?;
     let answer = library.answer(&prepared.problem, known_species(&prepared, settings));
-    let mut as_expected = Vec::new();
-    if settings.validates && validates(&prepared.settings) {
+    let share = settings.assessment.and_then(|how| left.for_assessment(how.time));
+    let late = share.map(|share| control.clock.elapsed() + share / 2);
+    let until = Until::from(control.stop).or_late(control.clock, late);
+    let validates = settings.validates && validates(&prepared.settings);
+    if validates {
         let mut finalists = outcome.finalists.clone();
         finalists.push(best.clone());
-        let share = settings.assessment.and_then(|how| left.for_assessment(how.time));
-        let late = share.map(|share| control.clock.elapsed() + share / 2);
-        let until = Until::from(control.stop).or_late(control.clock, late);
         match best_kind(&prepared.problem, prepared.settings.objective, &finalists, until) {
             Ok(kind) => best = finalists.swap_remove(kind),
             Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
@@ -69,16 +69,20 @@ pub(super) fn conclude(
             Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
             Err(error) => return Err(error),
         }
+    }
+    let evaluator = Evaluator::new(&prepared.problem, prepared.settings.objective, Limits::DEFAULT)?;
+    prepared.problem = with_registered_frames(&prepared.problem, &evaluator, &best.genome, Closeness::Result);
+    drop(evaluator);
+    let mut as_expected = Vec::new();
+    // A frame that is a pixel off hides that a tree is the goal's own, which is to stay as it is.
+    if validates {
         let numbers = expected(&prepared, answer.as_ref());
-        match with_expected_numbers(&prepared.problem, search, &best, &numbers, until) {
+        match with_expected_numbers(&prepared.problem, &prepared.settings, &best, &numbers, until) {
             Ok((kept, slots)) => (best, as_expected) = (kept, slots),
             Err(FitError::Interrupted) => outcome.stop = StopReason::Interrupted,
             Err(error) => return Err(error),
         }
     }
-    let evaluator = Evaluator::new(&prepared.problem, prepared.settings.objective, Limits::DEFAULT)?;
-    prepared.problem = with_registered_frames(&prepared.problem, &evaluator, &best.genome, Closeness::Result);
-    drop(evaluator);
     let mut assessment = None;
     if settings.assessment.is_some() && control.stop.load(Ordering::Relaxed) {
         outcome.stop = StopReason::Interrupted;
@@ -145,7 +149,9 @@ fn known_species<'a>(prepared: &'a PreparedSearch, settings: &'a GoalSettings) -
 /// trees around the known species whose pictures look so, and else where the search started from.
 fn expected(prepared: &PreparedSearch, answer: Option<&Answer>) -> Vec<(Slot, f64)> {
     let Some(start) = prepared.settings.start.lists().first() else { return Vec::new() };
-    let answer = answer.filter(|answer| answer.familiarity >= Posterior::STRANGE);
+    // What was learnt follows from the silhouette; where a person says otherwise, it is the wrong tree's.
+    let is_corrected = prepared.problem.goals.first().is_some_and(|goal| goal.reading.is_some());
+    let answer = answer.filter(|answer| answer.familiarity >= Posterior::STRANGE && !is_corrected);
     let known = answer.map_or(&[][..], |answer| &answer.numbers);
     let mut all: Vec<(f64, Slot, f64)> = prepared
         .problem

@@ -15,7 +15,7 @@ const WORTH: f64 = 0.01;
 
 /// `costs` of the candidates, 1 minus the likeness of each one's most similar tree, with what was learnt: a candidate costs
 /// more where the goal is less probable among the pictures of trees around it than around another. The same where the
-/// goal is strange to all, or not seen from the side.
+/// goal is strange to that one, or not seen from the side.
 pub(super) fn with_densities(
     context: &GoalContext<'_>,
     predictors: Option<&Predictors>,

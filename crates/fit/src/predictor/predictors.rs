@@ -5,7 +5,7 @@ use super::examples::{Example, examples, features};
 use super::numbers::Numbers;
 use super::packed::Packed;
 use crate::error::FitError;
-use crate::posterior::{Posterior, PosteriorNumber, PosteriorSettings, Prior};
+use crate::posterior::{PosteriorNumber, PosteriorSettings, Prior};
 use crate::space::Freedom;
 use pleach_silhouette::Bitmap;
 use pleach_tree::{Fnv, Foliage, Species};
@@ -19,6 +19,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const DIRECTIONS: usize = 128;
 /// Trees of each species from which the directions are learnt.
 const FOR_DIRECTIONS: u32 = 300;
+
+/// The share of the trees around a species that are at least as strange as a picture that is taken for one of them without
+/// reserve.
+const FAMILIAR: f64 = 0.2;
 
 /// The numbers of trees from their pictures, for several species.
 ///
@@ -226,7 +230,8 @@ impl Predictors {
     /// amounts that depend on each other as if they did not, so that differences are too large. `None` for a species
     /// that is not known.
     ///
-    /// Nothing at all where the picture is strange to every species: then none of them explains it.
+    /// A picture that is strange to every species says nothing, and one that is nearly so says less: how far it is from
+    /// each of them is then a matter of what is strange in it.
     pub(crate) fn log_densities<'a>(
         &self,
         picture: &Bitmap,
@@ -237,8 +242,9 @@ impl Predictors {
         let known = species.into_iter().map(|species| self.known.get(&key(species, foliage)));
         let found: Vec<_> =
             known.map(|one| one.map(|one| (one.log_density(&at), one.familiarity(&at)))).collect();
-        let is_familiar = found.iter().flatten().any(|(_, familiarity)| *familiarity >= Posterior::STRANGE);
-        is_familiar.then(|| found.into_iter().map(|one| Some(one?.0)).collect())
+        let (_, familiarity) = found.iter().flatten().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let weight = (familiarity / FAMILIAR).min(1.0);
+        Some(found.into_iter().map(|one| Some(weight * one?.0)).collect())
     }
 
     fn known(&self, species: &Species, foliage: Foliage) -> Option<(&Numbers, Prior)> {

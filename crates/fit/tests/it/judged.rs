@@ -90,7 +90,8 @@ fn heights_are_determined_and_what_is_not_read_is_not_seen() {
 
 /// The numbers of `species` as what is expected, those of the goal's own tree as what was found.
 fn expected_of(species: &str) -> (FitProblem, FitSettings, Scored, Vec<(Slot, f64)>) {
-    let problem = goal_of("acer", 1, 64);
+    // A goal of another seed: its very tree would stay as it is.
+    let problem = goal_of("acer", 2, 64);
     let settings = FitSettings { objective: Objective::Balance, ..FitSettings::default() };
     let evaluator = Evaluator::new(&problem, Objective::Balance, FIT_LIMITS).unwrap();
     let genome = truth(&problem);
@@ -125,6 +126,19 @@ fn what_makes_no_difference_is_as_expected_and_all_else_stays() {
     let (kept, slots) = with_expected_numbers(&problem, &settings, &low, &own, (&GO).into()).unwrap();
     assert_eq!((slots, &kept.genome), (vec![slot("g_scale")], &best.genome));
     assert!(kept.score.cost < low.score.cost && kept.score.likeness.is_some());
+}
+
+#[test]
+fn the_very_tree_of_the_goal_stays_as_it_is() {
+    let problem = goal_of("acer", 1, 64);
+    let settings = FitSettings::default();
+    let evaluator = Evaluator::new(&problem, settings.objective, FIT_LIMITS).unwrap();
+    let genome = truth(&problem);
+    let best = Scored { score: evaluate(&evaluator, &genome), genome };
+    let space = problem.start.generator.space();
+    let blossoms = (space.select("blossom_scale").unwrap()[0], 0.123);
+    let (kept, slots) = with_expected_numbers(&problem, &settings, &best, &[blossoms], (&GO).into()).unwrap();
+    assert_eq!((kept, slots), (best, Vec::new()));
 }
 
 #[test]
