@@ -370,6 +370,25 @@ mod tests {
     }
 
     #[test]
+    fn a_picture_is_most_probable_among_those_of_its_species() {
+        let known = ["palm", "lombardy_poplar"].map(|name| pleach_generators::preset(name).unwrap().clone());
+        let stop = AtomicBool::new(false);
+        let bytes = Predictors::record(&known, 200, &(), &stop, |_, _| ()).unwrap();
+        let predictors = Predictors::from_bytes(&bytes).unwrap();
+        let acer = pleach_generators::preset("acer").unwrap().clone();
+        let all = [&known[0], &known[1], &acer];
+        let densities = |picture: &Bitmap| predictors.log_densities(picture, Foliage::All, all).unwrap();
+        for (own, species) in known.iter().enumerate() {
+            let found = densities(&picture(species, 3));
+            assert!(found[own] > found[1 - own] && found[2].is_none(), "{}: {found:?}", species.name);
+        }
+        // What is strange to all of them says nothing.
+        let block = Bitmap::from_fn(128, 128, |x, y| (9..119).contains(&x) && (20..126).contains(&y));
+        assert!(densities(&block).iter().flatten().all(|density| *density == 0.0));
+        assert!(predictors.log_densities(&Bitmap::new(8, 8), Foliage::All, all).is_none());
+    }
+
+    #[test]
     fn they_are_the_same_bytes_on_any_number_of_threads_and_no_others_are_read() {
         let on = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let bytes = on(1).install(|| recorded(100));
